@@ -255,3 +255,82 @@ fn an_interrupted_curve_leaves_a_finished_one() {
     assert_eq!(code(&characterise("ruby_drive", &out, &short)), 0);
     assert_eq!(listing(&out), ["curve-dark.png", "curve.csv", "curve.json", "curve.png"]);
 }
+
+/// What `check --json` warns of in an example with overrides: kinds.
+fn checked(name: &str, set: &[&str]) -> Vec<String> {
+    let mut command = stickslip();
+    command.arg("check").arg(scenario(name)).arg("--json");
+    set.iter().for_each(|pair| {
+        command.args(["--set", pair]);
+    });
+    let told: Value = serde_json::from_str(&stdout(&command.output().unwrap())).unwrap();
+    told["warnings"].as_array().unwrap().iter().map(|it| it["kind"].as_str().unwrap().to_owned()).collect()
+}
+
+fn strings(list: &Value, key: &str) -> Vec<String> {
+    list.as_array().unwrap().iter().map(|it| it[key].as_str().unwrap().to_owned()).collect()
+}
+
+/// A drive behind a driver steps from a small voltage on, which no point of the range has; a range by default ends at the window and the
+/// nominal voltage, 120 V, and of 41 points the landmarks are printed alone.
+#[test]
+fn a_range_ends_at_the_data_sheet_and_zero_steps_lie_below_it() {
+    let root = tempdir().unwrap();
+    let asked = ["--curve", "step-amplitude", "--tolerance", "1e-3"];
+    let output = characterise("driven_stage", &root.path().join("curve"), &asked);
+    assert_eq!(code(&output), 0, "{}", stderr(&output));
+    let told: Value =
+        serde_json::from_slice(&std::fs::read(root.path().join("curve/curve.json")).unwrap()).unwrap();
+    let points = told["points"].as_array().unwrap();
+    assert_eq!((points.len(), points[40]["value"].as_f64()), (41, Some(120.0)));
+    assert!(points.iter().all(|point| point["warnings"] == serde_json::json!([])));
+    let landmarks = told["landmarks"].as_array().unwrap();
+    assert_eq!((landmarks.len(), &landmarks[0]["name"]), (1, &Value::from("zero_step")));
+    let [at, below] = ["at", "below"].map(|key| landmarks[0][key].as_f64().unwrap());
+    assert!(at > 0.0 && at < below && below == points[0]["value"].as_f64().unwrap(), "{at} {below}");
+    let said = stdout(&output);
+    assert!(
+        said.contains("41 points in curve.csv, --rows prints them") && !said.contains("mean speed"),
+        "{said}"
+    );
+    // The drive steps above it and not below.
+    for (share, steps) in [(0.98, false), (1.02, true)] {
+        let set = format!("waveforms.drive.sawtooth.stroke={}", share * at);
+        run(&scenario("driven_stage"), root.path(), &[&set, "run.cycles=40", "plots=[]"]);
+        let step = summary(&root.path().join("driven_stage"))["steps"]["last_m"].as_f64().unwrap();
+        assert_eq!(step > 1e-10, steps, "{share}: {step:e}");
+    }
+}
+
+/// A curve may cross zero twice: beyond the window, or where the current no longer discharges the stack. Points carry what `check` says.
+#[test]
+fn where_steps_cease_the_window_or_the_current_is_named() {
+    let root = tempdir().unwrap();
+    let wide = r#"actuators.stack.driver.window=["0 V", "500 V"]"#;
+    for (by, range, set) in [("window", "110 V..160 V", "run.cycles=12"), ("current", "110 V..350 V", wide)] {
+        let out = root.path().join(by);
+        let asked =
+            ["--curve", "step-amplitude", "--range", range, "--points", "4", "--tolerance", "1e-2", "--rows"];
+        let output = characterise("driven_stage", &out, &[&asked[..], &["--set", set]].concat());
+        assert_eq!(code(&output), 0, "{}", stderr(&output));
+        assert!(stdout(&output).contains("mean speed"));
+        let told: Value = serde_json::from_slice(&std::fs::read(out.join("curve.json")).unwrap()).unwrap();
+        let landmarks = told["landmarks"].as_array().unwrap();
+        assert_eq!(strings(&told["landmarks"], "name"), ["zero_step", "zero_step"]);
+        assert_eq!(
+            (&landmarks[0]["beyond_by"], &landmarks[1]["beyond_by"]),
+            (&Value::Null, &Value::from(by))
+        );
+        let points = told["points"].as_array().unwrap();
+        let step = |k: usize| points[k]["step_m"].as_f64().unwrap();
+        let at = landmarks[1]["at"].as_f64().unwrap();
+        let last = (0..4).filter(|k| step(*k) > 1e-9).max().unwrap();
+        let value = |k: usize| points[k]["value"].as_f64().unwrap();
+        assert!(last < 3 && (value(last)..=value(last + 1)).contains(&at), "{by}: {at} V");
+        for point in points {
+            let own = point["set"][0].as_str().unwrap();
+            assert_eq!(strings(&point["warnings"], "kind"), checked("driven_stage", &[set, own]), "{own}");
+            assert!(strings(&point["warnings"], "message").iter().all(|message| !message.is_empty()));
+        }
+    }
+}

@@ -6,7 +6,7 @@ use crate::look::{Look, Pen, Picture};
 use crate::pictures::FigureError;
 use stickslip_plot::{MachineCourse, MachineCurve, MachineLine, machine_figure};
 use stickslip_results::provenance::{HASH, PROGRAM, SCENARIO, TITLE};
-use stickslip_results::{Job, Real, quantity};
+use stickslip_results::{Job, Real, Warning, quantity};
 use stickslip_study::curve::{Curve, Motion, Point, Sense, Traced, Way};
 
 /// Name of the picture, and of that of a curve that was interrupted, beside which a finished one stays.
@@ -128,18 +128,24 @@ fn landmarks(curve: &Curve, traced: &Traced) -> Vec<(String, f64)> {
     found.collect()
 }
 
-/// Values without a motion, by the kind of reason; of both senses by that of either.
-fn faults(ways: &[Way<'_>]) -> Vec<(&'static str, Vec<f64>)> {
-    let kinds = ways.iter().flat_map(|(_, traced)| {
-        let kind = |point: &Point| Some((point.value, point.motion.as_ref().err()?.kind()));
-        traced.points.iter().filter_map(kind)
-    });
-    lanes(kinds)
+/// Values without a motion, by the kind of reason, and those that are warned of; of both senses by that of either.
+fn faults(ways: &[Way<'_>]) -> Vec<(String, Vec<f64>)> {
+    let points = || ways.iter().flat_map(|(_, traced)| &traced.points);
+    let kind = |point: &Point| Some((point.value, point.motion.as_ref().err()?.kind().to_owned()));
+    let warned = points().map(|point| (point.value, point.warnings.as_slice()));
+    lanes(points().filter_map(kind).chain(warnings(warned)))
+}
+
+/// The kinds that points are warned of, and what each lane of a picture says of them.
+fn warnings<'a>(points: impl Iterator<Item = (f64, &'a [Warning])>) -> impl Iterator<Item = (f64, String)> {
+    points.flat_map(|(at, warnings)| {
+        warnings.iter().map(move |warning| (at, format!("warning: {}", warning.kind)))
+    })
 }
 
 /// Values by the kind of reason.
-fn lanes(reasons: impl Iterator<Item = (f64, &'static str)>) -> Vec<(&'static str, Vec<f64>)> {
-    let mut lanes: Vec<(&'static str, Vec<f64>)> = Vec::new();
+fn lanes(reasons: impl Iterator<Item = (f64, String)>) -> Vec<(String, Vec<f64>)> {
+    let mut lanes: Vec<(String, Vec<f64>)> = Vec::new();
     for (value, reason) in reasons {
         match lanes.iter_mut().find(|(known, _)| *known == reason) {
             Some((_, at)) if at.contains(&value) => {}

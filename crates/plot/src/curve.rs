@@ -21,7 +21,7 @@ pub struct MachineCurve<'a> {
     /// What the machine does, a panel each.
     pub courses: Vec<MachineCourse<'a>>,
     /// Values at which nothing is known, by the reason.
-    pub faults: Vec<(&'a str, Vec<f64>)>,
+    pub faults: Vec<(String, Vec<f64>)>,
 }
 
 /// One thing that a machine does.
@@ -72,8 +72,8 @@ pub fn machine_figure<'a>(title: &str, curve: &MachineCurve<'a>) -> Figure<'a> {
 
 /// The points without an answer, by the reason, and how many they are; none where all have one.
 fn without_answer<'a>(curve: &MachineCurve<'a>) -> Option<Panel<'a>> {
-    let lane = |(kind, (reason, at)): (usize, &(&str, Vec<f64>))| Lane {
-        label: (*reason).to_owned(),
+    let lane = |(kind, (reason, at)): (usize, &(String, Vec<f64>))| Lane {
+        label: reason.clone(),
         note: at.len().to_string(),
         marks: at.iter().map(|x| Mark { from: *x, to: *x, height: 1.0 }).collect(),
         ink: Ink::Palette(3 + kind),
@@ -159,7 +159,7 @@ mod tests {
             present: Some(0.1),
             landmarks: vec![("stall".to_owned(), 0.25)],
             courses: vec![course("step", 0.0), course("swing", 1e-9)],
-            faults: vec![("refused", vec![0.2])],
+            faults: vec![("refused".to_owned(), vec![0.2])],
         }
     }
 
@@ -200,7 +200,7 @@ mod tests {
     fn marks_lie_where_the_axis_lays_them() {
         let values = [0.1, 1.0, 10.0];
         let mut curve = MachineCurve { logarithmic: true, present: None, ..curve(&values) };
-        (curve.landmarks, curve.faults) = (Vec::new(), vec![("refused", vec![0.2, 1.0, 5.0])]);
+        (curve.landmarks, curve.faults) = (Vec::new(), vec![("refused".to_owned(), vec![0.2, 1.0, 5.0])]);
         let figure = machine_figure("", &curve);
         let crate::theme::Colour(r, g, b) = figure.theme.palette[3];
         let mark = format!("fill=\"#{r:02X}{g:02X}{b:02X}\"");

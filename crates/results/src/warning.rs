@@ -39,19 +39,21 @@ impl Warning {
         Self { help: Some(help.into()), ..self }
     }
 
+    /// All that `check` warns of.
+    pub fn of_check(job: &Job) -> Vec<Self> {
+        job.warnings().iter().map(|odd| Self::of_odd(odd)).collect()
+    }
+
+    fn of_odd(odd: &stickslip_scenario::Warning) -> Self {
+        Self { kind: odd.kind, path: Some(odd.path.clone()), message: odd.message.clone(), help: None }
+    }
+
     /// What is odd about the scenario of a job, by path: the same of a scenario and of what it is written out in full, which a
     /// resumed run reads.
     pub fn of_scenario(job: &Job) -> Vec<Self> {
         let odd = job.warnings();
         let told = odd.iter().filter(|odd| odd.kind != stickslip_scenario::Warning::WORDING);
-        let mut warnings: Vec<Self> = told
-            .map(|odd| Self {
-                kind: odd.kind,
-                path: Some(odd.path.clone()),
-                message: odd.message.clone(),
-                help: None,
-            })
-            .collect();
+        let mut warnings: Vec<Self> = told.map(|odd| Self::of_odd(odd)).collect();
         warnings.sort_by(|a, b| (&a.path, a.kind, &a.message).cmp(&(&b.path, b.kind, &b.message)));
         warnings
     }

@@ -24,7 +24,7 @@ mod waiting;
 pub use edge::Bracket;
 pub use error::CurveError;
 pub use kind::Kind;
-pub use landmark::{Landmark, Unfound};
+pub use landmark::{Beyond, Landmark, Unfound};
 pub use motion::{Course, Motion, Motionless};
 pub use peak::{Peak, Seen};
 pub use point::Point;
@@ -36,7 +36,7 @@ use crate::each::each;
 use std::convert::Infallible;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicUsize, Ordering};
-use stickslip_results::{Job, Watcher};
+use stickslip_results::{Job, Warning, Watcher};
 use stickslip_scenario::{Scenario, ScenarioError};
 
 /// How exactly the stall is known that a range ends beyond, and how far beyond.
@@ -114,7 +114,9 @@ impl Curve {
     pub fn range(&self, watcher: &dyn Watcher) -> Option<[f64; 2]> {
         let [from, most] = self.variation.range?;
         let unloaded = if self.kind.is_of_load() { Motion::of(&self.job, watcher).ok() } else { None };
-        let Some(unloaded) = unloaded else { return Some([from, most].map(|end| self.allowed(end, 1.0))) };
+        let Some(unloaded) = unloaded else {
+            return Some(self.within_data_sheets([from, most]).map(|end| self.allowed(end, 1.0)));
+        };
         let sense = unloaded.sense();
         let to = match unloaded.steps(sense) {
             true => self.stall(&unloaded, [from, most], watcher).map(|stall| BEYOND * stall.still),
@@ -160,6 +162,26 @@ impl Curve {
         if nearest == present { end } else { nearest }
     }
 
+    /// A range whose larger end is at most where a stack's command meets the window of its driver or the nominal voltage of its data
+    /// sheet; commands are straight lines over what is varied. The range itself where the smaller end lies beyond these already.
+    fn within_data_sheets(&self, range: [f64; 2]) -> [f64; 2] {
+        let is_mirrored = range[0].abs() > range[1].abs();
+        let [from, to] = if is_mirrored { [range[1], range[0]] } else { range };
+        let at = |value| self.variant(&self.overrides(value, 1.0)).ok();
+        let Some((low, high)) = at(from).zip(at(to)) else { return range };
+        let stacks = low.scenario.stacks.iter().zip(&high.scenario.stacks);
+        let shares = stacks.filter_map(|(before, after)| {
+            let ends = [(before, &low), (after, &high)].map(|(it, job)| it.commanded(&job.scenario.scene));
+            let [[least, most], [lower, higher]] = [ends[0]?, ends[1]?];
+            let [floor, ceiling] = after.allowed();
+            // How far the command may go of how far it would.
+            Some([(ceiling - most) / (higher - most), (floor - least) / (lower - least)])
+        });
+        let share = shares.flatten().filter(|share| *share > 0.0).fold(1.0, f64::min);
+        let end = if share < 1.0 { from + share * (to - from) } else { to };
+        if is_mirrored { [end, from] } else { [from, end] }
+    }
+
     /// Why there is no range by default.
     #[must_use]
     pub fn no_range(&self) -> CurveError {
@@ -177,8 +199,9 @@ impl Curve {
             let value = values[place];
             let set = self.overrides(value, direction);
             let motion = self.motion_with(&set, watcher);
+            let warnings = warnings(&self.file, &self.set, &set);
             watcher.reached((done.fetch_add(1, Ordering::Relaxed) + 1) as f64);
-            Point { value, set, motion }
+            Point { value, set, warnings, motion }
         });
         Traced { direction, is_known, points, landmarks: Vec::new() }
     }
@@ -222,6 +245,12 @@ impl Sense {
             Self::Backward => "backward",
         }
     }
+}
+
+/// What `check` warns of in a scenario file with overrides; nothing of one that is refused.
+fn warnings(file: &Path, set: &[(String, String)], varied: &[(String, String)]) -> Vec<Warning> {
+    let all: Vec<_> = set.iter().chain(varied).cloned().collect();
+    Job::prepare(file, &all, Path::new("")).map(|job| Warning::of_check(&job)).unwrap_or_default()
 }
 
 /// Name of a number with its unit, as it heads a column.

@@ -86,6 +86,9 @@ pub(crate) struct CharacteriseArguments {
     /// Print one line of JSON instead of a table; a number that is not finite is null
     #[arg(long)]
     pub(crate) json: bool,
+    /// Print the table of a curve of more than 20 points as well, not its landmarks alone
+    #[arg(long)]
+    pub(crate) rows: bool,
     /// No progress, no table; errors only
     #[arg(short, long)]
     pub(crate) quiet: bool,

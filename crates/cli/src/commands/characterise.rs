@@ -16,7 +16,7 @@ use std::path::{Path, PathBuf};
 use stickslip_figures::{FigureError, curve as picture};
 use stickslip_results::complaint::words;
 use stickslip_results::folder::{Folder, sweep};
-use stickslip_results::{Job, Real, quantity};
+use stickslip_results::{Job, Real, Warning, quantity};
 use stickslip_study::curve::{self, Curve, CurveError, Kind, Point, Range, Traced, Way};
 use thiserror::Error;
 
@@ -127,7 +127,7 @@ fn trace(arguments: &CharacteriseArguments, kind: Kind) -> Result<Verdict, Curve
     if arguments.json {
         say_json(&curve::json(&ways));
     } else if !arguments.quiet {
-        ways.iter().for_each(|(curve, traced)| tell(curve, traced));
+        ways.iter().for_each(|(curve, traced)| tell(curve, traced, shows_rows(arguments, values.len())));
         say(format_args!("\n{}: {}", out.display(), names.join(", ")));
     }
     let verdict = verdict(&ways);
@@ -241,18 +241,63 @@ fn write(
         .map_err(|source| CurveFailure::Write { path: out.to_owned(), source })
 }
 
-/// The points as a table, and what is wrong with some of them.
-fn tell(curve: &Curve, traced: &Traced) {
+/// Most points whose table is printed unasked.
+const MOST_ROWS: usize = 20;
+
+/// Whether the table of so many points is printed.
+fn shows_rows(arguments: &CharacteriseArguments, points: usize) -> bool {
+    arguments.rows || points <= MOST_ROWS
+}
+
+/// The landmarks, the points as a table where that is wanted, and what is wrong with some of them.
+fn tell(curve: &Curve, traced: &Traced, rows: bool) {
+    if let Some(sense) = curve.sense {
+        say(format_args!("{}", sense.name()));
+    }
+    if rows {
+        tell_rows(curve, traced);
+    }
+    tell_landmarks(curve, traced);
+    if !rows {
+        say(format_args!("{} points in curve.csv, --rows prints them", traced.points.len()));
+    }
+    if !traced.is_known {
+        complain(format_args!(
+            "note: which way the drive steps without load is not known; loads act against +x"
+        ));
+    }
+    complain_of_faults(curve, traced);
+    complain_of_warnings(&curve.job, traced.points.iter().map(|point| point.warnings.as_slice()));
+}
+
+/// What points are warned of, by kind, beyond what the scenario itself is.
+fn complain_of_warnings<'a>(job: &Job, points: impl Iterator<Item = &'a [Warning]>) {
+    let (own, all): (_, Vec<&[Warning]>) = (job.warnings(), points.collect());
+    let mut kinds: Vec<&str> = all.iter().flat_map(|warnings| warnings.iter().map(|it| it.kind)).collect();
+    kinds.sort_unstable();
+    kinds.dedup();
+    kinds.retain(|kind| own.iter().all(|odd| odd.kind != *kind));
+    for kind in kinds {
+        let warned = all.iter().filter(|warnings| warnings.iter().any(|it| it.kind == kind)).count();
+        complain(format_args!(
+            "warning: {kind} at {warned} of {} points; curve.json has the messages",
+            all.len()
+        ));
+    }
+}
+
+/// The points as a table.
+fn tell_rows(curve: &Curve, traced: &Traced) {
     let heads = [curve.variation.name.as_str(), "step", "\u{b1}", "swings by", "mean speed"].into_iter();
     let mut table = table::plain(heads.chain(curve.kind.is_of_load().then_some("power")).chain(["motion"]));
     for (place, point) in traced.points.iter().enumerate() {
         table.add_row(row(curve, traced, (place, point)));
     }
     table::to_the_right(&mut table, 0..=if curve.kind.is_of_load() { 5 } else { 4 });
-    if let Some(sense) = curve.sense {
-        say(format_args!("{}", sense.name()));
-    }
     say(format_args!("{table}"));
+}
+
+fn tell_landmarks(curve: &Curve, traced: &Traced) {
     for landmark in &traced.landmarks {
         match &landmark.at {
             Ok(at) => {
@@ -269,12 +314,6 @@ fn tell(curve: &Curve, traced: &Traced) {
             Err(why) => say(format_args!("{}: {why}", landmark.words())),
         }
     }
-    if !traced.is_known {
-        complain(format_args!(
-            "note: which way the drive steps without load is not known; loads act against +x"
-        ));
-    }
-    complain_of_faults(curve, traced);
 }
 
 /// That points have no motion, and why the first of them has none.

@@ -1,6 +1,6 @@
 //! The picture of holding forces.
 
-use super::{drawn, lanes};
+use super::{drawn, lanes, warnings};
 use crate::look::{Look, Picture};
 use crate::pictures::FigureError;
 use stickslip_plot::{MachineCourse, MachineCurve, MachineLine};
@@ -41,10 +41,10 @@ fn lines(points: &[Point]) -> Vec<MachineLine<'static>> {
     }
 }
 
-/// Values without a holding force, by the kind of reason; both ways may have their own.
-fn faults(points: &[Point]) -> Vec<(&'static str, Vec<f64>)> {
+/// Values without a holding force, by the kind of reason, and those that are warned of; both ways may have their own.
+fn faults(points: &[Point]) -> Vec<(String, Vec<f64>)> {
     let kinds = points.iter().flat_map(|point| {
-        point.ways.iter().filter_map(|way| Some((point.value, way.as_ref().err()?.kind())))
+        point.ways.iter().filter_map(|way| Some((point.value, way.as_ref().err()?.kind().to_owned())))
     });
-    lanes(kinds)
+    lanes(kinds.chain(warnings(points.iter().map(|point| (point.value, point.warnings.as_slice())))))
 }

@@ -76,6 +76,12 @@ pub(super) const CURVE: &[Definition] = &[
     key("points.value", "what is varied, at this point"),
     key("points.sense", SENSE),
     key("points.set", "what `--set` takes to make a scenario of this point"),
+    key(
+        "points.warnings.kind",
+        "what a warning is about, as one word; the warnings of `check` with the point's `set`",
+    ),
+    key("points.warnings.path", "key path in the scenario of what is implausible"),
+    key("points.warnings.message", "what there is to say, with its number"),
     key("points.step_m", STEP),
     key("points.step_error_m", ERROR),
     key("points.step_spread_m", SPREAD),
@@ -99,7 +105,7 @@ pub(super) const CURVE: &[Definition] = &[
     key("points.against_x.fault", UNHELD),
     key(
         "landmarks.name",
-        "`zero_step` (S₀, largest amplitude without a step), `stall` (least load against which there is none), `best_speed`, \
+        "`zero_step` (S₀, largest amplitude without a step; with `beyond_by` largest amplitude with one), `stall` (least load against which there is none), `best_speed`, \
          `best_power` or `best_step`",
     ),
     key("landmarks.sense", SENSE),
@@ -113,6 +119,12 @@ pub(super) const CURVE: &[Definition] = &[
     key(
         "landmarks.turns",
         "true of S₀ where the drive steps back at smaller amplitudes, so that its step changes its sign there",
+    ),
+    key("landmarks.below", "of S₀ where all points of the curve step: the smallest amplitude of them"),
+    key(
+        "landmarks.beyond_by",
+        "of the largest amplitude with a step: `window` where the driver's window cuts the command beyond it, `current` where a driver has a \
+         largest current, `other`",
     ),
     key("landmarks.fault", "why it is not known"),
     key("files", "names of all files that were written together"),

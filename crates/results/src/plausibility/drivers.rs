@@ -17,7 +17,8 @@ impl Implausible<'_> {
         if stepper.locates_events() {
             return;
         }
-        for piezo in self.job.scenario.stacks.iter().filter(|piezo| piezo.is_reciprocal) {
+        let scenario = &self.job.scenario;
+        for piezo in scenario.stacks.iter().filter(|piezo| piezo.is_reciprocal(&scenario.scene)) {
             let Some(spec) = &piezo.driver else { continue };
             if spec.current.is_some() && spec.resistance.is_none() {
                 let path = format!("actuators.{}.driver.reciprocal", piezo.name);

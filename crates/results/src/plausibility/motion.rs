@@ -255,7 +255,7 @@ impl Implausible<'_> {
                 matches!(piezo.ceramic.hysteresis, Some(Hysteresis::Plays(..))) && !piezo.ceramic.idle;
             let (key, what) = if spec.is_some_and(|spec| spec.current.is_some()) && accuracy < LIMITS {
                 ("driver.current", "meet this limit")
-            } else if piezo.is_cut && follows && accuracy < HARD_LIMITS {
+            } else if follows && accuracy < HARD_LIMITS && piezo.cut(&job.scenario.scene).is_some() {
                 ("driver.window", "meet an end of this window")
             } else if plays && accuracy < LIMITS {
                 ("hysteresis", "see plays of this hysteresis turn")

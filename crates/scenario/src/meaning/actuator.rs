@@ -34,10 +34,8 @@ pub struct Piezo {
     pub by_voltage: bool,
     /// What its driver can do, where it has one.
     pub driver: Option<Spec>,
-    /// Whether the window of that cuts its command.
-    pub is_cut: bool,
-    /// Whether the charge of strain acts back on that.
-    pub is_reciprocal: bool,
+    /// Voltage for which the data sheet gives its stroke, V.
+    pub nominal: Option<f64>,
     /// Smallest step of its voltage, V, where the scenario tells it.
     pub resolution: Option<f64>,
     /// Hysteresis and creep.
@@ -62,8 +60,11 @@ impl Builder<'_> {
                 command: Varying::default(),
                 by_voltage: actuator.voltage.is_some(),
                 driver: None,
-                is_cut: false,
-                is_reciprocal: false,
+                nominal: actuator
+                    .data_sheet
+                    .as_ref()
+                    .and_then(|sheet| sheet.voltage)
+                    .map(|voltage| voltage.si),
                 resolution: None,
                 ceramic: Ceramic::default(),
                 block: None,

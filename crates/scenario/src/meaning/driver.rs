@@ -58,7 +58,6 @@ impl Builder<'_> {
             if first < low - slack || first > high + slack {
                 return outside(format!("expected a start inside {window}, got {} V", range::short(first)));
             }
-            self.stacks[i].is_cut = least < low - slack || most > high + slack;
         }
         let coupling = if form.reciprocal { Some(self.coupling(&at, i)?) } else { None };
         if let (Some(coupling), Control::Charge) = (coupling, spec.control) {
@@ -71,9 +70,7 @@ impl Builder<'_> {
             Some(waveform) => driver.commanded_within(waveform.part.quickest()),
             None => driver,
         };
-        let coupling = coupling.filter(|_| spec.control == Control::Voltage);
-        self.stacks[i].is_reciprocal = coupling.is_some();
-        let driver = match coupling {
+        let driver = match coupling.filter(|_| spec.control == Control::Voltage) {
             Some(coupling) => driver.reciprocal(coupling, self.elongation(i)),
             None => driver,
         };
@@ -113,18 +110,57 @@ impl Builder<'_> {
     }
 }
 
+impl Piezo {
+    /// Whether the charge of strain acts back on its driver: that reads the elongation then.
+    pub fn is_reciprocal(&self, scene: &Scene) -> bool {
+        self.inputs(scene)
+            .is_some_and(|inputs| inputs.iter().any(|input| matches!(input, Input::Length { .. })))
+    }
+
+    /// From where to where its command goes, V, where the window of its driver cuts it.
+    pub fn cut(&self, scene: &Scene) -> Option<(f64, f64)> {
+        let spec = self.driver?;
+        let (low, high) = spec.window?;
+        // What it reads, which is the command or what compensation makes of it.
+        let &[Input::Signal(signal), ..] = self.inputs(scene)? else { return None };
+        let (least, most) = ceramic::reach(scene, signal);
+        let [least, most] = [least, most].map(|value| value / spec.gain);
+        let slack = ROUNDING * (high - low);
+        (least < low - slack || most > high + slack).then_some((least, most))
+    }
+
+    /// From where to where its command goes, V; none of one whose stroke per volt is not known.
+    pub fn commanded(&self, scene: &Scene) -> Option<[f64; 2]> {
+        let gain = self.stack.stroke_per_volt?;
+        let (least, most) = match self.command {
+            Varying::Constant(value) => (value, value),
+            Varying::Follows(signal) => ceramic::reach(scene, signal),
+        };
+        Some([least / gain, most / gain])
+    }
+
+    /// The command that driver and data sheet allow, V: within the window, and up to the nominal voltage.
+    pub fn allowed(&self) -> [f64; 2] {
+        let (low, high) = self.window();
+        let nominal = self.nominal.unwrap_or(f64::INFINITY);
+        [low.max(BEYOND.0 * nominal), high.min(nominal)]
+    }
+
+    /// The window of its driver, V.
+    fn window(&self) -> (f64, f64) {
+        self.driver.and_then(|spec| spec.window).unwrap_or((f64::NEG_INFINITY, f64::INFINITY))
+    }
+
+    /// What its driver reads.
+    fn inputs<'s>(&self, scene: &'s Scene) -> Option<&'s [Input]> {
+        let block = scene.blocks.get(self.block?)?;
+        self.driver.map(|_| block.part.0.inputs())
+    }
+}
+
 /// Says of a command that the window cuts it.
 pub(super) fn cut(piezo: &Piezo, scene: &Scene) -> Option<Fault> {
-    let (spec, block) = (piezo.driver?, scene.blocks.get(piezo.block?)?);
-    let (low, high) = spec.window?;
-    // What it reads, which is the command or what compensation makes of it.
-    let &[Input::Signal(signal), ..] = block.part.0.inputs() else { return None };
-    let (least, most) = ceramic::reach(scene, signal);
-    let [least, most] = [least, most].map(|value| value / spec.gain);
-    let slack = ROUNDING * (high - low);
-    if least >= low - slack && most <= high + slack {
-        return None;
-    }
+    let (least, most) = piezo.cut(scene)?;
     let at = At::ROOT.key("actuators").key(&piezo.name).key("driver").key("window").path();
     let [least, most] = [least, most].map(range::short);
     let message = format!("the command goes from {least} V to {most} V and is cut at the ends of the window");
@@ -132,15 +168,10 @@ pub(super) fn cut(piezo: &Piezo, scene: &Scene) -> Option<Fault> {
 }
 
 /// Says of a command that it goes beyond the voltage for which the data sheet gives the stroke, after the window.
-pub(super) fn beyond(piezo: &Piezo, form: &ActuatorForm, scene: &Scene) -> Option<Fault> {
-    let nominal = form.data_sheet.as_ref()?.voltage?.si;
-    let gain = piezo.stack.stroke_per_volt.filter(|_| piezo.by_voltage)?;
-    let (least, most) = match piezo.command {
-        Varying::Constant(value) => (value, value),
-        Varying::Follows(signal) => ceramic::reach(scene, signal),
-    };
-    let (low, high) = piezo.driver.and_then(|spec| spec.window).unwrap_or((f64::NEG_INFINITY, f64::INFINITY));
-    let [least, most] = [least, most].map(|value| (value / gain).clamp(low, high));
+pub(super) fn beyond(piezo: &Piezo, scene: &Scene) -> Option<Fault> {
+    let nominal = piezo.nominal.filter(|_| piezo.by_voltage)?;
+    let (low, high) = piezo.window();
+    let [least, most] = piezo.commanded(scene)?.map(|voltage| voltage.clamp(low, high));
     let (lowest, highest) = (BEYOND.0 * nominal, BEYOND.1 * nominal);
     let slack = ROUNDING * nominal;
     if least >= lowest - slack && most <= highest + slack {

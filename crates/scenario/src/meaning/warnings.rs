@@ -39,7 +39,7 @@ pub(crate) fn of(form: &Form, meaning: &Meaning, is_written: impl Fn(&KeyPath) -
     let cuts = meaning.stacks.iter().filter_map(|piezo| super::driver::cut(piezo, &meaning.scene));
     cuts.for_each(|fault| odd.find("window", fault));
     for (piezo, (_, actuator)) in meaning.stacks.iter().zip(form.actuators.iter()) {
-        if let Some(fault) = super::driver::beyond(piezo, actuator, &meaning.scene) {
+        if let Some(fault) = super::driver::beyond(piezo, &meaning.scene) {
             odd.find("beyond_data_sheet", fault);
         }
         if let Some(fault) = super::driver::idle_ratio(&piezo.name, actuator) {

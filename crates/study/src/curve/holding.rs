@@ -17,7 +17,7 @@ use crate::each::each;
 use held::Still;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicUsize, Ordering};
-use stickslip_results::{Job, Watcher};
+use stickslip_results::{Job, Warning, Watcher};
 use stickslip_scenario::Scenario;
 
 /// Its name as a curve.
@@ -41,6 +41,8 @@ pub struct Point {
     pub value: f64,
     /// What sets it in the scenario: pairs of key path and value, as `--set` takes them.
     pub set: Overrides,
+    /// What `check` warns of there.
+    pub warnings: Vec<Warning>,
     /// Loads along x, and against it.
     pub ways: [Result<Held, Holdless>; 2],
 }
@@ -107,7 +109,8 @@ impl Holding {
                 Err(why) => [Err(why.clone()), Err(why)],
             };
             watcher.reached((done.fetch_add(1, Ordering::Relaxed) + 1) as f64);
-            Point { value, set, ways }
+            let warnings = super::warnings(&self.file, &self.set, &set);
+            Point { value, set, warnings, ways }
         }))
     }
 

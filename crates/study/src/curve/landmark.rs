@@ -24,6 +24,33 @@ pub struct Landmark {
     pub runs: u32,
     /// Of S₀: whether the drive steps the other way at smaller amplitudes, so that its step changes its sign here.
     pub turns: bool,
+    /// Of S₀ where all points step: the smallest amplitude of them, below which it lies.
+    pub below: Option<f64>,
+    /// Of the amplitude beyond which a drive ceases to step: what cuts its stroke there.
+    pub beyond: Option<Beyond>,
+}
+
+/// What cuts the stroke beyond the largest amplitude with a step.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Beyond {
+    /// The command leaves the window of a driver.
+    Window,
+    /// A driver has a largest current, and its window is kept.
+    Current,
+    /// Neither.
+    Other,
+}
+
+impl Beyond {
+    /// As one word.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Window => "window",
+            Self::Current => "current",
+            Self::Other => "other",
+        }
+    }
 }
 
 /// Why a landmark is not found.
@@ -51,7 +78,7 @@ impl From<Motionless> for Unfound {
 
 impl Curve {
     /// Adds what is looked for on this curve, to a share of its place, on so many cores; the same for any number. Loads have a stall,
-    /// amplitudes S₀; speeds over frequencies, power against loads, and steps over anything else have a best point. The watcher is told
+    /// amplitudes S₀, and a largest one with a step where larger ones have none; speeds over frequencies, power against loads, and steps over anything else have a best point. The watcher is told
     /// how much of the way to them is behind, 0 to 1.
     ///
     /// # Errors
@@ -78,15 +105,17 @@ impl Curve {
             let landmark = match sought[place] {
                 // Of half a curve nobody knows where it is best.
                 Sought::Edge { name, .. } | Sought::Best { name, .. } if search.traced.is_cut() => {
-                    Landmark::unfound(name, Unfound::NotRun, 0)
+                    Some(Landmark::unfound(name, Unfound::NotRun, 0))
                 }
-                Sought::Edge { name, rises } => self.edge(&search, (name, rises)),
-                Sought::Best { name, yields } => self.best(&search, (name, yields)),
+                Sought::Upper { .. } if search.traced.is_cut() => None,
+                Sought::Edge { name, rises } => Some(self.edge(&search, (name, rises))),
+                Sought::Upper { name } => self.upper_edge(&search, name),
+                Sought::Best { name, yields } => Some(self.best(&search, (name, yields))),
             };
             told(1.0);
             landmark
         });
-        traced.landmarks = landmarks;
+        traced.landmarks = landmarks.into_iter().flatten().collect();
         Ok(())
     }
 
@@ -95,7 +124,7 @@ impl Curve {
         let edge = |name, rises| Sought::Edge { name, rises };
         let best = |name, yields| Sought::Best { name, yields };
         match self.kind {
-            Kind::StepAmplitude => vec![edge("zero_step", true)],
+            Kind::StepAmplitude => vec![edge("zero_step", true), Sought::Upper { name: "zero_step" }],
             Kind::SpeedFrequency => vec![best("best_speed", Yield::Speed)],
             Kind::ForceSpeed => vec![edge("stall", false), best("best_power", Yield::Power)],
             Kind::StepLoad => vec![edge("stall", false)],
@@ -112,6 +141,58 @@ impl Curve {
     /// longest.
     fn edge(&self, search: &Search<'_>, (name, rises): (&'static str, bool)) -> Landmark {
         let traced = search.traced;
+        let (sense, lengths, known) = self.lengths(traced, rises);
+        let from = known.iter().position(|(_, step)| step.is_some()).unwrap_or(0);
+        let steps: Vec<(f64, f64)> =
+            known[from..].iter().map_while(|(at, step)| step.map(|step| (*at, step))).collect();
+        let Some((smallest, _)) = steps.last().copied() else {
+            let why = if lengths.is_empty() { NO_MOTION } else { "the drive steps at none" };
+            return Landmark::unfound(name, Unfound::Outside(why), 0);
+        };
+        let traced_still = known.get(from + steps.len()).map(|(still, _)| *still);
+        // An amplitude of 0 moves nothing.
+        let Some(still) = traced_still.or(rises.then_some(0.0)) else {
+            return Landmark::unfound(name, Unfound::Outside("the drive steps at all points"), 0);
+        };
+        let below = traced_still.is_none().then_some(smallest);
+        let nearest: Vec<(f64, f64)> = steps.iter().rev().take(2).copied().collect();
+        // Of the other sign it steps the other way anyway.
+        let side = nearest.first().map_or(1.0, |(at, _)| at.signum());
+        let is_smaller = |point: &&Point| (0.0..=(side * still).max(0.0)).contains(&(side * point.value));
+        let is_back = |point: &Point| point.motion.as_ref().is_ok_and(|motion| motion.steps(-sense));
+        let turns = rises && traced.points.iter().filter(is_smaller).any(is_back);
+        let found = self.close_in(search, (name, sense), &Around { lengths, nearest, still });
+        Landmark { turns, below, ..found }
+    }
+
+    /// Where a drive ceases to step as its amplitude grows; none where the largest has a step, or none has.
+    fn upper_edge(&self, search: &Search<'_>, name: &'static str) -> Option<Landmark> {
+        let (sense, lengths, known) = self.lengths(search.traced, true);
+        let first = known.iter().position(|(_, step)| step.is_some()).filter(|first| *first > 0)?;
+        let (still, _) = *known.get(first - 1)?;
+        let steps = known[first..].iter().map_while(|(at, step)| step.map(|step| (*at, step)));
+        let nearest: Vec<(f64, f64)> = steps.take(2).collect();
+        let beyond = Some(self.beyond(still, search.traced.direction));
+        let found = self.close_in(search, (name, sense), &Around { lengths, nearest, still });
+        Some(Landmark { beyond, ..found })
+    }
+
+    /// What cuts the stroke at an amplitude.
+    fn beyond(&self, at: f64, direction: f64) -> Beyond {
+        let Ok(job) = self.variant(&self.overrides(at, direction)) else { return Beyond::Other };
+        let stacks = &job.scenario.stacks;
+        match () {
+            () if stacks.iter().any(|stack| stack.cut(&job.scenario.scene).is_some()) => Beyond::Window,
+            () if stacks.iter().any(|stack| stack.driver.is_some_and(|spec| spec.current.is_some())) => {
+                Beyond::Current
+            }
+            () => Beyond::Other,
+        }
+    }
+
+    /// The sense of the steps, the lengths of all points that have one, and the steps from the side on which there are some: from the
+    /// largest amplitude, or the least load.
+    fn lengths(&self, traced: &Traced, rises: bool) -> (f64, Vec<(f64, Length)>, Vec<(f64, Option<f64>)>) {
         let sense = if self.kind.is_of_load() { traced.direction } else { sense(traced) };
         let points = traced.points.iter();
         let traced_so =
@@ -119,30 +200,11 @@ impl Curve {
         let lengths: Vec<(f64, Length)> = traced_so.collect();
         let mut known: Vec<(f64, Option<f64>)> =
             lengths.iter().map(|(at, length)| (*at, length.step)).collect();
-        // From the side with steps the first place without is the edge's, whichever way it lies.
         let size = |place: Option<&(f64, Option<f64>)>| place.map_or(0.0, |(at, _)| at.abs());
         if rises && size(known.last()) >= size(known.first()) {
             known.reverse();
         }
-        let from = if rises { 0 } else { known.iter().position(|(_, step)| step.is_some()).unwrap_or(0) };
-        let steps: Vec<(f64, f64)> =
-            known[from..].iter().map_while(|(at, step)| step.map(|step| (*at, step))).collect();
-        let Some(&(still, _)) = known.get(from + steps.len()).filter(|_| !steps.is_empty()) else {
-            let why = match (steps.is_empty(), rises) {
-                _ if lengths.is_empty() => NO_MOTION,
-                (false, _) => "the drive steps at all points",
-                (true, true) => "no step at the end of the range",
-                (true, false) => "the drive steps at none",
-            };
-            return Landmark::unfound(name, Unfound::Outside(why), 0);
-        };
-        let nearest: Vec<(f64, f64)> = steps.iter().rev().take(2).copied().collect();
-        // Of the other sign it steps the other way anyway.
-        let side = nearest.first().map_or(1.0, |(at, _)| at.signum());
-        let is_smaller = |point: &&Point| (0.0..=(side * still).max(0.0)).contains(&(side * point.value));
-        let is_back = |point: &Point| point.motion.as_ref().is_ok_and(|motion| motion.steps(-sense));
-        let turns = rises && traced.points.iter().filter(is_smaller).any(is_back);
-        Landmark { turns, ..self.close_in(search, (name, sense), &Around { lengths, nearest, still }) }
+        (sense, lengths, known)
     }
 
     /// An edge among what is known around it.
@@ -172,7 +234,11 @@ impl Curve {
                 let doubt = ends.map(|(_, length)| length.error.unwrap_or(0.0).max(length.rest));
                 let doubt = doubt.fold(0.0, f64::max);
                 let half_width = bracket.half_width() + doubt / slope(nearest, *still);
-                Landmark { name, at: Ok(bracket.middle()), half_width, value: None, runs, turns: false }
+                Landmark {
+                    at: Ok(bracket.middle()),
+                    half_width,
+                    ..Landmark::unfound(name, Unfound::NotRun, runs)
+                }
             }
             Ok(None) => Landmark::unfound(name, Unfound::Outside("the drive steps at none"), runs),
             Err(fault) => Landmark::unfound(name, fault.into(), runs),
@@ -223,19 +289,10 @@ impl Curve {
         match outcome {
             Ok(peak) => {
                 let half_width = 0.5 * (peak.within[1] - peak.within[0]);
-                Landmark {
-                    name,
-                    at: Ok(peak.best.at),
-                    half_width,
-                    // Of drives that go back it is below 0; power is what goes into a load whichever way.
-                    value: Some(if yields == Yield::Power {
-                        peak.best.value
-                    } else {
-                        sense * peak.best.value
-                    }),
-                    runs,
-                    turns: false,
-                }
+                // Of drives that go back it is below 0; power is what goes into a load whichever way.
+                let value = if yields == Yield::Power { peak.best.value } else { sense * peak.best.value };
+                let blank = Landmark::unfound(name, Unfound::NotRun, runs);
+                Landmark { at: Ok(peak.best.at), half_width, value: Some(value), ..blank }
             }
             Err(fault) => Landmark::unfound(name, fault.into(), runs),
         }
@@ -258,6 +315,8 @@ fn at_an_end(traced: &Traced, known: &[Seen], place: usize) -> Option<&'static s
 enum Sought {
     /// Where steps begin for the last time (`rises`), or end for the first.
     Edge { name: &'static str, rises: bool },
+    /// Where a drive that stepped ceases to as its amplitude grows.
+    Upper { name: &'static str },
     /// Where something is largest.
     Best { name: &'static str, yields: Yield },
 }
@@ -320,6 +379,13 @@ impl Landmark {
     #[must_use]
     pub fn words(&self) -> &'static str {
         match self.name {
+            "zero_step" if self.beyond == Some(Beyond::Window) => {
+                "largest amplitude with a step, by the driver's window"
+            }
+            "zero_step" if self.beyond == Some(Beyond::Current) => {
+                "largest amplitude with a step, by the driver's current"
+            }
+            "zero_step" if self.beyond.is_some() => "largest amplitude with a step",
             "zero_step" if self.turns => "S\u{2080}, amplitude beyond which it steps forth, and below back",
             "zero_step" => "S\u{2080}, largest amplitude without a step",
             "stall" => "stall",
@@ -340,7 +406,16 @@ impl Landmark {
     }
 
     fn unfound(name: &'static str, why: Unfound, runs: u32) -> Self {
-        Self { name, at: Err(why), half_width: 0.0, value: None, runs, turns: false }
+        Self {
+            name,
+            at: Err(why),
+            half_width: 0.0,
+            value: None,
+            runs,
+            turns: false,
+            below: None,
+            beyond: None,
+        }
     }
 }
 

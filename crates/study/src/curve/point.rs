@@ -1,6 +1,7 @@
 //! The points of a curve, each the steady motion of a scene of its own.
 
 use super::{Curve, Landmark, Motion, Motionless, Traced, Unfound};
+use stickslip_results::Warning;
 
 /// A point of a curve.
 #[derive(Debug, Clone, PartialEq)]
@@ -9,6 +10,8 @@ pub struct Point {
     pub value: f64,
     /// What sets it in the scenario: pairs of key path and value, as `--set` takes them.
     pub set: Vec<(String, String)>,
+    /// What `check` warns of there.
+    pub warnings: Vec<Warning>,
     /// What the drive does there, or why that is not known.
     pub motion: Result<Motion, Motionless>,
 }

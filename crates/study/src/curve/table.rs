@@ -1,13 +1,13 @@
 //! What is told of a curve: a table, and all of it in JSON.
 
-use super::{Curve, Landmark, Motion, Sense, Traced, Variation};
+use super::{Beyond, Curve, Landmark, Motion, Sense, Traced, Variation};
 use crate::published::{self, Names};
 use serde::Serialize;
 use std::fmt::Write;
 use std::io;
 use stickslip_results::files::{CURVE, PARTIAL_CURVE};
 use stickslip_results::folder::Folder;
-use stickslip_results::{Job, Real};
+use stickslip_results::{Job, Real, Warning};
 
 /// Names of the table and of what is told of all: of a curve, and of one that was interrupted, beside which a finished one stays.
 const NAMES: Names = [["curve.csv", CURVE], ["curve-partial.csv", PARTIAL_CURVE]];
@@ -73,11 +73,12 @@ impl<'a, P: Serialize> Report<'a, P> {
 }
 
 #[derive(Debug, Serialize)]
-struct PointReport {
+struct PointReport<'a> {
     value: Real,
     #[serde(skip_serializing_if = "Option::is_none")]
     sense: Option<&'static str>,
     set: Vec<String>,
+    warnings: &'a [Warning],
     #[serde(flatten)]
     figures: Option<Figures>,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -92,6 +93,10 @@ struct LandmarkReport {
     sense: Option<&'static str>,
     at: Option<Real>,
     half_width: Option<Real>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    below: Option<Real>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    beyond_by: Option<&'static str>,
     #[serde(skip_serializing_if = "Option::is_none")]
     value: Option<Real>,
     runs: u32,
@@ -109,6 +114,8 @@ impl LandmarkReport {
             sense: sense.map(Sense::name),
             at: at.map(Real),
             half_width: at.map(|_| Real(landmark.half_width)),
+            below: landmark.below.map(Real),
+            beyond_by: landmark.beyond.map(Beyond::name),
             value: landmark.value.map(Real),
             runs: landmark.runs,
             turns: landmark.turns,
@@ -248,7 +255,7 @@ pub(super) fn publish<P: Serialize>(
     published::publish(folder, (&NAMES, is_cut), (table, all), (pictures, stale))
 }
 
-fn report<'a>(ways: &[Way<'a>]) -> Option<Report<'a, PointReport>> {
+fn report<'a>(ways: &[Way<'a>]) -> Option<Report<'a, PointReport<'a>>> {
     let (first, _) = ways.first()?;
     let points = ways.iter().flat_map(|(curve, traced)| {
         traced.points.iter().map(|point| {
@@ -257,6 +264,7 @@ fn report<'a>(ways: &[Way<'a>]) -> Option<Report<'a, PointReport>> {
                 value: Real(point.value),
                 sense: curve.sense.map(Sense::name),
                 set: point.set.iter().map(|(path, value)| format!("{path}={value}")).collect(),
+                warnings: &point.warnings,
                 figures: point.motion.as_ref().ok().map(|motion| Figures::of(motion, load)),
                 fault: point.motion.as_ref().err().map(ToString::to_string),
             }

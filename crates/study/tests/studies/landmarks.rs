@@ -140,12 +140,18 @@ fn any_number_of_cores_finds_the_same_places() -> Checked {
 #[test]
 fn what_is_not_within_the_range_is_said() -> Checked {
     let (curve, natural) = ideal(Kind::StepAmplitude, 40e-9)?;
-    for (shares, words) in [([0.9, 1.1], "at all points"), ([0.3, 0.5], "no step at the end of the range")] {
-        let mut traced = curve.trace(&shares.map(|share| share * natural), 1, &());
-        curve.mark(&mut traced, 1e-4, 2, &())?;
-        let why = traced.landmarks[0].at.clone().err().map(|why| why.to_string()).unwrap_or_default();
-        assert!(why.contains(words), "{why}");
-    }
+    let mut traced = curve.trace(&[0.3, 0.5].map(|share| share * natural), 1, &());
+    curve.mark(&mut traced, 1e-4, 2, &())?;
+    let why = traced.landmarks[0].at.clone().err().map(|why| why.to_string()).unwrap_or_default();
+    assert!(why.contains("the drive steps at none"), "{why}");
+    // Where all points step it lies below them, and is found there.
+    let mut traced = curve.trace(&[0.9, 1.1].map(|share| share * natural), 1, &());
+    curve.mark(&mut traced, 1e-4, 2, &())?;
+    let found = only(&traced.landmarks, "zero_step")?;
+    let wanted = (0..8).fold(0.74, |share, _| zero_step(pull(share * natural)));
+    let at = found.at.clone()? / natural;
+    assert!((at / wanted - 1.0).abs() < 1e-4, "{at} {wanted}");
+    assert_eq!(found.below, Some(0.9 * natural));
     let mut traced = curve.trace(&[0.9 * natural], 1, &());
     assert_eq!(curve.mark(&mut traced, 0.5, 1, &()), Err(CurveError::Tolerance(0.5)));
     Ok(())

@@ -1,6 +1,6 @@
 //! `stickslip characterise --curve holding-force`: what the drive holds at rest.
 
-use super::{CurveFailure, cores, ends, of, place, said, shown};
+use super::{CurveFailure, complain_of_warnings, cores, ends, of, place, said, shown, shows_rows};
 use crate::arguments::CharacteriseArguments;
 use crate::console::answer::{complain, say, say_json, warn};
 use crate::console::interrupt::Interrupt;
@@ -45,7 +45,7 @@ pub(super) fn trace(arguments: &CharacteriseArguments) -> Result<Verdict, CurveF
     if arguments.json {
         say_json(&holding::json(&holding, &points));
     } else if !arguments.quiet {
-        tell(&holding, &points);
+        tell(&holding, &points, shows_rows(arguments, points.len()));
         say(format_args!("\n{}: {}", out.display(), names.join(", ")));
     }
     let stopped = points.iter().all(|point| point.ways.iter().all(Result::is_err));
@@ -60,8 +60,34 @@ pub(super) fn trace(arguments: &CharacteriseArguments) -> Result<Verdict, CurveF
     })
 }
 
-/// The points as a table, and what is wrong with some of them.
-fn tell(holding: &Holding, points: &[Point]) {
+/// The points as a table where that is wanted, else the range of what is held, and what is wrong with some of them.
+fn tell(holding: &Holding, points: &[Point], rows: bool) {
+    say(format_args!("load on {} that is held at rest", holding.on()));
+    if rows {
+        tell_rows(holding, points);
+    } else {
+        tell_extremes(points);
+        say(format_args!("{} points in curve.csv, --rows prints them", points.len()));
+    }
+    complain_of_faults(holding, points);
+    complain_of_warnings(&holding.job, points.iter().map(|point| point.warnings.as_slice()));
+}
+
+/// Least and largest load that is held, each way.
+fn tell_extremes(points: &[Point]) {
+    for (way, sense) in ["+x", "\u{2212}x"].into_iter().enumerate() {
+        let forces = points.iter().filter_map(|point| Some(point.ways[way].as_ref().ok()?.force));
+        let [least, most] = forces.fold([f64::INFINITY, f64::NEG_INFINITY], |[least, most], force| {
+            [least.min(force), most.max(force)]
+        });
+        if least <= most {
+            say(format_args!("along {sense}: {} to {}", shown(least, "N"), shown(most, "N")));
+        }
+    }
+}
+
+/// The points as a table.
+fn tell_rows(holding: &Holding, points: &[Point]) {
     let heads = ["load along +x", "\u{b1}", "beyond", "load along \u{2212}x", "\u{b1}", "beyond"];
     let mut table = table::plain([holding.variation.name.as_str()].into_iter().chain(heads));
     for point in points {
@@ -74,8 +100,7 @@ fn tell(holding: &Holding, points: &[Point]) {
         table.add_row([shown(point.value, holding.variation.unit)].into_iter().chain(ways));
     }
     [0..=2, 4..=5].into_iter().for_each(|columns| table::to_the_right(&mut table, columns));
-    say(format_args!("load on {} that is held at rest\n{table}", holding.on()));
-    complain_of_faults(holding, points);
+    say(format_args!("{table}"));
 }
 
 /// That loads are not found, and why the first of them is not.

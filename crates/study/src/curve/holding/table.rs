@@ -5,13 +5,14 @@ use crate::curve::table::{Report, one_line, publish};
 use serde::Serialize;
 use std::fmt::Write;
 use std::io;
-use stickslip_results::Real;
 use stickslip_results::folder::Folder;
+use stickslip_results::{Real, Warning};
 
 #[derive(Debug, Serialize)]
-struct PointReport {
+struct PointReport<'a> {
     value: Real,
     set: Vec<String>,
+    warnings: &'a [Warning],
     along_x: WayReport,
     against_x: WayReport,
 }
@@ -94,10 +95,11 @@ pub fn write(
     publish(folder, (&csv(holding, points), report(holding, points)), pictures, stale)
 }
 
-fn report<'a>(holding: &'a Holding, points: &[Point]) -> Report<'a, PointReport> {
+fn report<'a>(holding: &'a Holding, points: &'a [Point]) -> Report<'a, PointReport<'a>> {
     let told = points.iter().map(|point| PointReport {
         value: Real(point.value),
         set: point.set.iter().map(|(path, value)| format!("{path}={value}")).collect(),
+        warnings: &point.warnings,
         along_x: WayReport::of(&point.ways[0]),
         against_x: WayReport::of(&point.ways[1]),
     });
