@@ -244,3 +244,48 @@ fn events_of_rows_are_counted_as_written() {
     let output = stickslip().arg("compare").args([&folder, &folder]).output().unwrap();
     assert_eq!(code(&output), 0, "{}", stderr(&output));
 }
+
+/// A file without `output`, `plots` and `figures` is shown all the same: rows, pictures, and what it would take to report steps.
+#[test]
+fn a_file_that_asks_for_nothing_shows_something() {
+    let root = tempdir().unwrap();
+    let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../tests/cases/two_sliders.json");
+    let output = run(&file, root.path(), &[]);
+    assert_eq!(code(&output), 0, "{}", stderr(&output));
+    let note = "no step reported: name a body in figures, one of \"light\", \"heavy\"";
+    assert!(stdout(&output).contains(note), "{}", stdout(&output));
+    let folder = root.path().join("two_sliders");
+    let rows = Table::read(&folder.join("trace.csv")).column("time_s").len();
+    assert!((100..=20_001).contains(&rows), "{rows}");
+    for picture in ["loop.png", "trajectory.png"] {
+        assert!(folder.join(picture).is_file(), "{picture}");
+    }
+    // What is written out in full runs to the same bits.
+    let again = run(&folder.join("scenario.json"), &root.path().join("again"), &[]);
+    assert_eq!(code(&again), 0, "{}", stderr(&again));
+    let traces = [folder.join("trace.csv"), root.path().join("again/scenario/trace.csv")];
+    let [first, second] = traces.map(|path| std::fs::read(path).unwrap());
+    assert!(first == second);
+    // Nothing is what was asked for where the keys say so.
+    let output = run(&file, &root.path().join("bare"), &["output={}", "plots=[]", "figures.body=light"]);
+    assert!(!stdout(&output).contains("no step reported"), "{}", stdout(&output));
+    let bare = root.path().join("bare/two_sliders");
+    assert_eq!(Table::read(&bare.join("trace.csv")).column("time_s").len(), 2);
+    assert!(!bare.join("loop.png").exists());
+    let again = run(&bare.join("scenario.json"), &root.path().join("barer"), &[]);
+    assert_eq!(code(&again), 0, "{}", stderr(&again));
+    assert_eq!(Table::read(&root.path().join("barer/scenario/trace.csv")).column("time_s").len(), 2);
+}
+
+/// From a third of a period to 400 the default rows are between a hundred and twenty thousand.
+#[test]
+fn default_rows_are_neither_few_nor_too_many() {
+    let root = tempdir().unwrap();
+    let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../tests/cases/two_sliders.json");
+    for cycles in ["0.3", "1", "7", "60", "400"] {
+        let output = run(&file, root.path(), &[&format!("run.cycles={cycles}"), "plots=[]"]);
+        assert_eq!(code(&output), 0, "{}", stderr(&output));
+        let rows = Table::read(&root.path().join("two_sliders/trace.csv")).column("time_s").len();
+        assert!((100..=20_001).contains(&rows), "{cycles}: {rows}");
+    }
+}

@@ -239,7 +239,10 @@ pub(crate) fn formed(document: &Document) -> Result<Form, Fault> {
 /// What values are to each other, or the first that does not fit.
 pub(crate) fn meant(document: &mut Document, mut form: Form) -> Result<Interpreted, Fault> {
     let inlined = tables::inline(&mut form, document)?;
-    let meaning = meaning::of(&form)?;
+    let mut meaning = meaning::of(&form)?;
+    if meaning::shown::fill(&mut form, &meaning, |key| document.value.get(key).is_some()) {
+        meaning = meaning::of(&form)?;
+    }
     Ok(Interpreted { form, inlined, meaning })
 }
 

@@ -4,9 +4,9 @@ mod rule;
 
 pub(crate) use rule::{
     above_zero, at_least_zero, cycles_or_dwell, duration_or_cycles, flyback_or_resonance, gaps_or_file,
-    heights_or_file, inertia_where_free, law_or_file, names, no_ground, no_trace_column, period_or_dwell,
-    period_or_frequency, points_or_file, radius_or_diameter, something_on_it, something_to_do,
-    stroke_or_voltage,
+    heights_or_file, inertia_where_free, law_or_file, names, no_default, no_ground, no_trace_column,
+    period_or_dwell, period_or_frequency, points_or_file, radius_or_diameter, something_on_it,
+    something_to_do, stroke_or_voltage,
 };
 
 use crate::form::Form;

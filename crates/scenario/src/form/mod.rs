@@ -53,7 +53,7 @@ pub(crate) use value::{Moving, Parts, WaveformRef};
 pub(crate) use waveform::WaveformForm;
 pub(crate) use written::{EventsOutputForm, KindForm, StatesForm, WindowForm};
 
-use crate::schema::{no_ground, no_trace_column};
+use crate::schema::{no_default, no_ground, no_trace_column};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use serde_json::json;
@@ -122,12 +122,13 @@ pub(crate) struct Form {
     #[serde(default, skip_serializing_if = "FiguresForm::is_empty")]
     #[schemars(example = json!({ "waveform": "drive", "body": "slider" }))]
     pub(crate) figures: FiguresForm,
-    /// What is written down; by default all channels, but only the first and the last row.
-    #[serde(default, skip_serializing_if = "OutputForm::is_empty")]
-    #[schemars(example = json!({ "every": "10 us" }))]
+    /// What is written down; by default all channels, in 400 to 20 000 rows, 80 to 200 in the shortest period of a waveform.
+    #[serde(default)]
+    #[schemars(example = json!({ "every": "10 us" }), transform = no_default)]
     pub(crate) output: OutputForm,
-    /// Pictures to draw, by name or as channels over a channel; none by default.
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    #[schemars(example = json!(["loop", "trajectory"]), example = json!([{ "x": "ball.u_m", "y": "ball.fx_N", "from": "90 ms" }]))]
+    /// Pictures to draw, by name or as channels over a channel; by default `loop` where there are contacts and `trajectory` where a body is
+    /// free along x.
+    #[serde(default)]
+    #[schemars(example = json!(["loop", "trajectory"]), example = json!([{ "x": "ball.u_m", "y": "ball.fx_N", "from": "90 ms" }]), transform = no_default)]
     pub(crate) plots: Vec<PlotForm>,
 }

@@ -11,8 +11,8 @@ use serde_json::json;
 #[derive(Debug, Clone, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct OutputForm {
-    /// Interval of the rows of the trace, s, above 0; by default only the first and the last row; typical a thousandth
-    /// of the period.
+    /// Interval of the rows of the trace, s, above 0; by default only the first and the last row, in a scenario without `output` an
+    /// interval that shows the motion; typical a thousandth of the period.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(example = &"10 us", transform = above_zero)]
     pub(crate) every: Option<Time>,
@@ -60,15 +60,6 @@ pub(crate) struct OutputForm {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(example = json!({ "at": ["91 ms", "95 ms", "100 ms"], "radii": 200 }))]
     pub(crate) fields: Option<FieldsOutputForm>,
-}
-
-impl OutputForm {
-    pub(crate) fn is_empty(&self) -> bool {
-        let Self { every, channels, events, window, last, float, states, springs, memory, fields } = self;
-        let rows = every.is_none() && channels.is_none() && events.is_none() && window.is_none();
-        let form = last.is_none() && float.is_none() && states.is_words();
-        rows && form && springs.is_none() && memory.is_none() && fields.is_none()
-    }
 }
 
 /// What every spring of every contact does over time.

@@ -22,6 +22,7 @@ mod range;
 pub(crate) mod refused;
 mod run;
 mod shapes;
+pub(crate) mod shown;
 mod table;
 pub(crate) mod warnings;
 mod waveform;

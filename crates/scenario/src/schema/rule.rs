@@ -44,6 +44,11 @@ pub(crate) fn names() -> Value {
     json!({ "pattern": format!("^{end}({inner}*{end})?$"), "maxLength": 64 })
 }
 
+/// Left out it is not empty: what it is then depends on the rest.
+pub(crate) fn no_default(schema: &mut Schema) {
+    schema.remove("default");
+}
+
 /// The ground is always there.
 pub(crate) fn no_ground(schema: &mut Schema) {
     not_named(schema, &["ground"]);
