@@ -264,11 +264,12 @@ fn checked(name: &str, set: &[&str]) -> Vec<String> {
         command.args(["--set", pair]);
     });
     let told: Value = serde_json::from_str(&stdout(&command.output().unwrap())).unwrap();
-    told["warnings"].as_array().unwrap().iter().map(|it| it["kind"].as_str().unwrap().to_owned()).collect()
+    strings(&told["warnings"], "kind")
 }
 
+/// A key of all entries of a list, which is left out where it is empty.
 fn strings(list: &Value, key: &str) -> Vec<String> {
-    list.as_array().unwrap().iter().map(|it| it[key].as_str().unwrap().to_owned()).collect()
+    list.as_array().into_iter().flatten().map(|it| it[key].as_str().unwrap().to_owned()).collect()
 }
 
 /// A drive behind a driver steps from a small voltage on, which no point of the range has; a range by default ends at the window and the

@@ -42,7 +42,7 @@ const ODD: &str = r#"{ "stickslip": 1,
   },
   "springs": { "idle spring": { "between": ["frame", "ground"], "stiffness": 1, "damping": 1 } },
   "gravity": { "acceleration": 9.81 }, "loads": [{ "on": "foot", "x": 1 }],
-  "run": { "duration": "10 ms" }, "output": { "channels": ["row.u_m"] } }"#;
+  "run": { "duration": "10 ms" }, "output": { "channels": ["row.u_m"] }, "plots": [] }"#;
 
 #[test]
 fn what_is_skipped_is_told_with_its_reason() {

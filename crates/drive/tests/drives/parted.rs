@@ -8,8 +8,8 @@ use std::ops::Range;
 use stickslip_contact::{Memory, Profile, Segment};
 use stickslip_drive::scene::{Body, Coordinate, Freedom, Gravity, Named, Normal, Scene, Side, Varying};
 use stickslip_drive::{
-    Event, EventKind, Limits, Model, Moments, Plan, Record, Run, RunError, Shape, Source, State, Stepper,
-    UntilSteady, run,
+    Event, EventKind, Extent, Limits, Model, Moments, Plan, Record, Run, RunError, Shape, Source, State,
+    Stepper, UntilSteady, run,
 };
 
 const PERIOD: f64 = 1e-3;
@@ -93,7 +93,7 @@ struct Diary {
     events: Vec<(Event, Vec<f64>)>,
     seen: Vec<(f64, Vec<Memory>)>,
     read: Vec<Vec<f64>>,
-    ranges: Vec<[f64; 2]>,
+    extents: Vec<Extent>,
     paths: Vec<(usize, Segment)>,
     /// Time of what was told last, s, and whether rows or events ever went back.
     last: f64,
@@ -131,11 +131,12 @@ impl Record for Diary {
     fn mark(&mut self, values: &[f64]) {
         self.read.push(values.to_vec());
     }
-    fn watched(&self) -> Option<usize> {
-        self.watched
+    fn watched(&self) -> [Option<usize>; 2] {
+        [self.watched, None]
     }
-    fn range(&mut self, range: [f64; 2]) {
-        self.ranges.push(range);
+    fn extents(&mut self, [body, none]: [Extent; 2]) {
+        assert!(none.is_none());
+        self.extents.push(body);
     }
     fn goes_on(&mut self, _: f64) -> bool {
         self.interrupts.as_mut().is_none_or(|asked| {
@@ -581,10 +582,11 @@ fn agree(model: &Model, whole: &Diary, (own, alone): (&Model, &Diary), share: f6
     let (x, place) = (channel(own, "slider.x_m"), channel(model, "slider 1.x_m"));
     assert_eq!(whole.read.len(), 40);
     assert!(whole.read.iter().zip(&alone.read).all(|(w, o)| same(o, w, &[(x, place)])));
-    assert_eq!(whole.ranges.len(), alone.ranges.len());
-    for (told, own) in whole.ranges.iter().zip(&alone.ranges) {
-        let off = |(a, b): (&f64, &f64)| (a - b).abs() <= share * (own[1] - own[0]);
-        assert!(told.iter().zip(own).all(off), "{told:?} {own:?}");
+    assert_eq!(whole.extents.len(), alone.extents.len());
+    for (told, own) in whole.extents.iter().zip(&alone.extents) {
+        let numbers = |extent: &Extent| [extent.least[0], extent.most[0], extent.fall, extent.rise];
+        let off = |(a, b): (&f64, &f64)| (a - b).abs() <= share * own.width();
+        assert!(numbers(told).iter().zip(&numbers(own)).all(off), "{told:?} {own:?}");
     }
 }
 
