@@ -36,7 +36,12 @@ fn check(output: &Output, words: &[&str]) {
 fn numbers_out_of_range_are_refused() {
     refused("\"10 g\"", "\"-10 g\"", "\"-10 g\"", "bodies.slider.mass: expected");
     refused("\"0.5 mm\"", "\"-0.5 mm\"", "\"-0.5 mm\"", "contacts.ball.profile.paraboloid.radius: expected");
-    refused("\"210 GPa\"", "\"-210 GPa\"", "\"-210 GPa\"", "materials.steel.youngs_modulus: expected");
+    refused(
+        "\"210 GPa\"",
+        "\"-210 GPa\"",
+        "\"-210 GPa\"",
+        "materials.hardened steel.youngs_modulus: expected",
+    );
     refused("0.27", "0.51", "0.51", "materials.ruby.poisson_ratio: expected");
     refused(
         "0.2,",
@@ -58,7 +63,12 @@ fn what_is_no_number_is_refused() {
 
 #[test]
 fn names_that_nothing_has_are_refused() {
-    refused("\"ruby\", \"steel\"", "\"ruby\", \"stel\"", "\"stel\"", "did you mean \"steel\"?");
+    refused(
+        "\"ruby\", \"hardened steel\"",
+        "\"ruby\", \"hardend steel\"",
+        "\"hardend steel\"",
+        "did you mean \"hardened steel\"?",
+    );
     refused("[\"foot\", \"slider\"]", "[\"foot\", \"slyder\"]", "\"slyder\"", "did you mean \"slider\"?");
     refused(
         "{ \"follows\": \"drive\" }",

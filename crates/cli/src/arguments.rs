@@ -127,7 +127,7 @@ pub(crate) enum Command {
     },
     /// List the materials that contacts may name without describing them: elastic constants, each with its source
     #[command(
-        after_long_help = "Example:\n  stickslip materials\n\n  \"materials\": [\"ruby\", \"steel\"] of a contact then needs no section \"materials\"."
+        after_long_help = "Example:\n  stickslip materials\n\n  \"materials\": [\"ruby\", \"hardened steel\"] of a contact then needs no section \"materials\"."
     )]
     Materials,
     /// Print what a shell needs to complete commands, options and files

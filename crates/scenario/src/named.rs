@@ -30,6 +30,12 @@ pub const MATERIALS: &[NamedMaterial] = &[
     of("aluminium", 69.0, 0.33, "6061-T6: 10.0 Msi and 0.33, appendix of Multimedia Engineering Mechanics"),
     of("brass", 97.0, 0.31, "free-cutting brass C36000: data sheet (97 GPa, 0.31)"),
     of("glass", 70.0, 0.20, "soda-lime float glass: EN 572-1 (70 GPa, 0.2)"),
+    of(
+        "hardened steel",
+        210.0,
+        0.30,
+        "bearing steel 100Cr6 (ISO 683-17), 58 to 65 HRC: data sheets (210 GPa, 0.3)",
+    ),
     of("PTFE", 0.5, 0.46, "unfilled; data sheets range from 0.3 to 0.8 GPa, it creeps (0.46)"),
     of("ruby", 400.0, 0.23, SAPPHIRE),
     of("sapphire", 400.0, 0.23, SAPPHIRE),
@@ -39,7 +45,7 @@ pub const MATERIALS: &[NamedMaterial] = &[
         0.22,
         "polycrystal: 158(8) GPa, Sharpe et al. 2000; 0.22(1), Sharpe et al. 1997; crystals 130 to 188 GPa",
     ),
-    of("steel", 210.0, 0.30, "EN 1993-1-1, 3.2.6 (210 GPa, 0.3)"),
+    of("steel", 210.0, 0.30, "structural, S235 to S355: EN 1993-1-1, 3.2.6 (210 GPa, 0.3)"),
     of("titanium", 114.0, 0.33, "Ti-6Al-4V: 16.5 Msi and 0.33, appendix of Multimedia Engineering Mechanics"),
     of(
         "zirconia",

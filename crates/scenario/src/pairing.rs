@@ -1,4 +1,4 @@
-//! What contacts are made of, in the file's own words: a scene has moduli and a profile, but no names of them.
+//! What contacts are made of and where numbers stand, in the file's own words: a scene has moduli and a profile, but no names of them.
 
 use crate::Scenario;
 use crate::form::ProfileForm;
@@ -31,6 +31,24 @@ impl Scenario {
         self.form.materials.iter().map(|(name, material)| (name, material.youngs_modulus.si))
     }
 
+    /// Young's modulus, Pa, and Poisson's ratio of a material.
+    pub fn elasticity(&self, material: &str) -> Option<(f64, f64)> {
+        let (_, material) = self.form.materials.0.get(self.form.materials.find(material)?)?;
+        Some((material.youngs_modulus.si, material.poisson_ratio))
+    }
+
+    /// The key path of the stiffness or the capacitance of an actuator: its own, or else that of its data sheet.
+    pub fn stack_path(&self, actuator: &str, key: &str) -> String {
+        let actuators = &self.form.actuators;
+        let form = actuators.find(actuator).and_then(|place| actuators.0.get(place)).map(|(_, form)| form);
+        let is_own = form.is_some_and(|form| match key {
+            "stiffness" => form.stiffness.is_some(),
+            _ => form.capacitance.is_some(),
+        });
+        let sheet = if is_own { "" } else { ".data_sheet" };
+        format!("actuators.{actuator}{sheet}.{key}")
+    }
+
     /// The key path of waveform `index`: it has a name, or stands where it is used and is named by its path.
     pub fn waveform_path(&self, index: usize) -> Option<String> {
         let name = &self.scene.waveforms.get(index)?.name;
@@ -56,10 +74,13 @@ mod tests {
     #[test]
     fn contacts_know_their_materials_and_profiles() {
         let text = include_str!("../../../scenarios/quickstart.json");
-        let scenario =
-            Scenario::from_str(&text.replace("[\"ruby\", \"steel\"]", "[\"steel\", \"steel\"]"), "a", "");
+        let scenario = Scenario::from_str(
+            &text.replace("[\"ruby\", \"hardened steel\"]", "[\"hardened steel\", \"hardened steel\"]"),
+            "a",
+            "",
+        );
         let scenario = scenario.unwrap();
-        assert_eq!(scenario.materials_of(0), Some(["steel", "steel"]));
+        assert_eq!(scenario.materials_of(0), Some(["hardened steel", "hardened steel"]));
         assert_eq!(scenario.profile_of(0), Some("paraboloid"));
         assert_eq!(scenario.unused_materials().collect::<Vec<_>>(), ["ruby"]);
         assert_eq!((scenario.materials_of(1), scenario.profile_of(1)), (None, None));

@@ -37,7 +37,7 @@ fn snippet() -> Value {
     json!({
         "stickslip": 1,
         "title": "A ball between a foot and a slider",
-        "materials": { "steel": { "youngs_modulus": "210 GPa", "poisson_ratio": 0.3 } },
+        "materials": { "hardened steel": { "youngs_modulus": "210 GPa", "poisson_ratio": 0.3 } },
         "waveforms": {
             "drive": { "sawtooth": { "stroke": "200 nm", "period": "10 ms", "flyback": "10 us" } }
         },
@@ -48,7 +48,7 @@ fn snippet() -> Value {
         "contacts": {
             "ball": {
                 "between": ["foot", "slider"],
-                "materials": ["steel", "steel"],
+                "materials": ["hardened steel", "hardened steel"],
                 "profile": { "paraboloid": { "radius": "0.5 mm" } },
                 "friction": 0.2,
                 "normal": { "force": "0.3 N" }

@@ -6,10 +6,10 @@ use stickslip_scenario::MATERIALS;
 
 /// Prints the table, a line each.
 pub(crate) fn list() -> Verdict {
-    say(format_args!("{:<10} {:>7}  {:>5}  source", "name", "E, GPa", "nu"));
+    say(format_args!("{:<14} {:>7}  {:>5}  source", "name", "E, GPa", "nu"));
     for material in MATERIALS {
         let (modulus, ratio) = (material.youngs_modulus / 1e9, material.poisson_ratio);
-        say(format_args!("{:<10} {modulus:>7}  {ratio:>5.2}  {}", material.name, material.source));
+        say(format_args!("{:<14} {modulus:>7}  {ratio:>5.2}  {}", material.name, material.source));
     }
     Verdict::Done
 }

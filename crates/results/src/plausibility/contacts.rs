@@ -71,10 +71,16 @@ impl Implausible<'_> {
         let path = format!("contacts.{name}.normal");
         let help = "press it less, or with a larger radius: the theory is elastic";
         if let Some(kind) = weaker.filter(|kind| mean > ONSET * kind.strength) {
-            let [mean, onset] = [mean, ONSET * kind.strength].map(|p| told(p, "Pa"));
-            let message =
-                format!("a mean pressure of {mean}, and {} begins to yield at about {onset}", kind.name);
-            self.find("pressure", &path, message, help);
+            let [mean, onset, strength] = [mean, ONSET * kind.strength, kind.strength].map(|p| told(p, "Pa"));
+            let message = format!(
+                "a mean pressure of {mean}, and {}, of a yield stress up to {strength}, begins to yield at about {onset}",
+                kind.name
+            );
+            let stronger = kind.strongest().map_or_else(String::new, |other| {
+                let onset = told(ONSET * other.strength, "Pa");
+                format!("; if it is {}, name it so: that begins at {onset}", other.name)
+            });
+            self.find("pressure", &path, message, &format!("{help}{stronger}"));
         } else if peak.is_finite() && peak > PRESSURE {
             let message = format!("a largest pressure of {}, more than hard ceramics bear", told(peak, "Pa"));
             self.find("pressure", &path, message, help);

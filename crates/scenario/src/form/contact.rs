@@ -16,8 +16,8 @@ pub(crate) struct ContactForm {
     #[schemars(extend("uniqueItems" = true), example = json!(["foot", "slider"]))]
     pub(crate) between: Two,
     /// Names of the two materials; their order does not matter. Those of `materials`, or alumina, aluminium, brass, glass,
-    /// PTFE, ruby, sapphire, silicon, steel, titanium, zirconia.
-    #[schemars(example = json!(["ruby", "steel"]))]
+    /// hardened steel, PTFE, ruby, sapphire, silicon, steel, titanium, zirconia.
+    #[schemars(example = json!(["ruby", "hardened steel"]))]
     pub(crate) materials: Two,
     /// Profile of the gap.
     #[schemars(example = json!({ "paraboloid": { "radius": "0.5 mm" } }))]

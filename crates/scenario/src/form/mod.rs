@@ -93,7 +93,7 @@ pub(crate) struct Form {
     #[serde(default, skip_serializing_if = "Parts::is_empty")]
     #[schemars(
         example = json!({ "ball": {
-            "between": ["foot", "slider"], "materials": ["ruby", "steel"],
+            "between": ["foot", "slider"], "materials": ["ruby", "hardened steel"],
             "profile": { "paraboloid": { "radius": "0.5 mm" } }, "friction": 0.2, "normal": { "force": "0.3 N" }
         } }),
         transform = no_trace_column

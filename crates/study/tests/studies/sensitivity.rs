@@ -275,8 +275,9 @@ fn where_the_sides_differ_both_are_told() -> Checked {
         "{by_below:e} {by_above:e} {wanted:e}"
     );
     // Nothing is less compressible than this.
-    let asked = of(&["steps.last_m"], &["materials.steel.poisson_ratio"]);
-    let (_, found) = taken(&example("quickstart.json"), &[("materials.steel.poisson_ratio", "0.5")], &asked)?;
+    let asked = of(&["steps.last_m"], &["materials.hardened steel.poisson_ratio"]);
+    let (_, found) =
+        taken(&example("quickstart.json"), &[("materials.hardened steel.poisson_ratio", "0.5")], &asked)?;
     let Derivative::Split { below: Ok(_), above: Err(Missing::Refused(why)), why: Split::OneSided } =
         &found.derivatives[0][0]
     else {
@@ -370,8 +371,8 @@ fn quantities_and_figures_by_default_are_what_there_is() -> Checked {
     let asked = ask(&example("p1.json"), &[], &Asked::default())?;
     let paths: Vec<&str> = asked.quantities.iter().map(|quantity| quantity.path.as_str()).collect();
     let wanted = [
-        "materials.steel.youngs_modulus",
-        "materials.steel.poisson_ratio",
+        "materials.hardened steel.youngs_modulus",
+        "materials.hardened steel.poisson_ratio",
         "waveforms.drive.sawtooth.stroke",
         "waveforms.drive.sawtooth.flyback",
         "waveforms.drive.sawtooth.period",
@@ -424,7 +425,8 @@ fn materials_that_nothing_names_are_no_quantities_by_themselves() -> Checked {
     let asked = ask(&example("ruby_drive.json"), &set, &of(&["steps.last_m"], &[]))?;
     let paths: Vec<&str> = asked.quantities.iter().map(|quantity| quantity.path.as_str()).collect();
     assert!(
-        paths.contains(&"materials.ruby.youngs_modulus") && paths.contains(&"materials.steel.poisson_ratio")
+        paths.contains(&"materials.ruby.youngs_modulus")
+            && paths.contains(&"materials.hardened steel.poisson_ratio")
     );
     assert!(!paths.iter().any(|path| path.starts_with("materials.glass")), "{paths:?}");
     // Named, they are taken.

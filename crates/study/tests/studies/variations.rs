@@ -50,7 +50,10 @@ const STEADILY: [(&str, &[&str]); 5] = [
             "contacts.ball.normal.force",
         ],
     ),
-    ("ruby_drive", &["contacts.ball.friction", "materials.steel.youngs_modulus", "bodies.slider.mass"]),
+    (
+        "ruby_drive",
+        &["contacts.ball.friction", "materials.hardened steel.youngs_modulus", "bodies.slider.mass"],
+    ),
     (
         "sine_drive",
         &[
