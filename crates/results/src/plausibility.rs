@@ -28,8 +28,11 @@ pub(crate) fn of(job: &Job) -> Vec<Warning> {
     odd.contacts();
     odd.loads();
     odd.actuators();
+    odd.stacks();
     odd.masses();
     odd.strokes();
+    odd.damping_times();
+    odd.flanks();
     odd.resonances();
     odd.tolerance();
     odd.steps();

@@ -1,11 +1,16 @@
-//! Loads that nothing holds, stacks that ring, masses out of all proportion.
+//! Loads that nothing holds, stacks that ring, masses and stacks out of all proportion.
 
 use super::{Implausible, told};
 use std::f64::consts::TAU;
 use stickslip_drive::scene::{Freedom, Side, Varying};
 
-/// Masses of bodies that drives of this kind move, kg: from a grain of dust to what takes a crane.
-const MASSES: (f64, f64) = (1e-9, 100.0);
+/// Masses of bodies that drives of this kind move, kg: from a grain of dust to what one person may lift by hand (ISO 11228-1).
+const MASSES: (f64, f64) = (1e-9, 25.0);
+/// Stiffnesses of piezo actuators, N/m: those with a lever of flexures begin at some 0.2 N/µm, stacks at 1 N/µm, and the thickest rings
+/// end below 10 kN/µm.
+const STIFFNESSES: (f64, f64) = (2e5, 1e10);
+/// Capacitances of piezo actuators, F: a chip has some 10 nF, the largest stacks of low voltage some 100 µF.
+const CAPACITANCES: (f64, f64) = (1e-11, 1e-3);
 /// Quality factor of a piezo stack in its mount, which sets the damping that is proposed.
 const QUALITY: f64 = 30.0;
 
@@ -141,6 +146,24 @@ impl Implausible<'_> {
         }
     }
 
+    /// Stiffnesses and capacitances of stacks that suggest another prefix.
+    pub(super) fn stacks(&mut self) {
+        let job = self.job;
+        for piezo in &job.scenario.stacks {
+            let numbers = [
+                ("stiffness", Some(piezo.stack.stiffness), STIFFNESSES, "N/m", "\"100 N/um\""),
+                ("capacitance", piezo.stack.capacitance, CAPACITANCES, "F", "\"7.2 uF\""),
+            ];
+            for (key, value, (low, high), unit, typical) in numbers {
+                let Some(value) = value.filter(|value| !(low..=high).contains(value)) else { continue };
+                let [said, low, high] = [value, low, high].map(|number| told(number, unit));
+                let message = format!("a {key} of {said}: piezo actuators have {low} to {high}");
+                let help = format!("a stack has about {typical}; a bare number is in {unit}");
+                self.find(key, &job.scenario.stack_path(&piezo.name, key), message, &help);
+            }
+        }
+    }
+
     /// Masses that suggest a forgotten unit.
     pub(super) fn masses(&mut self) {
         let job = self.job;
@@ -149,7 +172,8 @@ impl Implausible<'_> {
             let path = format!("bodies.{}.mass", body.name);
             let said = told(1e3 * mass, "g");
             if mass > MASSES.1 {
-                let message = format!("{said} are more than a stick-slip drive moves");
+                let most = told(1e3 * MASSES.1, "g");
+                let message = format!("{said} are more than a stick-slip drive moves, {most} at most");
                 self.find("mass", &path, message, "a bare number is in kg; ten grams are \"10 g\"");
             } else if mass < MASSES.0 {
                 let message = format!("{said} are less than a grain of dust has");

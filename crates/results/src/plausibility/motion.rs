@@ -1,14 +1,22 @@
-//! Strokes out of all proportion, resonances that a drive meets, tolerances that hide a step.
+//! Strokes out of all proportion, times that are too short or too long for a contact, resonances that a drive meets, tolerances that
+//! hide a step.
 
 use super::{ASKED, Implausible, told};
 use std::f64::consts::TAU;
 use stickslip_drive::facts::{ExpectedEvents, fixed_steps, zero_step_stroke};
 use stickslip_drive::scene::{Freedom, Normal, Side, Varying};
 use stickslip_drive::{Accuracy, Shape, Stepper, Waveform};
-use stickslip_scenario::Hysteresis;
+use stickslip_scenario::{Hysteresis, substance};
 
 /// Strokes of piezo drives, m: below the first the noise of any amplifier is larger, and above the second there is no flexure.
 const STROKES: (f64, f64) = (1e-12, 1e-3);
+/// Time constant of a contact's damping, in periods of the drive, beyond which its springs yield to dampers all along and not only while
+/// they ring.
+const DAMPED: f64 = 0.1;
+/// Passages of a shear wave across a contact that a flank has to last: the contact is taken as a spring without inertia, which a
+/// half-space under a round load is for ωa/c ≪ 1 (Johnson, *Contact Mechanics*, section 11.2, after Miller and Pursey); at ten passages of
+/// the diameter 2a, T = 20 a/c, ωa/c is 0.3.
+const PASSAGES: f64 = 10.0;
 /// Harmonics of a drive that are looked at: higher ones lie so close that a resonance is always near one.
 const HARMONICS: u32 = 5;
 /// Share of the resonance within which a harmonic meets it.
@@ -89,6 +97,72 @@ impl Implausible<'_> {
                 );
             }
         }
+    }
+
+    /// Contacts whose damping takes longer than it may in a period of whatever moves or presses anything.
+    pub(super) fn damping_times(&mut self) {
+        let job = self.job;
+        let scene = &job.scenario.scene;
+        let periods = scene.waveforms.iter().filter_map(|waveform| waveform.part.period());
+        let period = periods.fold(f64::INFINITY, f64::min);
+        for contact in &scene.contacts {
+            let time = contact.part.interface.damping();
+            if time <= DAMPED * period {
+                continue;
+            }
+            let [said, most, period] = [time, DAMPED * period, period].map(|time| told(time, "s"));
+            let message = format!(
+                "a damping time of {said}, more than {most}, a tenth of the period of {period}: dampers carry the contact, not its springs"
+            );
+            let path = format!("contacts.{}.damping", contact.name);
+            self.find("damping_time", &path, message, "typical are 0.1 us to 10 us: is its unit right?");
+        }
+    }
+
+    /// Flanks that are over before waves have crossed the contacts that they reach.
+    pub(super) fn flanks(&mut self) {
+        let job = self.job;
+        for (w, sides) in self.lengths() {
+            let Some(waveform) = job.scenario.scene.waveforms.get(w) else { continue };
+            let flank = shortest_flank(&waveform.part);
+            let crossed = (0..job.scenario.scene.contacts.len().min(ASKED)).filter_map(|c| {
+                let between = job.scenario.scene.contacts[c].part.between;
+                between
+                    .iter()
+                    .any(|side| sides.contains(side))
+                    .then(|| self.passage(c))
+                    .flatten()
+                    .map(|time| (c, time))
+            });
+            let slowest = crossed.max_by(|a, b| a.1.total_cmp(&b.1));
+            let Some((c, passage)) = slowest.filter(|(_, passage)| flank < PASSAGES * passage) else {
+                continue;
+            };
+            let name = &job.scenario.scene.contacts[c].name;
+            let [said, least, passage] = [flank, PASSAGES * passage, passage].map(|time| told(time, "s"));
+            let message = format!(
+                "a flank of {said}, shorter than {least}, in which a shear wave crosses the contact {name} {PASSAGES} times \
+                 ({passage} each): the contact is taken as a spring without inertia"
+            );
+            let path = job.scenario.waveform_path(w).unwrap_or_default();
+            self.find("flank", &path, message, "is the time in the unit that was meant?");
+        }
+    }
+
+    /// Time in which a shear wave crosses contact `c`, s: its diameter over √(G/ρ) of the slower body; none where no name says what
+    /// it is made of, or nothing presses it.
+    fn passage(&self, c: usize) -> Option<f64> {
+        let scenario = &self.job.scenario;
+        let (_, law) = self.job.model.contacts().nth(c)?;
+        let radius = law.profile().radius(self.depth(c));
+        // Where a modulus is not that of its name, what is wrong is said already.
+        let known = scenario.materials_of(c)?.into_iter().filter(|name| !self.misnamed.contains(name));
+        let speed = |name: &str| {
+            let (modulus, ratio) = scenario.elasticity(name)?;
+            Some((modulus / (2.0 * (1.0 + ratio)) / substance(name)?.density).sqrt())
+        };
+        let slowest = known.filter_map(speed).reduce(f64::min)?;
+        Some(2.0 * radius / slowest).filter(|time| *time > 0.0)
     }
 
     /// Low harmonics of a drive that meet a resonance of contacts whose load is constant.
@@ -337,6 +411,19 @@ fn flank(waveform: &Waveform) -> f64 {
         last = piece;
     }
     most
+}
+
+/// Shortest time in which a waveform would go over its whole range as fast as it does on one of its pieces, s: the flyback of a sawtooth,
+/// half a period of a sine; infinite where it never moves.
+fn shortest_flank(waveform: &Waveform) -> f64 {
+    let (low, high) = waveform.range();
+    let until = waveform.timing().delay + waveform.period().map_or(f64::INFINITY, |period| 1.5 * period);
+    let pieces = waveform.pieces_from(0.0).take(PIECES).take_while(|piece| piece.start <= until);
+    let flanks = pieces.filter(|piece| piece.end.is_finite()).map(|piece| {
+        let [before, after] = [piece.start, piece.end].map(|t| waveform.sample(&piece, t).value);
+        (high - low) * (piece.end - piece.start) / (after - before).abs()
+    });
+    flanks.filter(|flank| *flank > 0.0).fold(2.0 * waveform.resolution(), f64::min)
 }
 
 /// Shortest time between two turns of a waveform within a run of so long, s: its shortest piece there, or half of its shortest wave.

@@ -7,6 +7,14 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use stickslip_results::{Job, Warning};
 
+const STIFFNESS: &str = "actuators.stack.data_sheet.stiffness";
+const CAPACITANCE: &str = "actuators.stack.data_sheet.capacitance";
+const PRESS: &str = "contacts.ball.normal.force";
+
+fn example(name: &str) -> PathBuf {
+    Path::new("../../scenarios").join(name).with_extension("json")
+}
+
 fn files(folder: &str) -> Vec<PathBuf> {
     let mut files: Vec<_> = fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path()).collect();
     files.retain(|path| path.extension().is_some_and(|extension| extension == "json"));
@@ -60,10 +68,85 @@ fn odd_scenes_are_warned_of_word_for_word() {
     assert_eq!(kinds, all);
 }
 
+/// What a slip of a prefix makes of an example is told with its number and its bound; what lies just inside the bound is not.
+#[test]
+fn slips_of_a_prefix_are_warned_of_and_what_lies_inside_the_bounds_is_not() {
+    let steel = ("contacts.ball.materials", r#"["ruby", "steel"]"#);
+    let none = ("run.duration", "20 ms");
+    let flyback = "waveforms.drive.sawtooth.flyback";
+    for (name, path, [outside, inside], beside, [kind, words]) in [
+        ("driven_stage", "bodies.stage.mass", ["100 kg", "25 kg"], none, ["mass", "100.0 kg are more than"]),
+        (
+            "driven_stage",
+            STIFFNESS,
+            ["0.1 N/m", "0.2 N/um"],
+            none,
+            ["stiffness", "a stiffness of 100.0 mN/m: "],
+        ),
+        (
+            "driven_stage",
+            STIFFNESS,
+            ["100 N/mm", "1 N/um"],
+            none,
+            ["stiffness", "a stiffness of 100.0 kN/m: "],
+        ),
+        (
+            "driven_stage",
+            STIFFNESS,
+            ["11000 N/um", "10000 N/um"],
+            none,
+            ["stiffness", "200.0 kN/m to 10.00 GN/m"],
+        ),
+        (
+            "driven_stage",
+            CAPACITANCE,
+            ["7.2 mF", "1 mF"],
+            none,
+            ["capacitance", "a capacitance of 7.200 mF: "],
+        ),
+        (
+            "quickstart",
+            "contacts.ball.damping",
+            ["1.1 ms", "1 ms"],
+            none,
+            ["damping_time", "1.100 ms, more than 1.000 ms"],
+        ),
+        // 2a = 18.16 µm of √(G/ρ) = 3.208 km/s in steel: 5.661 ns each.
+        (
+            "quickstart",
+            flyback,
+            ["56 ns", "57 ns"],
+            none,
+            ["flank", "a flank of 56.00 ns, shorter than 56.61 ns"],
+        ),
+        // The voltage of a stack: 2a = 58.4 µm, 91 ns a passage ten times.
+        ("driven_stage", flyback, ["10 ns", "1 us"], none, ["flank", "a flank of 10.00 ns, shorter than"]),
+        // 1.07 of 355 MPa: 1.159 GPa under 300 mN, and pressures go with the third root of the force.
+        (
+            "quickstart",
+            PRESS,
+            ["10.6 mN", "10.5 mN"],
+            steel,
+            ["pressure", "structural steel, of a yield stress up to 355.0 MPa"],
+        ),
+    ] {
+        let kinds = |value: &str| {
+            let set = [beside, (path, value)].map(|(path, value)| (path.to_owned(), value.to_owned()));
+            let job =
+                Job::prepare(&example(name), &set, Path::new("")).unwrap_or_else(|error| panic!("{error}"));
+            job.warnings().into_iter().filter(|warning| warning.kind == kind).collect::<Vec<_>>()
+        };
+        let (odd, plausible) = (kinds(outside), kinds(inside));
+        assert!(odd.len() == 1 && odd[0].message.contains(words), "{path} {outside}: {odd:?}");
+        assert_eq!(plausible, [], "{path} {inside}");
+    }
+}
+
 /// The example from which they are made, and all others, are as they are meant to be.
 #[test]
 fn the_examples_are_plausible() {
-    for path in files("../../scenarios") {
+    let folders = ["../../scenarios", "../../templates", "../../docs/piezo", "../../docs/realtime"];
+    for path in folders.into_iter().flat_map(files) {
         let job = job(&path);
         assert_eq!(job.warnings(), [], "{}", path.display());
         assert_eq!(Warning::of_scenario(&job), []);
