@@ -195,6 +195,23 @@ fn what_is_implausible_is_said_by_every_command_and_refused_by_none() {
     assert_eq!(info["warnings"], summary(&folder)["warnings"]);
 }
 
+/// What a run's motion says is in its list, is not let pass by strictness, and is explained by its kind.
+#[test]
+fn motions_beyond_the_model_are_said_of_the_run_and_explained() {
+    let out = tempdir().unwrap();
+    let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("../results/tests/data/spins_30_rad.json");
+    let mut command = stickslip();
+    command.args(["run", "--strict"]).arg(&file).arg("--out").arg(out.path());
+    let output = command.output().unwrap();
+    let said = stderr(&output);
+    assert!(code(&output) == 3 && said.starts_with("warning: spins_30_rad: b turns by 30.00 rad"), "{said}");
+    assert_eq!(kinds(&out.path().join("spins_30_rad")), ["angle", "through_ground"]);
+    for kind in ["angle", "rolling", "through_ground", "flank", "damping_time"] {
+        let explained = stickslip().args(["explain", kind]).output().unwrap();
+        assert!(code(&explained) == 0 && stdout(&explained).contains("warnings.kind"), "{kind}");
+    }
+}
+
 #[test]
 fn no_template_is_warned_of() {
     let folder = tempdir().unwrap();

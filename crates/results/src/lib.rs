@@ -37,6 +37,7 @@ pub mod definitions;
 mod digest;
 mod disk;
 mod excess;
+mod excursions;
 pub mod files;
 pub mod fingerprint;
 pub mod folder;

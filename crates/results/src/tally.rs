@@ -2,6 +2,7 @@
 
 use crate::account::Accounts;
 use crate::cycles::{CycleFigures, Loops};
+use crate::excursions::Excursions;
 use crate::foot::Foot;
 use crate::job::Job;
 use crate::periods::{Periods, Tracker};
@@ -22,6 +23,7 @@ pub(crate) struct Tally {
     part_of: Vec<usize>,
     walker: Option<Walker>,
     accounts: Option<Accounts>,
+    excursions: Excursions,
     /// How far the body of the figures and its foot went in the period under way, and the foot in the last whole one.
     extents: [Extent; 2],
     foot: Option<Extent>,
@@ -76,12 +78,14 @@ impl Tally {
             .and_then(|foot| foot.voltage(job))
             .and_then(|name| places.get(name.as_str()).copied());
         let (walker, accounts) = (Walker::of(job, &places), Accounts::of(job, &places));
+        let excursions = Excursions::new(job, &places);
         Self {
             contacts,
             parts,
             part_of,
             walker,
             accounts,
+            excursions,
             extents: [Extent::NONE; 2],
             foot: None,
             voltages: [Extent::NONE; 2],
@@ -99,6 +103,7 @@ impl Tally {
     /// Takes a row, or the row of an event.
     pub(crate) fn row(&mut self, values: &[f64]) {
         self.contacts.iter_mut().for_each(|contact| contact.row(values));
+        self.excursions.row(values);
         if let Some(walker) = &mut self.walker
             && let Some(x) = values.get(walker.place)
         {
@@ -145,6 +150,11 @@ impl Tally {
         if let (Some(voltage), Some(t)) = (voltage, values.first()) {
             self.voltages[0] = self.voltages[0].join(Extent::at(*voltage, *t));
         }
+    }
+
+    /// How far bodies have turned, rolled and fallen.
+    pub(crate) fn excursions(&self) -> &Excursions {
+        &self.excursions
     }
 
     /// What happened in the last whole period, where that is told.

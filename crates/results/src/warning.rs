@@ -80,7 +80,7 @@ fn finest(job: &Job) -> f64 {
     f64::EPSILON * places.fold(0.0, f64::max) / least
 }
 
-/// What came out in the run itself: energy books that do not close, steps whose error is not known.
+/// What came out in the run itself: energy books that do not close, steps whose error is not known, motions beyond the model's kinematics.
 pub(crate) fn of_run(job: &Job, outcome: &Outcome) -> Vec<Warning> {
     let asked = job.scenario.plan.stepper;
     let stepper = job.model.effective(asked);
@@ -109,6 +109,7 @@ pub(crate) fn of_run(job: &Job, outcome: &Outcome) -> Vec<Warning> {
             "press it on: by its weight, by a spring or a load along z; did it start too high, or too deep?";
         warnings.push(Warning::new("flight", message).help(help));
     }
+    warnings.extend(outcome.tally.excursions().warnings(job));
     warnings
 }
 

@@ -239,7 +239,10 @@ pub(super) const KEYS: &[Definition] = &[
     of("energy.throughput_J", "energy that went through the books: what the error is held against"),
     of("energy.largest_error_J", "most that the books miss at any row or event"),
     of("energy.largest_error_relative", "its share of the throughput"),
-    of("warnings.kind", "what a warning is about, one word for machines"),
+    of(
+        "warnings.kind",
+        "what a warning is about, one word for machines. Of the scenario, among others: `mass`, `stiffness`, `capacitance`, `stroke`, `modulus` out of proportion; `pressure` beyond yield; `damping_time` beyond a tenth of the period; `flank` below ten passages of a shear wave; `load` beyond friction. Of the run: `energy_books`, `error_estimate`, `flight`, `angle` beyond 0.1 rad, `rolling` beyond the contact radius, `through_ground` for a fall below all contacts",
+    ),
     of("warnings.path", "the place in the scenario that it is about"),
     of("warnings.message", "what is odd, or what the results are not worth"),
     of("warnings.help", "what to try"),

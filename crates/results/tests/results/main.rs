@@ -19,6 +19,7 @@ mod between_rows;
 mod ceramic;
 mod damaged;
 mod definitions;
+mod excursions;
 mod fed;
 mod fields;
 mod frames;
