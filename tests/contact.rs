@@ -249,6 +249,22 @@ fn a_history_of_forces_reaches_them_and_comes_from_a_table_as_well() {
     assert!(names.contains(&"loop.svg".to_owned()) && !names.contains(&"loop.png".to_owned()), "{names:?}");
 }
 
+/// Twenty micrometres without their unit are 20 m; a is 9.079 µm.
+#[test]
+fn a_history_beyond_a_hundred_contact_radii_is_warned_of() {
+    let out = tempdir().unwrap();
+    let said = |history: &str| {
+        let mut command = stickslip();
+        command.arg("contact").arg(scenario("quickstart")).args(["--quiet", "--history", history]);
+        let output = command.arg("--out").arg(out.path()).output().unwrap();
+        assert_eq!(code(&output), 0, "{}", stderr(&output));
+        stderr(&output)
+    };
+    let words = "warning: corner 1 of the history is at a displacement of 20.00 m, 2203003 contact radii of 9.079 µm, beyond 100: ";
+    assert!(said("20, -2").starts_with(words) && said("0, -909 um").starts_with("warning: corner 2 of the history"));
+    assert_eq!([said("907 um, -907 um"), said("20 um, -20 um")], ["", ""]);
+}
+
 #[test]
 fn an_animation_has_a_frame_for_every_step_of_its_legs() {
     let folder = tempdir().unwrap();

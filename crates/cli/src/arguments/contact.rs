@@ -23,7 +23,7 @@ With --history or --out, files are written: history.csv (forces and energies on 
 stress, displacement, slip over r at each corner), line.csv (line loads, limits and stretches of the row of springs), \
 friction.csv (friction work by place), normal.csv, universal.csv, contact.json and pictures. A history is led in straight \
 lines of d and u from corner to corner. Where the first of several corners gives a load, it begins there, unstretched; else \
-at u = 0 under the load asked for.
+at u = 0 under the load asked for. Beyond 100 contact radii it is warned of.
 
 The law is the profile's own on the exact curve, whatever engine the scenario names. All of one contact, also where it has a \
 count. Exit codes: 0 done, 2 bad input, 3 the files cannot be written.";

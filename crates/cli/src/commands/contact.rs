@@ -63,6 +63,9 @@ fn answer(arguments: &ContactArguments) -> Result<(), ContactFailure> {
         _ => history,
     };
     let walk = asked.map(|history| Walk::of(&subject, normal, &history, arguments.animate)).transpose()?;
+    if let Some(warning) = walk.as_ref().and_then(|walk| walk.warning(subject.law)) {
+        complain(format_args!("warning: {warning}"));
+    }
     if arguments.json {
         say_json(&json(&sheet, walk.as_ref()));
     } else if !arguments.quiet {

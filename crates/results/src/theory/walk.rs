@@ -6,11 +6,16 @@ use super::route::{refused, route};
 use super::state::LoadedSpring;
 use super::{BEYOND, Subject, TheoryError};
 use crate::limits::check_history;
+use crate::quantity::quantity;
+use crate::real::Real;
+use crate::warning::Warning;
 use stickslip_contact::{
     Apex, ContactState, Curve, Field, Fields, FirstLoadingError, FrictionMap, Interface, Memory, NormalGiven,
     Segment, Springs, Zone,
 };
 
+/// Displacement in contact radii from which on a unit was forgotten: strokes of fretting in gross slip are a few of them.
+const FAR: f64 = 100.0;
 /// Rows of a leg.
 const ROWS: usize = 64;
 /// Steps of a leg in the map of friction work.
@@ -174,6 +179,29 @@ impl Walk {
 }
 
 impl Walk {
+    /// What is said of a history that leads farther than a contact is wide: its bodies would have left each other.
+    pub fn warning(&self, law: &Interface) -> Option<Warning> {
+        let farthest = self
+            .moments
+            .iter()
+            .map(|moment| moment.stop)
+            .max_by(|a, b| a.apex.u.abs().total_cmp(&b.apex.u.abs()))?;
+        let (way, radius) = (farthest.apex.u.abs(), law.profile().radius(self.deepest));
+        if way <= FAR * radius || radius == 0.0 {
+            return None;
+        }
+        let (times, [way, radius]) = (way / radius, [way, radius].map(|length| quantity(Real(length), "m")));
+        let message = format!(
+            "corner {} of the history is at a displacement of {way}, {times:.0} contact radii of {radius}, beyond {FAR}: no contact \
+             goes so far in one place",
+            farthest.corner
+        );
+        Some(
+            Warning::new("displacement", message)
+                .help("a bare number is in m: twenty micrometres are \"20 um\""),
+        )
+    }
+
     /// A quantity of a stop as people are told it: 0 where it is rounding beside the largest on the way.
     pub fn told(&self, stop: &Stop, of: fn(&Stop) -> f64) -> f64 {
         let largest = self.stops.iter().map(|stop| of(stop).abs()).fold(0.0, f64::max);
