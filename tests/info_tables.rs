@@ -177,8 +177,8 @@ fn tables_fit_a_hundred_columns() {
         "slider   10.00 g   x free",
         "S₀, zero-step stroke                 29.38 nm",
         "contact resonance                    4.151 kHz",
-        "warning: ruby and steel are not elastically similar (β = -0.0764): pressing and sliding are coupled,",
-        "normal stiffness is up to 0.20 % too low (if nothing slips; less with friction).",
+        "warning: ruby and hardened steel are not elastically similar (β = -0.0764): pressing and sliding are",
+        "radius the normal stiffness is up to 0.20 % too low (if nothing slips; less with friction).",
         "Contact: ball",
         "stable fixed step, verlet            below 76.69 µs",
     ] {

@@ -181,11 +181,9 @@ impl Walk {
 impl Walk {
     /// What is said of a history that leads farther than a contact is wide: its bodies would have left each other.
     pub fn warning(&self, law: &Interface) -> Option<Warning> {
-        let farthest = self
-            .moments
-            .iter()
-            .map(|moment| moment.stop)
-            .max_by(|a, b| a.apex.u.abs().total_cmp(&b.apex.u.abs()))?;
+        // Of several the first.
+        let stops = self.moments.iter().rev().map(|moment| moment.stop);
+        let farthest = stops.max_by(|a, b| a.apex.u.abs().total_cmp(&b.apex.u.abs()))?;
         let (way, radius) = (farthest.apex.u.abs(), law.profile().radius(self.deepest));
         if way <= FAR * radius || radius == 0.0 {
             return None;
