@@ -121,24 +121,17 @@ impl Implausible<'_> {
 
     /// Flanks that are over before waves have crossed the contacts that they reach.
     pub(super) fn flanks(&mut self) {
-        let job = self.job;
+        let (job, scene) = (self.job, &self.job.scenario.scene);
         for (w, sides) in self.lengths() {
-            let Some(waveform) = job.scenario.scene.waveforms.get(w) else { continue };
-            let flank = shortest_flank(&waveform.part);
-            let crossed = (0..job.scenario.scene.contacts.len().min(ASKED)).filter_map(|c| {
-                let between = job.scenario.scene.contacts[c].part.between;
-                between
-                    .iter()
-                    .any(|side| sides.contains(side))
-                    .then(|| self.passage(c))
-                    .flatten()
-                    .map(|time| (c, time))
-            });
+            let flank = shortest_flank(&scene.waveforms[w].part);
+            let touches = |c: &usize| scene.contacts[*c].part.between.iter().any(|side| sides.contains(side));
+            let touched = (0..scene.contacts.len().min(ASKED)).filter(touches);
+            let crossed = touched.filter_map(|c| Some((c, self.passage(c)?)));
             let slowest = crossed.max_by(|a, b| a.1.total_cmp(&b.1));
             let Some((c, passage)) = slowest.filter(|(_, passage)| flank < PASSAGES * passage) else {
                 continue;
             };
-            let name = &job.scenario.scene.contacts[c].name;
+            let name = &scene.contacts[c].name;
             let [said, least, passage] = [flank, PASSAGES * passage, passage].map(|time| told(time, "s"));
             let message = format!(
                 "a flank of {said}, shorter than {least}, in which a shear wave crosses the contact {name} {PASSAGES} times \
