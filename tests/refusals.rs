@@ -154,6 +154,38 @@ fn what_tips_off_its_foot_is_said_to_slide() {
     check(&run(&file, &folder.path().join("out"), &[]), &[&message]);
 }
 
+/// A block on two feet at ±8 mm, 20 mm below its middle, tips at 0.4 of its weight. With 2e-5 more it was found at rest at -15 835 rad, and
+/// the run ended well.
+#[test]
+fn a_block_that_tips_has_no_equilibrium() {
+    let foot = |x: f64| {
+        format!(
+            r#"{{ "between": ["ground", "b"], "materials": ["steel", "steel"], "profile": {{ "paraboloid": {{ "radius": 0.002 }} }},
+                "friction": 2.0, "normal": "coupled", "at": {{ "b": {{ "x": {x}, "z": -0.02 }} }} }}"#
+        )
+    };
+    let text = |beyond: f64| {
+        format!(
+            r#"{{ "stickslip": 1, "bodies": {{ "b": {{ "mass": 0.05, "inertia": 3e-6, "x": "free", "z": "free", "pitch": "free" }} }},
+                "contacts": {{ "front": {}, "rear": {} }}, "gravity": {{}}, "loads": [ {{ "on": "b", "x": {} }} ],
+                "run": {{ "duration": 1e-3, "start": "equilibrium" }} }}"#,
+            foot(8e-3),
+            foot(-8e-3),
+            0.05 * 9.80665 * 0.4 * (1.0 + beyond)
+        )
+    };
+    let folder = tempdir().unwrap();
+    let (file, out) = (folder.path().join("block.json"), folder.path().join("out"));
+    std::fs::write(&file, text(2e-5)).unwrap();
+    check(
+        &run(&file, &out, &[]),
+        &["run.start: `b` has no static equilibrium in pitch: ", "\n   help: lower the load"],
+    );
+    assert_eq!(listing(folder.path()), ["block.json"]);
+    std::fs::write(&file, text(-2e-5)).unwrap();
+    assert_eq!(code(&run(&file, &out, &[])), 0);
+}
+
 #[test]
 fn a_run_with_more_rows_than_fit_is_refused() {
     refused(

@@ -294,6 +294,10 @@ impl<'m> Settling<'m> {
     ) -> SceneError {
         let nothing = DVector::zeros(held.len());
         let gone = self.balance(state, &nothing, y, &held);
+        if let Some(i) = gone.turned {
+            let body = self.model.bodies[self.model.free[i].body].name.clone();
+            return SceneFault::Turned { body, angle: gone.y[i] }.of(Place::Run, Field::Start);
+        }
         let farthest = gone.farthest(&held);
         let mut without = |i: usize, y: &[f64]| {
             held[i] = true;

@@ -2,7 +2,7 @@
 
 use super::statics::Statics;
 use super::{Settling, elimination};
-use crate::scene::Axis;
+use crate::scene::{Axis, SMALL_ANGLE};
 use crate::state::State;
 use nalgebra::DVector;
 use std::collections::VecDeque;
@@ -39,8 +39,10 @@ pub(super) struct Balance {
     pub(super) y: Vec<f64>,
     /// Forces that are left, N or N m.
     pub(super) residual: DVector<f64>,
-    /// Whether that is nothing.
+    /// Whether that is nothing, at small angles.
     pub(super) holds: bool,
+    /// A coordinate beyond them, where that is nothing.
+    pub(super) turned: Option<usize>,
     /// Largest of them in parts of what acts on the coordinate.
     size: f64,
     statics: Statics,
@@ -250,7 +252,12 @@ impl<'a> Search<'a> {
                 left.abs()
                     <= group.iter().map(|i| allowed(*i)).sum::<f64>() + statics.noise_together(&group, &y)
             });
-        Balance { y, residual, holds, size, statics }
+        // Far round, rounding of places holds what tips a body.
+        let is_turned =
+            |i: &usize| free[*i].axis == Axis::Pitch && !self.held[*i] && y[*i].abs() > SMALL_ANGLE;
+        let turned = (0..free.len()).find(is_turned).filter(|_| holds);
+        holds &= turned.is_none();
+        Balance { y, residual, holds, turned, size, statics }
     }
 }
 

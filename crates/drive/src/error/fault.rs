@@ -1,7 +1,7 @@
 //! What can be wrong with a field of a scene or a plan.
 
 use super::{Field, Part, SceneError};
-use crate::scene::Axis;
+use crate::scene::{Axis, SMALL_ANGLE};
 use stickslip_contact::{ContactError, FirstLoadingError, SpringsError};
 use thiserror::Error;
 
@@ -139,6 +139,16 @@ pub enum SceneFault {
         /// Whether other bodies push and pull at it, too: held, it bears what they cannot hold either.
         shared: bool,
     },
+    /// What acts at t = 0 is in balance beyond small angles only.
+    #[error(
+        "`{body}` has no static equilibrium in pitch: it would turn to {angle:.3e} rad, and angles up to {SMALL_ANGLE} rad are small"
+    )]
+    Turned {
+        /// Name of the body.
+        body: String,
+        /// Its angle there, rad.
+        angle: f64,
+    },
 }
 
 impl SceneFault {
@@ -194,7 +204,9 @@ impl SceneFault {
                 "lower the load, press harder, or start from rest instead; of a coupled contact the lower body is the first in \
                  \"between\""
             }
-            Self::NoEquilibrium { .. } => "lower the load, press harder, or start from rest instead",
+            Self::NoEquilibrium { .. } | Self::Turned { .. } => {
+                "lower the load, press harder, or start from rest instead"
+            }
             Self::NotFinite(_)
             | Self::BelowZero(_)
             | Self::NotAboveZero(_)

@@ -5,10 +5,11 @@ use crate::lottery::Draw;
 use crate::parts::{named, piezo};
 use crate::stages::{PowerLaw, Rest, coupled, force_at, moment, planar, rest, upright};
 use stickslip_contact::Profile;
-use stickslip_drive::SceneFault;
 use stickslip_drive::scene::{
-    Contact, Coordinate, Direction, Freedom, Gravity, Load, Named, Point, Scene, Side, Spring, Start, Varying,
+    Contact, Coordinate, Direction, Freedom, Gravity, Load, Named, Point, SMALL_ANGLE, Scene, Side, Spring,
+    Start, Varying,
 };
+use stickslip_drive::{SceneError, SceneFault};
 
 const SEEDS: u64 = 600;
 
@@ -238,7 +239,7 @@ fn is_lost(stack: &Stack, body: usize, axis: usize) -> bool {
 
 #[test]
 fn stacks_come_to_rest_in_balance_or_say_what_nothing_holds() {
-    let (mut rests, mut refused) = (0, [0; 3]);
+    let (mut rests, mut turned, mut refused) = (0, 0, [0; 3]);
     for seed in 0..SEEDS {
         let stack = stack(seed);
         match rest(&stack.scene) {
@@ -246,6 +247,18 @@ fn stacks_come_to_rest_in_balance_or_say_what_nothing_holds() {
                 let imbalance = imbalance(&stack, &rest);
                 assert!(imbalance < 1e-9, "seed {seed}: {imbalance:e}");
                 rests += 1;
+            }
+            // Soft springs and wide gaps let bodies turn far, and what tips over may be found in balance anywhere.
+            Err(SceneError { fault: SceneFault::Turned { body, angle }, .. }) => {
+                let body = body.trim_start_matches("body").parse().unwrap();
+                let is_loose = stack.tied || stack.scene.contacts.iter().any(|c| c.part.gap > 50e-6);
+                assert!(angle.abs() > SMALL_ANGLE, "seed {seed}: {angle}");
+                assert!(
+                    is_loose || is_lost(&stack, body, 2),
+                    "seed {seed}: {angle}, {:.2?}",
+                    margins(&stack)
+                );
+                turned += 1;
             }
             Err(error) => {
                 let SceneFault::NoEquilibrium { body, axis, .. } = &error.fault else { panic!("{error}") };
@@ -257,6 +270,6 @@ fn stacks_come_to_rest_in_balance_or_say_what_nothing_holds() {
             }
         }
     }
-    println!("{rests} rest, refused {refused:?}");
+    println!("{rests} rest, {turned} would turn far, refused {refused:?}");
     assert!(rests > 0 && refused.iter().all(|n| *n > 10), "{rests} {refused:?}");
 }

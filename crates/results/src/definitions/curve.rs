@@ -28,7 +28,8 @@ const SENSE: &str =
 const HELD: &str =
     "of `holding-force`: the largest load along +x on the figures' body that the drive holds at rest";
 const HELD_BACK: &str = "of `holding-force`: the same of loads along -x";
-const HELD_OFF: &str = "how far that may be off: half of the bracket in which it lies";
+const HELD_OFF: &str =
+    "how far that may be off: half of the bracket in which it lies, and how far a balance is known";
 const BEYOND: &str =
     "what gives way beyond: a body that slides away, comes loose or, free to pitch, slides or tips over";
 const UNHELD: &str = "why there is no such force: the drive does not even hold what acts without the load, or something else than friction holds any";

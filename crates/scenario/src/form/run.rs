@@ -49,7 +49,7 @@ pub(crate) enum RunStartForm {
     /// Where the bodies say.
     #[default]
     Given,
-    /// In static equilibrium under what acts at t = 0, at rest.
+    /// In static equilibrium under what acts at t = 0, at rest; refused where there is none at angles up to 0.1 rad.
     Equilibrium,
 }
 

@@ -20,7 +20,7 @@ const NOTHING: f64 = 1e-12;
 pub struct Held {
     /// The largest load that is held, N.
     pub force: f64,
-    /// How far it may be off, N: half of the bracket, and no less than a balance is known to.
+    /// How far it may be off, N: half of the bracket, and how far a balance is known.
     pub half_width: f64,
     /// What gives way beyond.
     pub lost: Lost,
@@ -134,12 +134,15 @@ impl Still {
         while holds > NOTHING * scale && try_at(holds)?.is_none() {
             (still, holds) = (holds, 0.5 * holds);
         }
+        // Room within the tolerance for how far a balance is known.
+        let known = RESOLVED * scale;
+        let narrow = (tolerance - 2.0 * known / holds).max(0.5 * tolerance);
         let bracket = match holds > NOTHING * scale {
-            true => Bracket::narrow(vec![(holds, 1.0)], still, tolerance, |load, _| try_at(load))?,
+            true => Bracket::narrow(vec![(holds, 1.0)], still, narrow, |load, _| try_at(load))?,
             false => None,
         };
-        let (force, half_width) = bracket
-            .map_or((0.0, still), |bracket| (bracket.middle(), bracket.half_width().max(RESOLVED * scale)));
+        let (force, half_width) =
+            bracket.map_or((0.0, still), |bracket| (bracket.middle(), bracket.half_width() + known));
         lost.map_or(Err(Holdless::NotRun), |lost| Ok(Held { force, half_width, lost, runs }))
     }
 
@@ -160,6 +163,7 @@ impl Still {
         let name = |b: usize| self.scenario.scene.bodies[b].name.clone();
         match (&error.fault, error.part) {
             (SceneFault::NoEquilibrium { body, axis, .. }, _) => Ok(Lost { body: body.clone(), axis: *axis }),
+            (SceneFault::Turned { body, .. }, _) => Ok(Lost { body: body.clone(), axis: Axis::Pitch }),
             (SceneFault::Unbalanced { axis, .. }, Part::Body(b)) => Ok(Lost { body: name(b), axis: *axis }),
             _ => Err(self.scenario.refusal(error).into()),
         }
