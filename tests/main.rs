@@ -29,6 +29,7 @@ mod planar;
 mod program;
 mod publishing;
 mod realtime;
+mod realtime_endings;
 mod refusals;
 mod repro;
 mod reproducibility;

@@ -10,6 +10,7 @@ use crate::plant::{PlantError, STEPS, Work};
 use crate::room::touched;
 use crate::system::{now, sleep_until};
 use crate::worst::{Slow, Worst};
+use stickslip_drive::RunError;
 
 /// How far ahead the first deadline lies, ns.
 const AHEAD: u64 = 2_000_000;
@@ -67,6 +68,15 @@ pub enum Stop {
     Overrun,
     /// No input came for longer than was allowed.
     Silence,
+}
+
+impl From<PlantError> for Stop {
+    fn from(error: PlantError) -> Self {
+        match error {
+            PlantError::Run(RunError::Interrupted { .. }) => Self::Interrupted,
+            error => Self::Plant(error),
+        }
+    }
 }
 
 /// How long everything took.

@@ -1,5 +1,6 @@
 //! What a plant takes on this machine, before anything depends on it.
 
+use crate::observer::Observer;
 use crate::pace::{self, Cycle, Pace, Stop, Timing};
 use crate::plant::{Drive, Input, Output, Plant, Work};
 use crate::system::now;
@@ -36,21 +37,29 @@ struct Steady<'a, P> {
     inputs: &'a [f64],
     outputs: Vec<f64>,
     end: u64,
+    observer: &'a dyn Observer,
 }
 
 impl<P: Plant> Cycle for Steady<'_, P> {
     fn act(&mut self, _: u64) -> Result<Work, Stop> {
-        if now() > self.end {
+        if now() > self.end || !self.observer.goes_on() {
             return Err(Stop::Interrupted);
         }
-        self.plant.frame(self.inputs, &mut self.outputs).map_err(Stop::Plant)
+        Ok(self.plant.frame(self.inputs, &mut self.outputs)?)
     }
 }
 
-/// Computes frames of a plant without waiting, until there are so many or it took long; none where not even one came.
-pub fn probe<P: Plant>(plant: &mut P, inputs: &[f64], outputs: usize, frames: u64) -> Option<Probe> {
+/// Computes frames of a plant without waiting, until there are so many or it took long; none where not even one came, or the observer
+/// ended it.
+pub fn probe<P: Plant>(
+    plant: &mut P,
+    inputs: &[f64],
+    outputs: usize,
+    frames: u64,
+    observer: &dyn Observer,
+) -> Option<Probe> {
     let pace = Pace { period: 1.0, overrun: None, spin: 0.0 };
-    let mut cycle = Steady { plant, inputs, outputs: vec![0.0; outputs], end: u64::MAX };
+    let mut cycle = Steady { plant, inputs, outputs: vec![0.0; outputs], end: u64::MAX, observer };
     // The first frame opens the run, and finds all its memory cold.
     pace::run(&pace, 1, &mut cycle, &mut Timing::new()).ok()?;
     // However long that took: of frames that are longer than any measurement one is measured all the same.
@@ -59,7 +68,7 @@ pub fn probe<P: Plant>(plant: &mut P, inputs: &[f64], outputs: usize, frames: u6
     // Whatever ends it, what was measured is measured.
     let _ = pace::run(&pace, frames, &mut cycle, &mut timing);
     let execution = &timing.execution;
-    (timing.frames() > 0).then(|| Probe {
+    (timing.frames() > 0 && observer.goes_on()).then(|| Probe {
         frames: timing.frames(),
         median: execution.quantile(0.5),
         most: execution.quantile(0.99),
@@ -85,6 +94,7 @@ pub fn rows(
     period: f64,
     (inputs, outputs): (&[Input], &[Output]),
     frames: u64,
+    observer: &dyn Observer,
 ) -> Option<RowsProbe> {
     if scene.contacts.is_empty() {
         return None;
@@ -103,8 +113,9 @@ pub fn rows(
             .for_each(|contact| contact.part.engine = EngineChoice::Springs { count, span: None });
         let model = Model::new(&scene).ok()?;
         let state: State = model.start(plan).ok()?;
-        let mut drive = Drive::new(&model, plan, (state, 0), period, (inputs, outputs)).ok()?;
-        let probe = probe(&mut drive, &initial, outputs.len(), frames)?;
+        let mut drive =
+            Drive::new(&model, plan, (state, 0), period, (inputs, outputs)).ok()?.heeding(observer);
+        let probe = probe(&mut drive, &initial, outputs.len(), frames, observer)?;
         (probe.frames >= LEAST).then_some((count, probe.most))
     };
     let mut measured = ROWS.map(|count| (count, u64::MAX)).to_vec();
@@ -141,7 +152,7 @@ mod tests {
 
     #[test]
     fn of_frames_longer_than_the_measurement_one_is_measured() {
-        let probe = probe(&mut Long, &[], 0, 500).unwrap();
+        let probe = probe(&mut Long, &[], 0, 500, &()).unwrap();
         assert!(probe.frames == 1 && probe.median > LONGEST, "{probe:?}");
     }
 

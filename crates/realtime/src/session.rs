@@ -2,6 +2,7 @@
 
 use crate::film::Film;
 use crate::intake::{Client, Intake};
+use crate::observer::Observer;
 use crate::pace::{self, Cycle, Overrun, Pace, Stop, Timing};
 use crate::plant::{Empty, Plant, Work};
 use crate::sink::Sink;
@@ -16,24 +17,6 @@ use std::thread;
 /// How often the outputs of the start are sent until an input comes, ns.
 const HELLO: u64 = 10_000_000;
 const NANO: f64 = 1e9;
-
-/// Who looks on. Asked by the loop once a frame and told by a thread beside it: neither answer may wait.
-pub trait Observer: Sync {
-    /// The loop has come to a simulated time, s.
-    fn reached(&self, t: f64);
-
-    /// Whether it is to go on.
-    fn goes_on(&self) -> bool;
-}
-
-/// Nobody.
-impl Observer for () {
-    fn reached(&self, _: f64) {}
-
-    fn goes_on(&self) -> bool {
-        true
-    }
-}
 
 /// What goes in and out of a loop.
 pub struct Wiring {
@@ -115,7 +98,7 @@ impl<P: Plant> Cycle for Live<'_, P> {
         if let Some(recording) = recording {
             recording.put(intake.values().iter().map(|value| value.to_bits()));
         }
-        let work = self.plant.frame(intake.values(), &mut self.outputs).map_err(Stop::Plant)?;
+        let work = self.plant.frame(intake.values(), &mut self.outputs)?;
         let stamp = Stamp { sequence: frame + 1, time: (frame + 1) as f64 * self.period };
         for sink in sinks {
             self.unsent += u64::from(!sink.send(intake.scenario(), stamp, &self.outputs, intake.owner()));
@@ -142,7 +125,7 @@ impl Cycle for Idle<'_> {
         if !self.0.goes_on() {
             return Err(Stop::Interrupted);
         }
-        Empty.frame(&[], &mut []).map_err(Stop::Plant)
+        Ok(Empty.frame(&[], &mut [])?)
     }
 }
 

@@ -29,7 +29,8 @@ Without a real-time kernel nobody can promise that the system does not keep the 
 
 Writes DIR/NAME/realtime.json, histogram.csv, frames.csv (the worst frames and what happened in them), realtime.png and timeline.png. Exit codes: 0 all \
 frames were computed, 2 bad input (the input never came, a port in use), 3 the drive stopped itself, or the loop by --overrun stop \
-or --silence stop, or something could not be written, 130 interrupted; what was computed is written.";
+or --silence stop, or something could not be written, 130 interrupted (one SIGINT or SIGTERM, \
+also within a frame); what was computed is written.";
 
 /// Examples under the long help.
 pub(crate) const EXAMPLES: &str = "\
@@ -54,7 +55,7 @@ pub(crate) struct RealtimeArguments {
     pub(crate) duration: Option<f64>,
     /// Instead of frames of bounded work, frames or frames:ACCURACY (1e-3 of a stroke unless the scenario says otherwise): event,
     /// event:TOLERANCE, fast in the mean, verlet, verlet:STEP, rk4 or rk4:STEP; without a step the longest that divides the frame
-    /// and is a fifth of the longest stable one
+    /// and is a fifth of the longest stable one. At most 100 000 steps a frame
     #[arg(long, value_name = "NAME[:VALUE]")]
     pub(crate) stepper: Option<String>,
     /// Put a value into the scenario, such as contacts.ball.friction=0.3
@@ -282,9 +283,16 @@ mod tests {
         assert_eq!(inputs("shm:stage"), Ok(Inputs::Memory("/dev/shm/stage".into())));
         assert_eq!(inputs("shm:/tmp/stage"), Ok(Inputs::Memory("/tmp/stage".into())));
         assert_eq!((inputs("stdin"), outputs("udp")), (Ok(Inputs::Stdin), Ok(Outputs::Udp(None))));
-        for wrong in
-            ["udp", "udp:5005", "udp:127.0.0.1", "udp:127.0.0.1:70000", "shm:", "tcp:a:1", "replay:", ""]
-        {
+        for wrong in [
+            "udp",
+            "udp:5005",
+            "udp:127.0.0.1",
+            "udp:127.0.0.1:70000",
+            "shm:",
+            "tcp:a:1",
+            "replay:",
+            "",
+        ] {
             assert!(inputs(wrong).is_err(), "{wrong}");
         }
     }

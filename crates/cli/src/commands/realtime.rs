@@ -9,16 +9,16 @@ mod wires;
 use crate::arguments::RealtimeArguments;
 use crate::arguments::realtime::Inputs;
 use crate::console::answer::{complain, say, say_json, warn};
-use crate::console::interrupt::Interrupt;
+use crate::console::interrupt::{Interrupt, Interrupted};
 use crate::console::progress::{Bar, Progress};
 use crate::console::verdict::Verdict;
 use failure::Failure;
 use files::Drafts;
 use stage::Stage;
-use stickslip_realtime::Report;
 use stickslip_realtime::pace::Stop;
 use stickslip_realtime::report::{Subject, text};
-use stickslip_realtime::session::{self, Ended, Observer};
+use stickslip_realtime::session::{self, Ended};
+use stickslip_realtime::{Observer, Report};
 use stickslip_results::Job;
 use wires::Wires;
 
@@ -54,8 +54,9 @@ fn run(arguments: &RealtimeArguments) -> Result<Verdict, Failure> {
     let mut drafts = Drafts::beside(std::iter::once(arguments.file.as_path()).chain(replayed), &job.folder);
     let Wires { wiring, mut reels, recorded } = wires::open(&stage, &mut drafts)?;
     let order = stage.order(recorded)?;
-    let (probe, rows) = stage.measure(!arguments.quiet)?;
-    let mut drive = stage.drive()?;
+    let asked = Interrupted(&interrupt);
+    let (probe, rows) = stage.measure(!arguments.quiet, &asked)?;
+    let mut drive = stage.drive(&asked)?;
     let mut outputs = vec![0.0; stage.outputs.len()];
     drive.tell(&mut outputs);
     let bar = progress.start(&job.name, [0.0, order.frames as f64 * order.pace.period], &interrupt);
@@ -115,6 +116,14 @@ fn verdict(ended: &Ended) -> Verdict {
         Ok(()) => Verdict::Done,
         Err(Stop::Interrupted) => Verdict::Interrupted,
         Err(Stop::Overrun | Stop::Silence | Stop::Plant(_)) => Verdict::Stopped,
+    }
+}
+
+impl Observer for Interrupted<'_> {
+    fn reached(&self, _: f64) {}
+
+    fn goes_on(&self) -> bool {
+        stickslip_results::Watcher::goes_on(self)
     }
 }
 

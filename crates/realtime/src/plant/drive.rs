@@ -3,6 +3,7 @@
 use super::channels::{Feed, Reading};
 use super::commanded::Commanded;
 use super::{Input, Output, Plant, PlantError, Work, between, done};
+use crate::observer::{Heeding, Observer};
 use stickslip_drive::{Limits, Model, Plan, Run, RunError, State};
 
 /// A drive: a run that goes on from one multiple of the frame to the next.
@@ -18,6 +19,8 @@ pub struct Drive<'m> {
     /// All channels, where any of them is told that lies nowhere else.
     row: Vec<f64>,
     model: &'m Model,
+    /// Who may end it within a frame.
+    observer: &'m dyn Observer,
 }
 
 impl<'m> Drive<'m> {
@@ -63,8 +66,15 @@ impl<'m> Drive<'m> {
             readings: outputs.iter().map(|output| output.reading).collect(),
             row: Vec::with_capacity(model.channels().len()),
             model,
+            observer: &(),
         };
         Ok(drive.after(&initial))
+    }
+
+    /// The same, ended within a frame that takes long as soon as an observer wants it.
+    #[must_use]
+    pub fn heeding(self, observer: &'m dyn Observer) -> Self {
+        Self { observer, ..self }
     }
 
     /// The same after a frame of these inputs: what generators were told then is not commanded anew. Before the first frame these
@@ -137,7 +147,7 @@ impl Plant for Drive<'_> {
                 generator.command(&mut self.run)?;
             }
         }
-        self.run.advance(until, &mut ())?;
+        self.run.advance(until, &mut Heeding(self.observer))?;
         self.tell(outputs);
         Ok(between(&before, &done(&self.run)))
     }

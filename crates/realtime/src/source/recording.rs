@@ -92,8 +92,12 @@ impl Recording {
     /// # Errors
     /// A file that does not fit.
     pub fn read(path: &Path, scenario: u64, period: f64, inputs: &[Input]) -> Result<Self, RecordingError> {
-        let bytes =
-            fs::read(path).map_err(|source| RecordingError::System { path: path.to_owned(), source })?;
+        let failed = |source| RecordingError::System { path: path.to_owned(), source };
+        // Whoever opens a pipe waits for another, whom no signal brings; a device may have no end.
+        if !fs::metadata(path).map_err(failed)?.is_file() {
+            return Err(RecordingError::Foreign(path.to_owned()));
+        }
+        let bytes = fs::read(path).map_err(failed)?;
         let mut words = bytes.chunks_exact(WORD).map(|chunk| {
             let mut word = [0; WORD];
             word.copy_from_slice(chunk);

@@ -241,11 +241,29 @@ fn without_a_clock_the_loop_waits_for_what_is_written_down() {
 /// Says once that it was enough.
 struct Once(std::sync::atomic::AtomicU64);
 
-impl stickslip_realtime::session::Observer for Once {
+impl stickslip_realtime::Observer for Once {
     fn reached(&self, _: f64) {}
 
     fn goes_on(&self) -> bool {
         self.0.fetch_add(1, std::sync::atomic::Ordering::Relaxed) < 100
+    }
+}
+
+/// A frame of 200 000 steps, of which an observer is asked every 1024.
+#[test]
+fn an_interruption_ends_a_frame_that_takes_long() {
+    for stepper in [Stepper::Verlet { step: 1e-9 }, Stepper::Rk4 { step: 1e-9 }] {
+        let rig = Rig::of("p1", None, stepper);
+        let once = Once(97.into());
+        let mut drive = rig.drive((rig.start(), 0)).heeding(&once);
+        let wiring = wiring(Source::None, rig.intake(Silence::Hold, 10, 10));
+        let start = vec![0.0; rig.width()];
+        let order = order(1_000_000, None);
+        let ended = stickslip_realtime::session::run(&mut drive, wiring, &start, &order, &mut [], &once);
+        assert_eq!((ended.outcome, ended.timing.frames()), (Err(Stop::Interrupted), 0));
+        // Asked before the frame and after each 1024 steps of it: the fourth time it is enough.
+        let reached = drive.state().time();
+        assert!((reached / 3072e-9 - 1.0).abs() < 1e-9, "{stepper:?}: {reached}");
     }
 }
 

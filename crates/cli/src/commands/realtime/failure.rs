@@ -81,6 +81,24 @@ pub(crate) enum Failure {
     /// No frame, or more than anybody can wait for.
     #[error("--for: expected 1 to 1.4e12 frames of the period, got {0:e}")]
     Frames(f64),
+    /// More steps in a frame than anybody waits for.
+    #[error(
+        "--stepper {stepper}: steps of {step} make {steps} steps a frame of {period}, expected at most {most}\n   help: {help}"
+    )]
+    TooManySteps {
+        /// As it was asked for.
+        stepper: String,
+        /// Its step.
+        step: String,
+        /// Steps of a frame.
+        steps: f64,
+        /// The period.
+        period: String,
+        /// How many there may be.
+        most: f64,
+        /// What might do.
+        help: String,
+    },
     /// More than the machine can do.
     #[error(
         "--period: this machine cannot keep {period:.3} µs: of {frames} frames without waiting half took up to {median:.3} µs, the \

@@ -4,7 +4,8 @@ use super::failure::Failure;
 use super::stepper::chosen;
 use crate::arguments::RealtimeArguments;
 use crate::console::answer::complain;
-use stickslip_drive::{Accuracy, Plan, State, Stepper};
+use stickslip_drive::{Accuracy, Model, Plan, State, Stepper};
+use stickslip_realtime::observer::Observer;
 use stickslip_realtime::plant::{ChannelError, Input, Output, inputs, outputs};
 use stickslip_realtime::probe::{Probe, RowsProbe, probe, rows};
 use stickslip_realtime::session::Order;
@@ -18,6 +19,8 @@ use stickslip_scenario::Warning;
 const PROBED: u64 = 500;
 /// The same on rows of springs.
 const ROWS_PROBED: u64 = 1000;
+/// Most steps of a frame, where their number is known before: a frame is what inputs, outputs and deadlines wait for.
+const MOST_STEPS: f64 = 1e5;
 /// Most frames of a loop: two years of 20 kHz.
 const MOST_FRAMES: f64 = 1.4e12;
 
@@ -33,6 +36,35 @@ pub(super) struct Stage<'a> {
     start: State,
 }
 
+/// Refuses a frame of more steps than a loop in real time may have.
+fn check_steps(model: &Model, stepper: Stepper, arguments: &RealtimeArguments) -> Result<(), Failure> {
+    let period = arguments.period;
+    let (steps, longer) = match model.effective(stepper).accuracy() {
+        // A quotient of two decimals is a whole number but for its rounding.
+        Accuracy::Step(step) => ((period / step * (1.0 - 1e-12)).ceil(), true),
+        Accuracy::Frame { length, error } => (model.substeps(length, error), false),
+        Accuracy::Tolerance(_) => return Ok(()),
+    };
+    if steps <= MOST_STEPS {
+        return Ok(());
+    }
+    let told = |time| quantity(Real(time), "s");
+    let shorter = format!("a period of {} or less", told(MOST_STEPS * period / steps));
+    let help = if longer {
+        format!("a step of {} or more, or {shorter}", told(period / MOST_STEPS))
+    } else {
+        shorter
+    };
+    Err(Failure::TooManySteps {
+        stepper: arguments.stepper.clone().unwrap_or_else(|| stepper.name().to_owned()),
+        step: told(period / steps),
+        steps,
+        period: told(period),
+        most: MOST_STEPS,
+        help,
+    })
+}
+
 impl<'a> Stage<'a> {
     pub(super) fn new(arguments: &'a RealtimeArguments, job: &'a Job) -> Result<Self, Failure> {
         let own = job.scenario.plan;
@@ -42,6 +74,7 @@ impl<'a> Stage<'a> {
             stepper: asked.unwrap_or(plan.stepper.name()).to_owned(),
             message: job.scenario.refusal_of(plan, &error).message.clone(),
         })?;
+        check_steps(&job.model, plan.stepper, arguments)?;
         let mut number = [0; 8];
         number.copy_from_slice(&model_key(&job.scenario)[..8]);
         let mut inputs = inputs(&job.scenario.scene)?;
@@ -121,17 +154,22 @@ impl<'a> Stage<'a> {
         })
     }
 
-    /// The drive at t = 0.
-    pub(super) fn drive(&self) -> Result<Drive<'a>, Failure> {
+    /// The drive at t = 0, which an observer may end within a frame.
+    pub(super) fn drive<'d>(&'d self, observer: &'d dyn Observer) -> Result<Drive<'d>, Failure> {
         let channels = (&self.inputs[..], &self.outputs[..]);
         let start = (self.start.clone(), 0);
-        Ok(Drive::new(&self.job.model, &self.plan, start, self.arguments.period, channels)?)
+        let drive = Drive::new(&self.job.model, &self.plan, start, self.arguments.period, channels)?;
+        Ok(drive.heeding(observer))
     }
 
-    /// What frames take here, on a copy, and what they would on rows of springs.
-    pub(super) fn measure(&self, tells: bool) -> Result<(Option<Probe>, Option<RowsProbe>), Failure> {
+    /// What frames take here, on a copy, and what they would on rows of springs; neither where the observer ends it.
+    pub(super) fn measure(
+        &self,
+        tells: bool,
+        observer: &dyn Observer,
+    ) -> Result<(Option<Probe>, Option<RowsProbe>), Failure> {
         let initial: Vec<f64> = self.inputs.iter().map(|input| input.initial).collect();
-        let found = probe(&mut self.drive()?, &initial, self.outputs.len(), PROBED);
+        let found = probe(&mut self.drive(observer)?, &initial, self.outputs.len(), PROBED, observer);
         let (clock, period) = (&self.arguments.clock, self.arguments.period);
         let Some(probe) = found else { return Ok((None, None)) };
         let [median, most, worst] = [probe.median, probe.most, probe.worst].map(|time| time as f64 / 1e3);
@@ -147,7 +185,7 @@ impl<'a> Stage<'a> {
             ));
         }
         let channels = (&self.inputs[..], &self.outputs[..]);
-        let rows = rows(&self.job.scenario.scene, &self.plan, period, channels, ROWS_PROBED);
+        let rows = rows(&self.job.scenario.scene, &self.plan, period, channels, ROWS_PROBED, observer);
         Ok((Some(probe), rows))
     }
 }
