@@ -162,3 +162,35 @@ fn a_recording_that_is_a_pipe_is_refused() {
     assert_eq!(code(&output), 2);
     assert!(stderr(&output).contains("pipe: not a recording of inputs"), "{}", stderr(&output));
 }
+
+#[test]
+fn an_address_beyond_this_machine_is_warned_of() {
+    let out = tempdir().unwrap();
+    let warnings = |arguments: &[&str]| {
+        let mut command = call(&stage(), "1 ms", out.path());
+        let output =
+            command.args(["--for", "2 ms", "--floor", "0", "--wait", "0"]).args(arguments).output().unwrap();
+        let said = stderr(&output);
+        (
+            code(&output),
+            said.lines().filter(|line| line.starts_with("warning:")).map(str::to_owned).collect::<Vec<_>>(),
+        )
+    };
+    let at = |ip: &str| format!("udp:{ip}:{}", free_port());
+    assert_eq!(warnings(&["--inputs", &at("127.0.0.1")]), (0, Vec::new()));
+    let (code, told) = warnings(&["--inputs", &at("0.0.0.0")]);
+    assert!(
+        code == 0 && told.len() == 1 && told[0].starts_with("warning: --inputs udp:0.0.0.0:"),
+        "{told:?}"
+    );
+    assert!(told[0].contains("other machines on the network can reach this port"), "{told:?}");
+    // Nothing is sent there: what is replayed is not there.
+    let nothing = format!("replay:{}", out.path().join("nothing").display());
+    let (code, told) =
+        warnings(&["--inputs", &nothing, "--outputs", "udp:192.0.2.1:9", "--outputs", &at("127.0.0.9")]);
+    assert!(code == 2 && told.len() == 1, "{told:?}");
+    assert!(
+        told[0].starts_with("warning: --outputs udp:192.0.2.1:9: outputs go out to the network"),
+        "{told:?}"
+    );
+}

@@ -166,6 +166,16 @@ impl Intake {
         self.owner.map(|(client, _)| client)
     }
 
+    /// The same unless another client may take over.
+    pub(crate) fn holder(&self) -> Option<Client> {
+        self.owner().filter(|_| !self.has_lapsed())
+    }
+
+    /// Whether nothing good has come for so long that another client may take over.
+    fn has_lapsed(&self) -> bool {
+        self.stale >= self.patience.owner
+    }
+
     /// Judges a packet.
     pub fn offer(&mut self, client: Client, bytes: &[u8]) {
         let mut candidate = std::mem::take(&mut self.candidate);
@@ -209,6 +219,7 @@ impl Intake {
 
     fn judge(&mut self, client: Client, stamp: Result<Stamp, Misfit>, candidate: Vec<f64>) {
         self.candidate = candidate;
+        let lapsed = self.has_lapsed();
         let received = &mut self.received;
         let stamp = match stamp {
             Ok(stamp) => stamp,
@@ -216,7 +227,6 @@ impl Intake {
             Err(Misfit::Foreign) => return received.foreign += 1,
             Err(Misfit::Scenario) => return received.other_scenario += 1,
         };
-        let lapsed = self.stale >= self.patience.owner;
         match self.owner {
             Some((owner, _)) if owner != client && !lapsed => return received.other_client += 1,
             Some((_, last)) if !lapsed && stamp.sequence == last => return received.repeated += 1,

@@ -1,28 +1,26 @@
 //! Where inputs come from.
 
+mod door;
 mod lines;
 mod recording;
 
+pub use door::Door;
 pub use lines::Lines;
 pub use recording::{Recording, RecordingError, head as recording_head};
 
 use crate::intake::{Client, Intake};
 use crate::region::Region;
 use crate::seqlock::Found;
-use crate::wire::{self, MOST_VALUES};
 use std::io;
 use std::net::UdpSocket;
 use std::sync::Arc;
-
-/// Most packets that are taken off a socket in a frame: a flood costs no more than this.
-const MOST_PACKETS: usize = 32;
 
 /// Where inputs come from; asked once before each frame, and it never waits.
 pub enum Source {
     /// From nowhere: the initial values stay.
     None,
     /// Packets over UDP; the newest counts.
-    Udp(UdpSocket),
+    Udp(Door),
     /// A record in shared memory.
     Memory(MemorySource),
     /// Lines of text.
@@ -78,6 +76,8 @@ impl MemorySource {
 /// # Errors
 /// What the system says, such as a port in use.
 pub fn socket(address: std::net::SocketAddr) -> io::Result<UdpSocket> {
+    // A port that the system chooses is lost when the socket is opened to all again: it is asked for by its number.
+    let address = if address.port() == 0 { UdpSocket::bind(address)?.local_addr()? } else { address };
     let socket = UdpSocket::bind(address)?;
     socket.set_nonblocking(true)?;
     Ok(socket)
@@ -88,23 +88,10 @@ impl Source {
     pub fn poll(&mut self, intake: &mut Intake) {
         match self {
             Self::None => {}
-            Self::Udp(socket) => receive(socket, intake),
+            Self::Udp(door) => door.poll(intake),
             Self::Memory(memory) => memory.poll(intake),
             Self::Lines(lines) => lines.poll(intake),
             Self::Recording(recording) => recording.poll(intake),
-        }
-    }
-}
-
-fn receive(socket: &UdpSocket, intake: &mut Intake) {
-    // One byte more than any packet has: what is longer is cut to a length that is wrong.
-    let mut bytes = [0; wire::length(MOST_VALUES) + 1];
-    for _ in 0..MOST_PACKETS {
-        match socket.recv_from(&mut bytes) {
-            Ok((length, address)) => intake.offer(Client::Address(address), &bytes[..length]),
-            Err(error) if error.kind() == io::ErrorKind::WouldBlock => return,
-            // Such as the echo of an output that nobody was there to take: the next packet may be good.
-            Err(_) => {}
         }
     }
 }

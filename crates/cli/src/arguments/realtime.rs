@@ -81,7 +81,7 @@ pub(crate) struct RealtimeArguments {
 /// What goes in and out.
 #[derive(Debug, Args)]
 pub(crate) struct WireArguments {
-    /// Where inputs come from: udp:HOST:PORT (packets taken there), shm:NAME (a file of /dev/shm, or a path), stdin (lines of
+    /// Where inputs come from: udp:HOST:PORT (packets taken there; beyond 127.0.0.1 from the whole network, which is warned of), shm:NAME (a file of /dev/shm, or a path), stdin (lines of
     /// numbers), replay:FILE (what --record-inputs wrote)
     #[arg(long, value_name = "WHERE", value_parser = inputs)]
     pub(crate) inputs: Option<Inputs>,
@@ -239,7 +239,8 @@ fn not_negative(text: &str) -> Result<f64, String> {
 fn address(text: &str) -> Result<SocketAddr, String> {
     let refuse = |why: String| format!("{why}; expected HOST:PORT, such as 127.0.0.1:5005");
     let mut found = text.to_socket_addrs().map_err(|error| refuse(format!("\"{text}\": {error}")))?;
-    found.next().ok_or_else(|| refuse(format!("\"{text}\" is no address")))
+    // Port 0 is whichever the system likes: nobody would know it.
+    found.find(|address| address.port() != 0).ok_or_else(|| refuse(format!("\"{text}\" is no address")))
 }
 
 fn name(text: &str, what: &str) -> Result<PathBuf, String> {
@@ -288,6 +289,7 @@ mod tests {
             "udp:5005",
             "udp:127.0.0.1",
             "udp:127.0.0.1:70000",
+            "udp:127.0.0.1:0",
             "shm:",
             "tcp:a:1",
             "replay:",

@@ -40,6 +40,7 @@ fn run(arguments: &RealtimeArguments) -> Result<Verdict, Failure> {
     if !arguments.quiet {
         warn(&job);
         stage.warnings().iter().for_each(|odd| complain(format_args!("warning: {odd}")));
+        wires::exposed(&arguments.wires).iter().for_each(|odd| complain(format_args!("warning: {odd}")));
         if cfg!(debug_assertions) {
             complain(format_args!("this program was built without --release: its times tell little"));
         }

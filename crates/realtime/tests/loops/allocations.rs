@@ -6,7 +6,7 @@ use stickslip_drive::Stepper;
 use stickslip_realtime::intake::Silence;
 use stickslip_realtime::pace::{self, Cycle, Stop};
 use stickslip_realtime::plant::Work;
-use stickslip_realtime::source::socket;
+use stickslip_realtime::source::{Door, socket};
 use stickslip_realtime::tape::{Form, Tape, tape};
 use stickslip_realtime::wire::{self, Stamp};
 use stickslip_realtime::worst::Slow;
@@ -59,7 +59,7 @@ fn the_loop_allocates_nothing() {
         let (log, _reel) = tape(4, Form::Csv, std::io::sink());
         let mut counted = Counted {
             drive: rig.drive((rig.start(), 0)),
-            source: Source::Udp(server),
+            source: Source::Udp(Door::new(server)),
             intake: rig.intake(Silence::Hold, 100, 100),
             sink,
             log,

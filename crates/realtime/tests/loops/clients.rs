@@ -11,7 +11,7 @@ use stickslip_realtime::intake::{Client, Silence};
 use stickslip_realtime::memory::MemoryError;
 use stickslip_realtime::pace::Stop;
 use stickslip_realtime::region::Region;
-use stickslip_realtime::source::{MemorySource, socket};
+use stickslip_realtime::source::{Door, MemorySource, socket};
 use stickslip_realtime::wire::{self, Stamp};
 use stickslip_realtime::{Intake, Overrun, Sink, Source};
 use tempfile::tempdir;
@@ -29,10 +29,15 @@ fn packet(sequence: u64, value: f64) -> Vec<u8> {
 }
 
 /// A socket that listens, and its address.
-fn listening() -> (Source, SocketAddr) {
-    let server = socket("127.0.0.1:0".parse().unwrap()).unwrap();
+fn listening_at(at: &str) -> (UdpSocket, SocketAddr) {
+    let server = socket(at.parse().unwrap()).unwrap();
     let to = server.local_addr().unwrap();
-    (Source::Udp(server), to)
+    (server, to)
+}
+
+fn listening() -> (Source, SocketAddr) {
+    let (server, to) = listening_at("127.0.0.1:0");
+    (Source::Udp(Door::new(server)), to)
 }
 
 /// Over 127.0.0.1 what is sent is there when the call returns; a busy machine may think otherwise for a moment.
@@ -98,25 +103,73 @@ fn over_udp_the_second_client_waits_until_the_first_is_silent() {
     poll(&mut source, &mut intake, 1);
     intake.settle().unwrap();
     for sequence in 1..=3 {
-        b.send_to(&packet(sequence, 0.3e-6), to).unwrap();
+        // The system drops it, and may say so where the next one is sent.
+        let _ = b.send_to(&packet(sequence, 0.3e-6), to);
+        source.poll(&mut intake);
+        intake.settle().unwrap();
+    }
+    assert_eq!((intake.values()[0], intake.received().good), (0.1e-6, 1));
+    assert_eq!(intake.owner(), Some(Client::Address(a.local_addr().unwrap())));
+    // From the next look on all are heard.
+    source.poll(&mut intake);
+    b.send_to(&packet(4, 0.3e-6), to).unwrap();
+    poll(&mut source, &mut intake, 2);
+    intake.settle().unwrap();
+    assert_eq!((intake.values()[0], intake.received().owners), (0.3e-6, 2));
+    // Now it is the first that is not heard.
+    let _ = a.send_to(&packet(11, 0.1e-6), to);
+    b.send_to(&packet(5, 0.2e-6), to).unwrap();
+    poll(&mut source, &mut intake, 3);
+    assert_eq!((intake.values()[0], intake.received().good), (0.2e-6, 3));
+}
+
+/// More than the system has room for: what the client sends behind it would be dropped.
+#[test]
+fn over_udp_a_flood_takes_no_packet_of_the_client_that_has_the_inputs() {
+    let (mut source, to) = listening();
+    let mut intake = rig().intake(Silence::Hold, 1000, 1000);
+    let [owner, stranger] = [0, 1].map(|_| UdpSocket::bind("127.0.0.1:0").unwrap());
+    // What came before anybody had the inputs is judged.
+    stranger.send_to(b"hello", to).unwrap();
+    owner.send_to(&packet(1, 0.1e-6), to).unwrap();
+    poll(&mut source, &mut intake, 2);
+    for sequence in 2..=20 {
+        for _ in 0..500 {
+            let _ = stranger.send_to(&packet(sequence, 0.5e-6), to);
+        }
+        owner.send_to(&packet(sequence, 0.2e-6), to).unwrap();
         poll(&mut source, &mut intake, 1 + sequence);
         intake.settle().unwrap();
     }
-    assert_eq!((intake.values()[0], intake.received().other_client), (0.1e-6, 3));
-    assert_eq!(intake.owner(), Some(Client::Address(a.local_addr().unwrap())));
-    b.send_to(&packet(4, 0.3e-6), to).unwrap();
-    poll(&mut source, &mut intake, 5);
-    intake.settle().unwrap();
-    assert_eq!((intake.values()[0], intake.received().owners), (0.3e-6, 2));
+    let received = intake.received();
+    assert_eq!((intake.values()[0], received.good, received.other_client), (0.2e-6, 20, 0));
+    assert_eq!((received.foreign, received.owners), (1, 1));
+}
+
+/// A socket at all addresses of a machine gets one of them when it is connected. A client at another one is heard again.
+#[test]
+fn over_udp_a_client_at_another_address_of_the_machine_is_not_shut_out() {
+    let (server, all) = listening_at("0.0.0.0:0");
+    let (mut source, to) = (Source::Udp(Door::new(server)), SocketAddr::from(([127, 0, 0, 2], all.port())));
+    let mut intake = rig().intake(Silence::Hold, 1000, 3);
+    let client = UdpSocket::bind("127.0.0.1:0").unwrap();
+    for sequence in 1..=100 {
+        let _ = client.send_to(&packet(sequence, 0.1e-6), to);
+        source.poll(&mut intake);
+        intake.settle().unwrap();
+    }
+    let received = intake.received();
+    println!("{received:?}");
+    assert!(received.good > 90 && received.owners == 2, "{received:?}");
 }
 
 /// A client that answers the newest output, proportionally, and is killed half way: the last value is held.
 #[test]
 fn a_client_in_the_loop_over_udp_and_its_death() {
     let rig = rig();
-    let (source, to) = listening();
-    let Source::Udp(server) = &source else { unreachable!() };
+    let (server, to) = listening_at("127.0.0.1:0");
     let sink = Sink::Udp { socket: server.try_clone().unwrap(), to: None };
+    let source = Source::Udp(Door::new(server));
     let over = AtomicBool::new(false);
     let width = rig.width();
     let (ended, (answered, said)) = std::thread::scope(|scope| {

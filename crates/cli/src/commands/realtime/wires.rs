@@ -3,7 +3,7 @@
 use super::failure::Failure;
 use super::files::Drafts;
 use super::stage::Stage;
-use crate::arguments::realtime::{Inputs, Outputs};
+use crate::arguments::realtime::{Inputs, Outputs, WireArguments};
 use std::io::{BufReader, Write, stdin};
 use std::net::{SocketAddr, UdpSocket};
 use std::path::{Path, PathBuf};
@@ -11,7 +11,7 @@ use std::sync::Arc;
 use stickslip_realtime::intake::Patience;
 use stickslip_realtime::region::Region;
 use stickslip_realtime::session::Wiring;
-use stickslip_realtime::source::{Lines, MemorySource, Recording, recording_head, socket};
+use stickslip_realtime::source::{Door, Lines, MemorySource, Recording, recording_head, socket};
 use stickslip_realtime::tape::{Form, Reel, tape};
 use stickslip_realtime::wire;
 use stickslip_realtime::{Intake, Sink, Source};
@@ -41,7 +41,7 @@ pub(super) fn open(stage: &Stage<'_>, drafts: &mut Drafts) -> Result<Wires, Fail
             let failed = |source| Failure::Address { address: *address, source };
             let socket = socket(*address).map_err(failed)?;
             own = Some(socket.try_clone().map_err(failed)?);
-            Source::Udp(socket)
+            Source::Udp(Door::new(socket))
         }
         Some(Inputs::Memory(_)) => match &region {
             Some(region) => Source::Memory(MemorySource::new(Arc::clone(region))),
@@ -77,6 +77,28 @@ pub(super) fn open(stage: &Stage<'_>, drafts: &mut Drafts) -> Result<Wires, Fail
     }
     let intake = Intake::new(stage.number, &stage.inputs, patience(stage));
     Ok(Wires { wiring: Wiring { source, intake, sinks, log, recording }, reels, recorded })
+}
+
+/// What other machines can do, in words: addresses beyond loopback are as open as the network is.
+pub(super) fn exposed(wires: &WireArguments) -> Vec<String> {
+    let is_beyond = |address: &&SocketAddr| !address.ip().to_canonical().is_loopback();
+    let reached = match &wires.inputs {
+        Some(Inputs::Udp(address)) => Some(address).filter(is_beyond),
+        _ => None,
+    };
+    let sent = wires.outputs.iter().filter_map(|outputs| match outputs {
+        Outputs::Udp(to) => to.as_ref().filter(is_beyond),
+        _ => None,
+    });
+    let reached = reached.map(|at| {
+        format!(
+            "--inputs udp:{at}: other machines on the network can reach this port, and whoever speaks first has the inputs; \
+             udp:127.0.0.1:{} is this machine's alone",
+            at.port()
+        )
+    });
+    let sent = sent.map(|to| format!("--outputs udp:{to}: outputs go out to the network, as they are"));
+    reached.into_iter().chain(sent).collect()
 }
 
 /// Times as numbers of frames, at least one.
