@@ -32,6 +32,14 @@ fn free_port() -> u16 {
     UdpSocket::bind("127.0.0.1:0").unwrap().local_addr().unwrap().port()
 }
 
+fn waits_until(what: &str, is_so: impl Fn() -> bool) {
+    let begun = Instant::now();
+    while !is_so() {
+        assert!(begun.elapsed() < PATIENCE, "{what}");
+        std::thread::sleep(Duration::from_millis(5));
+    }
+}
+
 /// The end of a child, which must come.
 fn end_of(mut child: Child, what: &str) -> Output {
     let begun = Instant::now();
@@ -193,4 +201,35 @@ fn an_address_beyond_this_machine_is_warned_of() {
         told[0].starts_with("warning: --outputs udp:192.0.2.1:9: outputs go out to the network"),
         "{told:?}"
     );
+}
+
+/// The system would end the process (SIGBUS).
+#[cfg(target_os = "linux")]
+#[test]
+fn shared_memory_that_another_process_cuts_ends_the_loop_with_a_sentence() {
+    for (k, (length, more)) in
+        [(0, &["--wait", "0"][..]), (0, &["--wait", "60 min"]), (100, &["--wait", "0", "-q"])]
+            .iter()
+            .enumerate()
+    {
+        let out = tempdir().unwrap();
+        let memory = out.path().join("memory");
+        let name = format!("shm:{}", memory.display());
+        let mut command = call(&stage(), "1 ms", out.path());
+        command.args(["--for", "60 min", "--floor", "0", "--inputs", &name, "--outputs", &name]).args(*more);
+        let child = command.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
+        // A record of outputs is whole once somebody has told where the drive stands.
+        let word = |bytes: &[u8], at: usize| u64::from_le_bytes(bytes[at..at + 8].try_into().unwrap());
+        waits_until("the loop does not begin", || {
+            fs::read(&memory)
+                .is_ok_and(|bytes| bytes.len() > 64 && word(&bytes, word(&bytes, 40) as usize) >= 2)
+        });
+        fs::OpenOptions::new().write(true).open(&memory).unwrap().set_len(*length).unwrap();
+        let output = end_of(child, "the memory was cut");
+        assert_eq!(code(&output), 3, "{k}: {}", stderr(&output));
+        let told = "another process made the shared memory shorter";
+        assert!(stderr(&output).contains(told), "{k}: {}", stderr(&output));
+        let report = report(&out.path().join("stage"));
+        assert!(report["ended"] == "memory" && report["error"].as_str().unwrap().contains(told), "{report}");
+    }
 }

@@ -2,9 +2,12 @@
 //!
 //! Whatever they write, words are numbers: nothing in it is trusted, no length and no place is read from it.
 
+#[cfg(target_os = "linux")]
+mod bus;
+
 use std::io;
 use std::path::{Path, PathBuf};
-use std::sync::atomic::AtomicU64;
+use std::sync::atomic::{AtomicU64, Ordering};
 use thiserror::Error;
 
 /// Why there is no shared memory.
@@ -19,6 +22,12 @@ pub enum MemoryError {
     /// Not on this system.
     #[error("{}: shared memory is not to be had on this system; use udp", .0.display())]
     Unknown(PathBuf),
+    /// Another process has cut it.
+    #[error(
+        "{}: another process made the shared memory shorter, or wrote behind its records; the loop ended",
+        .0.display()
+    )]
+    Cut(PathBuf),
     /// The system's word.
     #[error("{}: {source}", path.display())]
     System {
@@ -30,8 +39,12 @@ pub enum MemoryError {
 }
 
 /// Words that other processes may read and write at any time; their file is gone when it is dropped.
+///
+/// Behind them lies the mark once more. Who makes the file shorter makes that 0: the system fills what remains of a page with zeros,
+/// and where no page remains a page of zeros takes its place as soon as it is touched (`bus`), which would be the end of the process.
 pub struct Shared {
     path: PathBuf,
+    mark: u64,
     mapping: imp::Mapping,
 }
 
@@ -43,13 +56,31 @@ impl Shared {
     /// # Errors
     /// A file that is something else or in use; the system's word.
     pub fn make(path: &Path, mark: u64, length: usize) -> Result<Self, MemoryError> {
-        let mapping = imp::Mapping::make(path, mark, length)?;
-        Ok(Self { path: path.to_owned(), mapping })
+        let shared =
+            Self { path: path.to_owned(), mark, mapping: imp::Mapping::make(path, mark, length + 1)? };
+        shared.end().store(mark, Ordering::Relaxed);
+        Ok(shared)
     }
 
     /// The words.
     pub fn words(&self) -> &[AtomicU64] {
-        self.mapping.words()
+        let all = self.mapping.words();
+        &all[..all.len() - 1]
+    }
+
+    fn end(&self) -> &AtomicU64 {
+        let all = self.mapping.words();
+        &all[all.len() - 1]
+    }
+
+    /// Whether the file has its length still, and nobody has written behind the words.
+    pub fn is_whole(&self) -> bool {
+        self.end().load(Ordering::Relaxed) == self.mark
+    }
+
+    /// Where the file was made.
+    pub fn path(&self) -> &Path {
+        &self.path
     }
 }
 
@@ -65,6 +96,7 @@ impl Drop for Shared {
 
 #[cfg(target_os = "linux")]
 mod imp {
+    use super::bus::Guard;
     use super::{AtomicU64, MemoryError, Path, io};
     use rustix::fs::{FlockOperation, flock};
     use rustix::mm::{MapFlags, ProtFlags, mmap, munmap};
@@ -79,6 +111,8 @@ mod imp {
     pub(super) struct Mapping {
         start: NonNull<AtomicU64>,
         length: usize,
+        /// Keeps the process alive where the file is made shorter; gone before the mapping.
+        guard: Option<Guard>,
         /// Keeps the lock.
         file: File,
     }
@@ -127,8 +161,9 @@ mod imp {
             if !found.is_file() || (found.len() > 0 && !is_ours()) {
                 return Err(MemoryError::Foreign(path.to_owned()));
             }
-            // A client of the run that was killed may still have it mapped: it never gets shorter.
-            file.set_len(found.len().max(bytes as u64)).map_err(failed)?;
+            // Written, and not only as long: a disk that is full says so here. A client of the run that was killed may still have it
+            // mapped: it never gets shorter.
+            file.write_all_at(&vec![0; bytes], 0).map_err(failed)?;
             let access = ProtFlags::READ | ProtFlags::WRITE;
             #[allow(unsafe_code, reason = "memory that other processes write is not to be had otherwise")]
             // SAFETY: a new mapping at a place that the system chooses takes no memory that anybody has.
@@ -136,8 +171,8 @@ mod imp {
             let start = start.map_err(|errno| failed(io::Error::from(errno)))?;
             let start =
                 NonNull::new(start.cast()).ok_or_else(|| failed(io::ErrorKind::OutOfMemory.into()))?;
-            let mapping = Self { start, length, file };
-            mapping.words().iter().for_each(|word| word.store(0, std::sync::atomic::Ordering::Relaxed));
+            let mut mapping = Self { start, length, guard: None, file };
+            mapping.guard = Some(Guard::over(start.as_ptr() as usize, bytes).map_err(failed)?);
             Ok(mapping)
         }
 
@@ -150,7 +185,7 @@ mod imp {
             #[allow(unsafe_code, reason = "the words of the mapping, whose length nobody else knows")]
             // SAFETY: the mapping has `length` words, begins at a page, and lives as long as `self`. Every value of a word is
             // a number, and whoever else writes them, this process reads and writes them by atomics only. The file was made
-            // as long as the mapping and is its user's alone; if that user cuts it, the system ends the process (SIGBUS).
+            // as long as the mapping and is its user's alone; if that user cuts it, zeros take its place (`bus`).
             unsafe {
                 std::slice::from_raw_parts(self.start.as_ptr(), self.length)
             }
@@ -159,6 +194,8 @@ mod imp {
 
     impl Drop for Mapping {
         fn drop(&mut self) {
+            // First: what lies at this place afterwards is somebody else's.
+            self.guard = None;
             #[allow(unsafe_code, reason = "the mapping's end")]
             // SAFETY: it is the mapping that `make` made, whole, and no reference into it outlives `self`. An error would
             // leave it mapped until the process ends.
@@ -235,10 +272,28 @@ mod tests {
             Shared::make(&path, MARK, 8).is_ok()
         };
         // Killed before the mark was written, with other words there already.
-        let mut head = [0; 64];
+        let mut head = [0; 72];
         head[20] = 1;
         assert!(after(&head) && after(&[]) && after(&MARK.to_ne_bytes()));
-        assert!(!after(&head[..63]) && !after(&[1; 64]));
+        assert!(!after(&head[..71]) && !after(&[1; 72]));
+    }
+
+    /// The system sends a process SIGBUS that touches what is no more.
+    #[test]
+    fn memory_whose_file_was_made_shorter_is_zeros_and_known() {
+        let folder = tempfile::tempdir().unwrap();
+        for (name, length) in [("nothing", 0), ("a_word", 8), ("half", 4096 + 24), ("the_mark", 8000)] {
+            let path = folder.path().join(name);
+            let shared = Shared::make(&path, MARK, 1000).unwrap();
+            shared.words().iter().for_each(|word| word.store(5, Ordering::Relaxed));
+            assert!(shared.is_whole());
+            std::fs::OpenOptions::new().write(true).open(&path).unwrap().set_len(length).unwrap();
+            assert!(!shared.is_whole(), "{name}");
+            let last = &shared.words()[999];
+            assert!(last.load(Ordering::Relaxed) == if length == 8000 { 5 } else { 0 }, "{name}");
+            last.store(7, Ordering::Relaxed);
+            assert!(last.load(Ordering::Relaxed) == 7 && !shared.is_whole(), "{name}");
+        }
     }
 
     #[test]

@@ -10,6 +10,7 @@ use crate::plant::{PlantError, STEPS, Work};
 use crate::room::touched;
 use crate::system::{now, sleep_until};
 use crate::worst::{Slow, Worst};
+use std::path::PathBuf;
 use stickslip_drive::RunError;
 
 /// How far ahead the first deadline lies, ns.
@@ -68,6 +69,8 @@ pub enum Stop {
     Overrun,
     /// No input came for longer than was allowed.
     Silence,
+    /// Another process made the file of the shared memory shorter.
+    Cut(PathBuf),
 }
 
 impl From<PlantError> for Stop {

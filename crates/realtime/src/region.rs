@@ -67,6 +67,16 @@ impl Region {
         Ok(Arc::new(region))
     }
 
+    /// Where it lies.
+    pub(crate) fn path(&self) -> &Path {
+        self.shared.path()
+    }
+
+    /// Whether nobody has made its file shorter.
+    pub(crate) fn is_whole(&self) -> bool {
+        self.shared.is_whole()
+    }
+
     fn input(&self) -> &[AtomicU64] {
         &self.shared.words()[LINE..LINE + RECORD + self.inputs]
     }

@@ -8,6 +8,7 @@ pub use words::{PROMISE, text};
 
 use crate::histogram::Histogram;
 use crate::intake::Received;
+use crate::memory::MemoryError;
 use crate::pace::{Overrun, Pace, Stop, Timing};
 use crate::probe::{Probe, RowsProbe};
 use crate::session::Ended;
@@ -38,9 +39,9 @@ pub struct Report {
     pub spin_s: f64,
     /// What was done about overruns.
     pub overrun_policy: Option<&'static str>,
-    /// How it ended: `complete`, `interrupted`, `overrun`, `silence`, `stopped`, or `no_input`.
+    /// How it ended: `complete`, `interrupted`, `overrun`, `silence`, `memory`, `stopped`, or `no_input`.
     pub ended: &'static str,
-    /// Why the drive stopped itself.
+    /// Why the drive stopped itself, or what became of the shared memory.
     pub error: Option<String>,
     /// Whether it is complete and no frame overran.
     pub kept: bool,
@@ -211,7 +212,7 @@ impl Report {
     }
 }
 
-/// How a loop ended, in a word, and why the drive stopped itself.
+/// How a loop ended, in a word, and why where that says too little.
 fn ending(ended: &Ended) -> (&'static str, Option<String>) {
     match &ended.outcome {
         Ok(()) if ended.waited_in_vain => ("no_input", None),
@@ -219,6 +220,7 @@ fn ending(ended: &Ended) -> (&'static str, Option<String>) {
         Err(Stop::Interrupted) => ("interrupted", None),
         Err(Stop::Overrun) => ("overrun", None),
         Err(Stop::Silence) => ("silence", None),
+        Err(Stop::Cut(path)) => ("memory", Some(MemoryError::Cut(path.clone()).to_string())),
         Err(Stop::Plant(error)) => ("stopped", Some(error.to_string())),
     }
 }

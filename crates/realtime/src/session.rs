@@ -33,6 +33,17 @@ pub struct Wiring {
 }
 
 impl Wiring {
+    /// Fails where shared memory is not what it was made as.
+    fn check_memory(&self) -> Result<(), Stop> {
+        let read = if let Source::Memory(memory) = &self.source { Some(memory.region()) } else { None };
+        let written = self.sinks.iter().filter_map(|sink| match sink {
+            Sink::Memory(region) => Some(&**region),
+            _ => None,
+        });
+        let cut = read.into_iter().chain(written).find(|region| !region.is_whole());
+        cut.map_or(Ok(()), |region| Err(Stop::Cut(region.path().to_owned())))
+    }
+
     /// From now on what is written down waits for room: nothing is due, so that nothing has to be lost.
     fn wait(&mut self) {
         self.sinks.iter_mut().for_each(Sink::wait);
@@ -92,6 +103,7 @@ impl<P: Plant> Cycle for Live<'_, P> {
         if !self.observer.goes_on() {
             return Err(Stop::Interrupted);
         }
+        self.wiring.check_memory()?;
         let Wiring { source, intake, sinks, recording, .. } = &mut *self.wiring;
         source.poll(intake);
         intake.settle()?;
@@ -191,13 +203,17 @@ impl Drop for Over<'_> {
 impl<P: Plant> Live<'_, P> {
     /// Waits for the first good input and sends the outputs of the start meanwhile; whether one came, or none is needed.
     fn wait(&mut self, seconds: f64) -> bool {
-        let Wiring { source, intake, sinks, .. } = &mut *self.wiring;
-        let waits = matches!(source, Source::Udp(_) | Source::Memory(_) | Source::Lines(_));
-        if !waits || intake.width() == 0 || seconds <= 0.0 {
+        let waits = matches!(self.wiring.source, Source::Udp(_) | Source::Memory(_) | Source::Lines(_));
+        if !waits || self.wiring.intake.width() == 0 || seconds <= 0.0 {
             return true;
         }
         let end = now().saturating_add((NANO * seconds) as u64);
         loop {
+            // What ends the wait without an input ends the loop before its first frame.
+            if !self.observer.goes_on() || self.wiring.check_memory().is_err() {
+                return true;
+            }
+            let Wiring { source, intake, sinks, .. } = &mut *self.wiring;
             for sink in &mut *sinks {
                 let stamp = Stamp { sequence: 0, time: 0.0 };
                 // The file has frames only.
@@ -206,7 +222,7 @@ impl<P: Plant> Live<'_, P> {
                 }
             }
             source.poll(intake);
-            if intake.owner().is_some() || !self.observer.goes_on() {
+            if intake.owner().is_some() {
                 return true;
             }
             if now() >= end {

@@ -45,6 +45,10 @@ impl MemorySource {
         Self { region, seen: 0, record, busy: (0, 0) }
     }
 
+    pub(crate) fn region(&self) -> &Region {
+        &self.region
+    }
+
     fn poll(&mut self, intake: &mut Intake) {
         match self.region.read(self.seen, &mut self.record) {
             Found::Same => {}

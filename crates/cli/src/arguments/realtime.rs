@@ -29,7 +29,7 @@ Without a real-time kernel nobody can promise that the system does not keep the 
 
 Writes DIR/NAME/realtime.json, histogram.csv, frames.csv (the worst frames and what happened in them), realtime.png and timeline.png. Exit codes: 0 all \
 frames were computed, 2 bad input (the input never came, a port in use), 3 the drive stopped itself, or the loop by --overrun stop \
-or --silence stop, or something could not be written, 130 interrupted (one SIGINT or SIGTERM, \
+or --silence stop, another process made the shared memory shorter, or something could not be written, 130 interrupted (one SIGINT or SIGTERM, \
 also within a frame); what was computed is written.";
 
 /// Examples under the long help.

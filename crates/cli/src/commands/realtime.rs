@@ -102,6 +102,7 @@ fn tell(
     if arguments.quiet || arguments.json {
         ended.denied.iter().for_each(|denied| complain(format_args!("{denied}")));
     }
+    report.error.iter().for_each(|error| complain(format_args!("{}: stopped: {error}", report.scenario)));
     if arguments.json {
         say_json(&report.line()?);
     } else if !arguments.quiet {
@@ -116,7 +117,7 @@ fn verdict(ended: &Ended) -> Verdict {
     match ended.outcome {
         Ok(()) => Verdict::Done,
         Err(Stop::Interrupted) => Verdict::Interrupted,
-        Err(Stop::Overrun | Stop::Silence | Stop::Plant(_)) => Verdict::Stopped,
+        Err(Stop::Overrun | Stop::Silence | Stop::Cut(_) | Stop::Plant(_)) => Verdict::Stopped,
     }
 }
 

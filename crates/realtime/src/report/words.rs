@@ -100,7 +100,7 @@ fn verdict(report: &Report) -> String {
     let share = 1e-4 * report.execution.p99_99_us / report.period_s;
     let Report { overruns, frames, deadlines_left_out, most_left_out, .. } = report;
     match report.ended {
-        "stopped" => format!("stopped: {}", report.error.as_deref().unwrap_or_default()),
+        "stopped" | "memory" => format!("stopped: {}", report.error.as_deref().unwrap_or_default()),
         "no_input" => "not begun: no input came".to_owned(),
         _ if !report.paced => {
             format!("not paced; 99.99 % of the frames took up to {share:.1} % of the period")

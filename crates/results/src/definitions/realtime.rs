@@ -21,8 +21,11 @@ pub(super) const REALTIME: &[Definition] = &[
         "overrun_policy",
         "what was done about overruns, `skip` (deadlines that had passed were left out) or `stop`; null without a clock",
     ),
-    of("ended", "how it ended: `complete`, `interrupted`, `overrun`, `silence`, `stopped` or `no_input`"),
-    of("error", "why the drive stopped itself; null where it did not"),
+    of(
+        "ended",
+        "how it ended: `complete`, `interrupted`, `overrun`, `silence`, `memory` (another process made the shared memory shorter), `stopped` or `no_input`",
+    ),
+    of("error", "why the drive stopped itself, or what became of the shared memory; null where neither was"),
     of("kept", "whether it is complete and no frame ended after the next deadline"),
     of("overruns", "frames that ended after the next deadline"),
     of("deadlines_left_out", "deadlines that had passed and were left out"),
