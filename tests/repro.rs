@@ -103,6 +103,23 @@ fn a_picture_of_a_run_is_reproduced() {
     }
 }
 
+/// A picture may come from anybody, and what it carries may take for ever.
+#[test]
+fn a_picture_whose_run_takes_too_long_is_not_waited_for() {
+    let out = tempdir().unwrap();
+    let set =
+        ["run.stepper={\"verlet\":{\"step\":\"1 us\"}}", SHORT, "plots=[\"loop\"]", "run.limits.wall=60 s"];
+    assert_eq!(code(&run(&scenario("quickstart"), out.path(), &set)), 0);
+    let picture = out.path().join("quickstart/loop.png");
+    let output = repro(&picture, &["--wall", "1 ns"]);
+    assert_eq!((code(&output), stdout(&output)), (3, String::new()));
+    let said = stderr(&output);
+    assert!(said.contains("loop.png: the limit of 0.000000001 s of wall time was reached at t = "), "{said}");
+    assert!(said.contains("nothing compared\n   help: give it longer with --wall"), "{said}");
+    let output = repro(&picture, &["--wall", "10 min"]);
+    assert_eq!((code(&output), stderr(&output)), (0, String::new()));
+}
+
 #[cfg(unix)]
 #[test]
 fn a_picture_of_an_interrupted_run_is_reproduced_to_the_same_step() {

@@ -152,7 +152,7 @@ pub(crate) enum Command {
     ///
     /// A PNG or SVG of `run` or `plot` carries its whole scenario and a fingerprint of the trace and the events. Says
     /// "identical", or which channel differs from when. Exit codes: 0 identical, 1 different, 2 a file that is no such
-    /// picture, 3 the results cannot be written, 130 interrupted.
+    /// picture, 3 the results cannot be written or --wall was reached, 130 interrupted.
     #[command(after_long_help = pictures::REPRO_EXAMPLES)]
     Repro(ReproArguments),
     /// Run all scenarios of a folder and draw all their pictures, with a page that shows them

@@ -1,6 +1,7 @@
 //! The command line of pictures.
 
 use crate::arguments::look::LookArguments;
+use crate::arguments::run::interval;
 use clap::Args;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use std::path::PathBuf;
@@ -15,8 +16,9 @@ Examples:
 
 pub(super) const REPRO_EXAMPLES: &str = "\
 Examples:
-  stickslip repro loop.png             runs what loop.png carries and compares
-  stickslip repro loop.png --out here  leaves the results, scenario.json among them, in the folder here";
+  stickslip repro loop.png                 runs what loop.png carries and compares
+  stickslip repro loop.png --out here      leaves the results, scenario.json among them, in the folder here
+  stickslip repro loop.png --wall \"1 min\"  runs it for a minute at most";
 
 pub(super) const GALLERY_EXAMPLES: &str = "\
 Examples:
@@ -52,6 +54,10 @@ pub(crate) struct ReproArguments {
     /// Folder for the results of the run; by default nothing is written
     #[arg(long, value_name = "DIR")]
     pub(crate) out: Option<PathBuf>,
+    /// Longest that the run may take on the wall, such as "1 min": where it takes longer nothing is compared (exit code 3). By default
+    /// it runs to its end, whatever limit of wall time the picture carries
+    #[arg(long, value_name = "TIME", value_parser = interval)]
+    pub(crate) wall: Option<f64>,
     /// No progress, no result for people; errors and the exit code only
     #[arg(short, long)]
     pub(crate) quiet: bool,

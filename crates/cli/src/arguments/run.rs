@@ -79,7 +79,7 @@ pub(crate) struct ConductArguments {
 }
 
 /// Reads a time above 0, s.
-fn interval(text: &str) -> Result<f64, String> {
+pub(super) fn interval(text: &str) -> Result<f64, String> {
     let seconds = stickslip_scenario::quantity(text, "s")?;
     if seconds > 0.0 { Ok(seconds) } else { Err("expected a time above 0, such as \"30 s\"".to_owned()) }
 }

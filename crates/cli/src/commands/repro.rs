@@ -8,6 +8,7 @@ use crate::console::progress::Progress;
 use crate::console::verdict::Verdict;
 use std::io;
 use std::path::{Path, PathBuf};
+use stickslip_drive::RunError;
 use stickslip_figures::{Origin, OriginError};
 use stickslip_results::complaint::words;
 use stickslip_results::fingerprint::{Difference, Differing, Fingerprint};
@@ -31,6 +32,9 @@ enum ReproFailure {
     /// The results cannot be written.
     #[error("{}: the results cannot be written: {}", .folder.display(), words(.source))]
     Write { folder: PathBuf, source: io::Error },
+    /// The run takes too long.
+    #[error("{}: {error}, nothing compared\n   help: give it longer with --wall", .picture.display())]
+    OutOfTime { picture: PathBuf, error: RunError },
     /// Somebody interrupted the run.
     #[error("{}: interrupted, nothing compared", .0.display())]
     Interrupted(PathBuf),
@@ -45,7 +49,7 @@ pub(crate) fn repro(arguments: &ReproArguments) -> Verdict {
             complain(format_args!("{failure}"));
             match failure {
                 ReproFailure::Origin(_) | ReproFailure::Folder(_) => Verdict::BadInput,
-                ReproFailure::Write { .. } => Verdict::Stopped,
+                ReproFailure::Write { .. } | ReproFailure::OutOfTime { .. } => Verdict::Stopped,
                 ReproFailure::Interrupted(_) => Verdict::Interrupted,
             }
         }
@@ -56,7 +60,8 @@ fn compare(arguments: &ReproArguments) -> Result<bool, ReproFailure> {
     let file = &arguments.file;
     // Beside results that were not published whole it may be of this run or of one before.
     check_published(file.parent().unwrap_or(Path::new("")))?;
-    let origin = Origin::read(file, arguments.out.as_deref())?;
+    let mut origin = Origin::read(file, arguments.out.as_deref())?;
+    origin.job.scenario.plan.limits.wall = arguments.wall;
     let this = this_program();
     if origin.program != this {
         complain(format_args!("{}: note: computed by {}, this is {this}", file.display(), origin.program));
@@ -105,6 +110,9 @@ fn run_again(origin: &Origin, arguments: &ReproArguments) -> Result<Fingerprint,
     }
     if interrupt.is_raised() {
         return Err(ReproFailure::Interrupted(arguments.file.clone()));
+    }
+    if let Some(error @ RunError::OutOfTime { .. }) = outcome.error {
+        return Err(ReproFailure::OutOfTime { picture: arguments.file.clone(), error });
     }
     Ok(outcome.kept.fingerprint())
 }
