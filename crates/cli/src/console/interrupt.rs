@@ -27,7 +27,17 @@ impl Interrupt {
                 std::process::exit(i32::from(crate::console::verdict::Verdict::Interrupted.code()));
             }
         });
+        interrupt.raise_where_signals_arrive();
         interrupt
+    }
+
+    /// Raises it in the signal's own handler: the thread that listens may get its turn only many short frames later on a busy machine.
+    fn raise_where_signals_arrive(&self) {
+        #[cfg(unix)]
+        for signal in [signal_hook::consts::SIGINT, signal_hook::consts::SIGTERM] {
+            // Without it the signal is heard a little later.
+            let _ = signal_hook::flag::register(signal, Arc::clone(&self.0));
+        }
     }
 
     /// Whether to stop.
