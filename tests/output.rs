@@ -55,6 +55,24 @@ fn whatever_is_asked_for_reads_back_and_goes_on_to_the_byte() {
     }
 }
 
+/// A million periods make a table of 105 MB.
+#[test]
+fn steps_that_are_not_written_are_counted_all_the_same() {
+    let out = tempdir().unwrap();
+    let folders = ["all", "off"].map(|steps| {
+        let steps_of_all = format!("output.steps={steps}");
+        run_example("p1", &out.path().join(steps), &["run.cycles=40", &steps_of_all])
+    });
+    let has_table = folders.each_ref().map(|folder| folder.join("steps.csv").exists());
+    assert_eq!(has_table, [true, false]);
+    let [all, off] = folders.each_ref().map(|folder| summary(folder));
+    assert!(all["steps"]["periods"] == 40 && all["steps"] == off["steps"], "{}", off["steps"]);
+    assert_eq!(off["tables"].get("steps.csv"), None);
+    assert_readable(&folders[1]);
+    let compared = stickslip().arg("compare").args(&folders).output().unwrap();
+    assert_eq!(code(&compared), 0, "{}", stderr(&compared));
+}
+
 #[test]
 fn events_without_end_are_thinned_and_it_is_said() {
     let out = tempdir().unwrap();

@@ -210,9 +210,10 @@ impl<'a> Recorder<'a> {
         if let Some(failure) = self.recorded.tally.take_failure() {
             self.fail(failure);
         }
-        if let (Some(tables), Some(periods)) = (&mut self.tables, self.marks.figures()) {
+        let steps = self.tables.as_mut().and_then(|tables| tables.steps.as_mut());
+        if let (Some(steps), Some(periods)) = (steps, self.marks.figures()) {
             let end = |k: u64| periods.end_of(k as usize);
-            tables.steps.write([end(number.saturating_sub(1)), end(number)], stride);
+            steps.write([end(number.saturating_sub(1)), end(number)], stride);
         }
     }
 

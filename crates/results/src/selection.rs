@@ -178,7 +178,14 @@ mod tests {
         let until = |times: &[f64]| {
             let events = WrittenEvents { kinds: None, contacts: None, most: 100 };
             let window = [0.0, f64::INFINITY];
-            let written = Written { events, window, goes_by_end: false, digits: None, state_numbers: false };
+            let written = Written {
+                events,
+                steps: true,
+                window,
+                goes_by_end: false,
+                digits: None,
+                state_numbers: false,
+            };
             let mut selection = Selection::new(written, &[]);
             for t in times {
                 selection.takes(Source::Contact(0), "touch", *t);

@@ -21,7 +21,8 @@ pub(super) struct Tables<'a> {
     pub(super) trace: Table,
     pub(super) events: Table,
     pub(super) cycles: CyclesTable,
-    pub(super) steps: StepsTable,
+    /// None where no step is written.
+    pub(super) steps: Option<StepsTable>,
     pub(super) insides: Insides<'a>,
     /// Room on the disk for the last blocks of the tables, each for itself.
     reserve: Vec<File>,
@@ -61,7 +62,11 @@ impl<'a> Tables<'a> {
             trace: table(TRACE, &[])?,
             events: table(EVENTS, &["source", "kind"])?,
             cycles: CyclesTable::new(folder.draft(CYCLES)?),
-            steps: StepsTable::new(folder.draft(STEPS)?),
+            steps: if job.scenario.written.steps {
+                Some(StepsTable::new(folder.draft(STEPS)?))
+            } else {
+                None
+            },
             insides: Insides::new(job, folder)?,
             reserve: (0..MOST).map(|_| folder.spare(LAST_BLOCK)).collect::<io::Result<_>>()?,
         })
@@ -71,7 +76,7 @@ impl<'a> Tables<'a> {
         self.trace.has_failed()
             || self.events.has_failed()
             || self.cycles.has_failed()
-            || self.steps.has_failed()
+            || self.steps.as_ref().is_some_and(StepsTable::has_failed)
             || self.insides.has_failed()
     }
 
@@ -88,7 +93,9 @@ impl<'a> Tables<'a> {
         let mut closed = Closed::default();
         let mut all = vec![(TRACE, self.trace.finish()?), (EVENTS, self.events.finish()?)];
         let mut optional = Vec::new();
-        for (name, finished) in [(CYCLES, self.cycles.finish()), (STEPS, self.steps.finish())] {
+        for (name, finished) in
+            [(CYCLES, self.cycles.finish()), (STEPS, self.steps.map_or(Ok(None), StepsTable::finish))]
+        {
             match finished {
                 Ok(written) => optional.extend(written.map(|written| (name, written))),
                 // The others are worth something without it.

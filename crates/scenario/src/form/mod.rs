@@ -51,7 +51,7 @@ pub(crate) use shapes::{
 pub(crate) use table::{JoinForm, Point, TableForm};
 pub(crate) use value::{Moving, Parts, WaveformRef};
 pub(crate) use waveform::WaveformForm;
-pub(crate) use written::{EventsOutputForm, KindForm, StatesForm, WindowForm};
+pub(crate) use written::{EventsOutputForm, KindForm, StatesForm, StepsOutputForm, WindowForm};
 
 use crate::schema::{no_default, no_ground, no_trace_column};
 use schemars::JsonSchema;

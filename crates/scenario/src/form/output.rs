@@ -1,6 +1,6 @@
 //! What is written down.
 
-use super::{Count, EventsOutputForm, StatesForm, WindowForm};
+use super::{Count, EventsOutputForm, StatesForm, StepsOutputForm, WindowForm};
 use crate::quantity::{Length, Time};
 use crate::schema::{above_zero, at_least_zero};
 use schemars::JsonSchema;
@@ -25,6 +25,10 @@ pub(crate) struct OutputForm {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(example = &"off", example = json!({ "kinds": ["gross slip", "gross slip ends"] }))]
     pub(crate) events: Option<EventsOutputForm>,
+    /// Whether `steps.csv` has every step of a drive: `all` (default) or `off`. Figures are taken from all of them whatever is written.
+    #[serde(default, skip_serializing_if = "StepsOutputForm::is_all")]
+    #[schemars(example = &"off")]
+    pub(crate) steps: StepsOutputForm,
     /// Rows and events only within these times, by default all the way; the first and the last row are written anyway. This or
     /// `last`.
     #[serde(default, skip_serializing_if = "Option::is_none")]

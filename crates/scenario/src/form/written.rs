@@ -103,6 +103,24 @@ impl StatesForm {
     }
 }
 
+/// Which steps of a drive are written.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub(crate) enum StepsOutputForm {
+    /// Every one.
+    #[default]
+    All,
+    /// None.
+    Off,
+}
+
+impl StepsOutputForm {
+    #[allow(clippy::trivially_copy_pass_by_ref, reason = "the serialiser asks by reference")]
+    pub(crate) fn is_all(&self) -> bool {
+        *self == Self::All
+    }
+}
+
 impl KindForm {
     /// The word in `events.csv`.
     pub(crate) fn name(self) -> &'static str {

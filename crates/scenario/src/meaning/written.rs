@@ -21,6 +21,8 @@ const LEAST: u64 = 100;
 pub struct Written {
     /// Which events.
     pub events: WrittenEvents,
+    /// Whether the steps of a drive are.
+    pub steps: bool,
     /// From when until when, s, both included; the first and the last row of a run are written anyway.
     pub window: [f64; 2],
     /// Whether the window goes by the end of the run.
@@ -60,6 +62,7 @@ impl Builder<'_> {
         };
         Ok(Written {
             events: self.written_events(&at.key("events"))?,
+            steps: form.steps.is_all(),
             window: self.window(&at, plan, figures)?,
             goes_by_end: form.last.is_some(),
             digits: form.float.map(digits).transpose()?.filter(|digits| *digits < DIGITS.1 as usize),
