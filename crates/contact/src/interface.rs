@@ -50,6 +50,12 @@ impl Interface {
         Ok(())
     }
 
+    /// The same without friction.
+    #[must_use]
+    pub fn frictionless(self) -> Self {
+        Self { friction: 0.0, slope: 0.0, ..self }
+    }
+
     /// The same with stuck springs that carry βG\*ṡ beside G\*s, ṡ the rate of their stretch; β in s, at least 0.
     ///
     /// Only the elastic part G\*s decides what slips, so |F_x| may exceed μF_N by up to βG\*m(c)|u̇|, c the radius that sticks;

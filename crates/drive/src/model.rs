@@ -221,10 +221,10 @@ impl Model {
     /// Where no contact has friction, the largest mv² of a free coordinate at its natural speed, or what balanced coordinates
     /// store; 1 J where that is nothing, too.
     pub(crate) fn work_scale(&self) -> f64 {
-        let work = |c: &Contact| c.friction_limit() * c.natural.displacement;
-        let smallest = self.contacts.iter().map(work).filter(|w| *w > 0.0).fold(f64::INFINITY, f64::min);
+        let works = || self.contacts.iter().map(Contact::natural_work);
+        let smallest = works().filter(|w| *w > 0.0).fold(f64::INFINITY, f64::min);
         if smallest.is_finite() {
-            let largest = self.contacts.iter().map(work).fold(0.0, f64::max);
+            let largest = works().fold(0.0, f64::max);
             return smallest.max(LEAST_WORK * largest);
         }
         let swing = self.free.iter().map(|free| free.mass * free.scale.1 * free.scale.1).fold(0.0, f64::max);

@@ -138,6 +138,31 @@ impl Model {
         self.balanced.iter().map(of).filter(|work| work.is_normal()).reduce(f64::min)
     }
 
+    /// What rounding makes of the work of pulls that springs hold, J.
+    pub(crate) fn balanced_rounding(&self) -> f64 {
+        let held = self.balanced.iter().filter(|b| b.stiffness > 0.0 && !b.contacts.is_empty());
+        let stored = held.map(|b| b.pull.widest(|w| self.signals().range(w)).powi(2) / b.stiffness);
+        f64::EPSILON * stored.filter(|work| work.is_finite()).fold(0.0, f64::max)
+    }
+
+    /// Tells contacts that one balanced coordinate moves how far at most it does while they stick: as far as its pull goes against
+    /// springs and contact.
+    pub(super) fn sweep_balanced(&mut self) {
+        let pulls: Vec<f64> =
+            self.balanced.iter().map(|b| b.pull.widest(|w| self.signals().range(w))).collect();
+        for (balanced, pull) in self.balanced.iter().zip(pulls).filter(|(b, _)| b.axis == Axis::X) {
+            for (c, _) in &balanced.contacts {
+                let contact = &mut self.contacts[*c];
+                let natural = &mut contact.natural;
+                let stuck = contact.count * contact.interface.stick_stiffness(natural.depth);
+                let way = pull / (balanced.stiffness + stuck);
+                if contact.u.driven.len() == 1 && way > 0.0 && way < natural.displacement {
+                    natural.sweep = way / natural.displacement;
+                }
+            }
+        }
+    }
+
     /// Puts balanced coordinates along z where they are at t = 0.
     pub(super) fn settle_balanced(&mut self) {
         if self.balanced.iter().all(|b| b.axis != Axis::Z) {

@@ -72,6 +72,7 @@ impl Model {
         scales.find_forces(scene);
         let (contacts, free) = (&mut self.contacts, &mut self.free);
         scale::assign(contacts, free, &self.links, &self.waveforms, (deepest, pushes), scales);
+        self.sweep_balanced();
         self.moment = balanced::moment(&self.waveforms);
         self.settle_balanced();
         Paces { fastest: self.fastest, stiff: self.stiff, .. } = self.paces();

@@ -1,6 +1,6 @@
 //! Natural scales: one tolerance suits every scene because errors are measured against these.
 
-use super::{Free, Link};
+use super::{Free, Link, Measure};
 use crate::Waveform;
 use crate::contact::{Contact, Natural};
 use crate::scene::{Axis, Normal, Scene, Varying};
@@ -87,13 +87,27 @@ pub(super) fn assign(
         let normal = c.coupling().map_or(&[][..], |measure| &measure.free[..]);
         let moved = c.u.free.iter().chain(normal);
         let fastest = moved.map(|(i, _)| frequency[*i]).fold(0.0, f64::max);
+        let displacement = c.interface.gross_slip_displacement(d);
+        let [along, normal] = [driven(&c.u, waveforms), c.coupling().map_or(0.0, |d| driven(d, waveforms))];
+        let is_small = c.is_walked() && along > 0.0 && along < displacement;
+        let force = c.interface.normal_force(d.max(0.0));
+        let limit = c.interface.friction() * force;
         c.natural = Natural {
             depth: d.max(0.0),
-            displacement: c.interface.gross_slip_displacement(d),
-            force: c.interface.friction() * c.interface.normal_force(d.max(0.0)),
+            displacement,
+            sweep: if is_small { along / displacement } else { 1.0 },
+            input: c.count
+                * [limit * along, force * normal].into_iter().filter(|work| work.is_finite()).sum::<f64>(),
+            force: limit,
             frequency: if fastest > 0.0 { fastest } else { slow },
         };
     }
+}
+
+/// How far waveforms move a measure, m; infinite where something else drives it.
+fn driven(measure: &Measure, waveforms: &[Waveform]) -> f64 {
+    let range = |w: usize| waveforms.get(w).map_or(f64::INFINITY, |w| w.range().1 - w.range().0);
+    measure.driven.iter().map(|(w, a)| a.abs() * range(*w)).sum()
 }
 
 /// Stiffness that acts on each free coordinate with all contacts stuck, N/m or N m/rad, and the smallest displacement

@@ -44,9 +44,16 @@ impl Implausible<'_> {
         let job = self.job;
         for (c, (name, law)) in job.model.contacts().enumerate() {
             let d = self.depth(c);
-            // A contact that its bodies press bears them all the same.
-            if law.friction() == 0.0 && !job.is_coupled(c) {
-                let path = format!("contacts.{name}.friction");
+            let path = format!("contacts.{name}.friction");
+            let given =
+                job.scenario.scene.contacts.get(c).map_or(0.0, |contact| contact.part.interface.friction());
+            if given > law.friction() {
+                let message = format!(
+                    "a friction of {given:e} holds less than rounding makes of the forces and places beside it: it counts as none"
+                );
+                self.find("friction", &path, message, "a larger friction, or 0 where none is meant");
+            } else if law.friction() == 0.0 && !job.is_coupled(c) {
+                // A contact that its bodies press bears them all the same.
                 let message = "without friction nothing holds: it slides under any force, and loses nothing";
                 self.find("friction", &path, message.to_owned(), "is that what was meant?");
             }

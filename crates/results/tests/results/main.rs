@@ -34,6 +34,7 @@ mod piezo;
 mod real_time;
 mod riding;
 mod rows;
+mod scales;
 mod settling;
 mod springs;
 mod starts;

@@ -7,9 +7,9 @@
 
 use super::shift::FAR;
 use crate::Model;
-use crate::contact::Contact;
+use crate::contact::{Contact, PLACES};
 use crate::equations::{Components, Equations};
-use crate::model::{Binding, Body, Link, Stroke};
+use crate::model::{Binding, Body, Link, Measure, Stroke};
 use crate::state::{Allowed, State};
 
 /// Part of the tolerance that is asked of the estimates where a list of springs puts kinks into the law: they are no events,
@@ -41,6 +41,9 @@ const RUSH: f64 = 0.1;
 /// Tolerance below which contacts are asked, too: at it a thousand seconds of a drive that goes by 10⁵ natural lengths a second are not seen.
 const RUSH_BELOW: f64 = 1e-8;
 
+/// Friction below which u_c may lie below the rounding of places.
+const FAINT: f64 = 1e-4;
+
 /// Differences over which derivatives are taken, in natural scales: far below what bends a contact's force, which is a tenth of
 /// u_c and more, and far above rounding.
 const DIFFERENCE: f64 = 1e-7;
@@ -57,6 +60,10 @@ pub(super) struct Allowance {
     work: f64,
     /// Share of a work that is rounding, where no contact and no stroke tells how much of it matters.
     rounding: f64,
+    /// What rounding makes of the work that waveforms put in, J.
+    least: f64,
+    /// Whether a contact's friction is so small that the tolerance may lie below the rounding of places beside it.
+    is_faint: bool,
 }
 
 impl Allowance {
@@ -74,7 +81,8 @@ impl Allowance {
             if let Some(slot) = contact.slot {
                 let limit = contact.friction_limit();
                 // Without friction there is no limit to compare with, and no force either.
-                scale[layout.force(slot)] = strict * if limit > 0.0 { limit } else { 1.0 };
+                let natural = if limit > 0.0 { limit } else { 1.0 };
+                scale[layout.force(slot)] = natural * (strict * contact.natural.sweep).max(PLACES);
             }
         }
         for balanced in &model.balanced {
@@ -93,43 +101,56 @@ impl Allowance {
         let follows = |body: &Body| body.bindings.iter().any(|place| matches!(place, Binding::Driven(_)));
         let strokes = model.links.iter().any(|link| matches!(link.stroke, Stroke::Driven(_)));
         let is_told = rubs || strokes || model.bodies.iter().any(follows);
-        let rounding = if is_told { 0.0 } else { 8.0 * f64::EPSILON };
-        Self { allowed: Allowed { scale, power: 0.0 }, tolerance, strict, work: model.work_scale(), rounding }
+        let rounding = if is_told { 0.0 } else { PLACES };
+        let least = model.contacts.iter().map(Contact::rounding).fold(model.balanced_rounding(), f64::max);
+        let is_faint = model
+            .contacts
+            .iter()
+            .any(|contact| (f64::MIN_POSITIVE..FAINT).contains(&contact.interface.friction()));
+        let work = model.work_scale();
+        Self { allowed: Allowed { scale, power: 0.0 }, tolerance, strict, work, rounding, least, is_faint }
     }
 
     /// The tolerance times the natural scale, and never below what rounding of a far-travelled coordinate makes of the force,
     /// or rounding of time of the work of a fast follower.
     ///
-    /// With ε the spacing of doubles at 1: positions tolerance·length + 8ε|x|; velocities tolerance·speed +
-    /// 8ε|x|·speed/length + 8ε|v|; works tolerance·μF_N u_c + 8εtP with the power P of the followers,
-    /// where more is asked than the tolerance that of [`surge`], and 8ε|W| of works W where loads alone move bodies.
+    /// With ε the spacing of doubles at 1: positions tolerance·length + 8ε|x|, at least ε|v|·length/speed; velocities
+    /// tolerance·speed + 8ε|x|·speed/length + 8ε|v|; works tolerance·μF_N u_c + 8εtP with the power P of the followers,
+    /// where more is asked than the tolerance that of [`surge`], and 8ε|W| of works W where loads alone move bodies; at least
+    /// 2ε of the kinetic energy.
+    // A slider of friction 1e-8 that rests beside two masses on a spring asked for their work to 1e-28 J of 1e-6 J, and the run stood still.
     pub(super) fn set(&mut self, model: &Model, state: &State) {
         let layout = model.layout();
         let Allowed { scale, power } = &mut self.allowed;
+        let mut kinetic = 0.0_f64;
         for (i, free) in model.free.iter().enumerate() {
             let (length, speed) = free.scale;
             // A displacement that has travelled far rounds the force of a stiff contact, and the force the
             // velocity.
-            let (x, v) = (
-                8.0 * f64::EPSILON * state.y[i].abs(),
-                8.0 * f64::EPSILON * state.y[layout.velocity(i)].abs(),
-            );
-            scale[i] = self.strict * length + x;
+            let (x, v) = (PLACES * state.y[i].abs(), PLACES * state.y[layout.velocity(i)].abs());
+            let rate = state.y[layout.velocity(i)].abs();
+            // Near 0 a place has the rounding of the way that a step goes.
+            scale[i] = (self.strict * length + x).max(f64::EPSILON * rate * (length / speed));
+            kinetic += free.mass * rate * rate;
             scale[layout.velocity(i)] = self.strict * speed + x * (speed / length) + v;
         }
         // The time of a corner is rounded to εt, in which a follower at power P does the work Pεt. Without
         // this term a flyback of a nanosecond or less ended in steps too small.
-        let work = self.strict * self.work + 8.0 * f64::EPSILON * state.t * *power;
+        let work = self.strict * self.work + PLACES * state.t * *power;
         // What is asked beyond the tolerance gives way where rounding is in it.
         let beyond = (self.tolerance - self.strict) * self.work;
-        let noise = if beyond > 0.0 { 8.0 * f64::EPSILON * state.t * surge(model, state) } else { 0.0 };
+        let noise = if beyond > 0.0 { PLACES * state.t * surge(model, state) } else { 0.0 };
         // A mass that a step of load drives over metres has put in 10¹⁵ times what natural lengths of a micrometre let expect.
         let gone = self.rounding * (state.y[layout.input()].abs() + state.y[layout.damping()].abs());
-        scale[layout.dimension()..].fill(work + noise.min(beyond) + gone);
+        let least = (f64::EPSILON * kinetic).max(self.least);
+        scale[layout.dimension()..].fill((work + noise.min(beyond) + gone).max(least));
         if model.contacts.len() > 1 {
             self.allow_walked(model, state);
         }
         let scale = &mut self.allowed.scale;
+        if self.is_faint {
+            allow_places(model, state, scale);
+        }
         // Where nothing swings there is no such step.
         let by_contacts = self.strict < RUSH_BELOW;
         if model.fastest > 0.0 && (by_contacts || !model.links.is_empty()) {
@@ -144,13 +165,13 @@ impl Allowance {
     // Loops of 1e-14 J beside a contact of 6e-3 J were 1.1 % off at any tolerance.
     fn allow_walked(&mut self, model: &Model, state: &State) {
         let layout = model.layout();
-        let walked = |contact: &&Contact| contact.u.free.is_empty() && contact.coupling().is_none();
-        for contact in model.contacts.iter().filter(walked) {
+        for contact in model.contacts.iter().filter(|contact| contact.is_walked()) {
             let Some(slot) = contact.slot else { continue };
-            let work = contact.friction_limit() * contact.natural.displacement;
+            let work = contact.natural_work();
             if work > 0.0 {
                 let power = power(contact, &Equations::on(model, state, layout, false), state);
-                let own = self.strict * work + 8.0 * f64::EPSILON * state.t * power / contact.count;
+                let own =
+                    (self.strict * work + PLACES * state.t * power / contact.count).max(contact.rounding());
                 for place in [layout.elastic(slot), layout.friction(slot)] {
                     let scale = &mut self.allowed.scale[place];
                     *scale = scale.min(own);
@@ -227,6 +248,38 @@ fn allow_rush(model: &Model, state: &State, scale: &mut [f64], by_contacts: bool
         // All that holds the coordinate when it sticks: mω².
         let stiffness = (free.scale.1 / free.scale.0).powi(2) / free.mobility;
         push(stiffness * (late * rate.abs() + place), rate, &contact.u.free);
+    }
+    scale[layout.dimension()..].iter_mut().for_each(|scale| *scale = scale.max(work));
+}
+
+/// Raises what is allowed to the rounding of the places that contacts and links tell from each other: a friction may be so small that its
+/// u_c is less than a few of their last places.
+///
+/// A place rounds the force of all that holds it, and the force, by kεx/m = ω²εx, the velocity within 1/ω; the force of a stack rounds its
+/// power within that time.
+// A stage on two feet of frictions 0.5 and 1e-12, tipped by 24 µrad, took steps of a thousandth of its period for the rounding of 50 nm.
+fn allow_places(model: &Model, state: &State, scale: &mut [f64]) {
+    let layout = model.layout();
+    let equations = Equations::on(model, state, layout, false);
+    let at = Components { t: state.t, y: |i: usize| state.y[i] };
+    let mut round = |measure: &Measure| {
+        let driven: f64 =
+            measure.driven.iter().map(|(w, a)| (a * equations.signal(*w, &at).value).abs()).sum();
+        let place = f64::EPSILON * (measure.travel(|i| state.y[i]) + driven);
+        for (i, a) in &measure.free {
+            let (place, (length, speed)) = (place / a.abs(), model.free[*i].scale);
+            scale[*i] = scale[*i].max(place);
+            scale[layout.velocity(*i)] = scale[layout.velocity(*i)].max(place * (speed / length));
+        }
+    };
+    model.contacts.iter().filter(|contact| !contact.inert).for_each(|contact| round(&contact.u));
+    let mut work = 0.0;
+    for link in &model.links {
+        round(&link.elongation);
+        let stroke = equations.stroke(link, &at);
+        let force = link.stiffness
+            * (stroke.value - link.elongation.value(|i| state.y[i], |w| equations.signal(w, &at).value));
+        work += f64::EPSILON * (force * stroke.rate).abs() / model.fastest;
     }
     scale[layout.dimension()..].iter_mut().for_each(|scale| *scale = scale.max(work));
 }
