@@ -10,10 +10,8 @@ use stickslip_drive::{Accuracy, Channel, Stepper};
 // With verlet at 5 µs the quickstart misses 0.2 and its step is 0.5 % off, with rk4 at 100 µs 0.99 and 3.7 %, with verlet at
 // 1 µs 7e-3 and 2e-4.
 const OPEN: f64 = 1e-2;
-/// Tolerances by which books may be open with located events …
-const TOLERANCES: f64 = 1e3;
-/// … and with the plain reference, whose error estimate sees neither kinks nor growth of contacts.
-const TOLERANCES_OF_A_REFERENCE: f64 = 100.0;
+/// Tolerances of the throughput by which books may be open.
+const TOLERANCES: f64 = 100.0;
 /// What rounding leaves of books, relative to all that is in them.
 const ROUNDING: f64 = 1e-12;
 
@@ -138,17 +136,12 @@ impl Books {
 }
 
 /// Whether the books of a run by a stepper are open, and by how much: by more than [`OPEN`] of the throughput with any stepper, or
-/// by so many of the tolerances that it was asked for. `work` is the natural scale of work, J, which tolerances are relative to.
+/// by more than [`TOLERANCES`] that it was asked for.
 ///
 /// Each of the six energies is booked for itself: work put in by what drives, the rest from places, speeds, memories and
 /// integrals. Nothing makes the books close but steps that are exact, and no stepper's error estimate comes into them. `finest` is the
 /// rounding of the places where bodies start in natural displacements: no tolerance below it is met.
-pub(crate) fn warning(
-    books: &Books,
-    stepper: Stepper,
-    (work, is_asked): (f64, bool),
-    finest: f64,
-) -> Option<Warning> {
+pub(crate) fn warning(books: &Books, stepper: Stepper, is_asked: bool, finest: f64) -> Option<Warning> {
     let has_dense_output = matches!(stepper, Stepper::Event { .. });
     let missing = if has_dense_output { books.worst } else { books.worst_at_steps() };
     let (through, rounding) = (books.throughput, ROUNDING * books.largest);
@@ -168,21 +161,27 @@ pub(crate) fn warning(
             if share < 10.0 { format!("{:.2} %", 100.0 * share) } else { format!("{share:.0e} times") };
         return warning(share, String::new());
     }
-    let (tolerance, most) = match stepper.accuracy() {
+    let tolerance = match stepper.accuracy() {
+        Accuracy::Tolerance(tolerance) if is_asked => tolerance,
         // Nobody has asked for the tolerance of a walk under the name of another stepper.
-        _ if !is_asked => return None,
-        Accuracy::Tolerance(tolerance) if has_dense_output => (tolerance, TOLERANCES),
-        Accuracy::Tolerance(tolerance) => (tolerance, TOLERANCES_OF_A_REFERENCE),
-        Accuracy::Step(_) | Accuracy::Frame { .. } => return None,
+        Accuracy::Tolerance(_) | Accuracy::Step(_) | Accuracy::Frame { .. } => return None,
     };
-    let unit = tolerance * through.max(work);
-    if !is_open(most * unit) {
+    let unit = tolerance * through;
+    // Where no share is printed all is rounding.
+    if missing <= TOLERANCES * unit || through <= rounding {
         return None;
     }
     let said = warning(
         format!("{share:.1e}"),
         format!(": {:.0} times the tolerance of {tolerance:e}", missing / unit),
     );
+    if missing <= rounding {
+        let help = format!(
+            "so little moves that rounding of what is stored, {}, shows: no smaller tolerance closes the books",
+            quantity(Real(books.largest), "J")
+        );
+        return said.map(|warning| warning.help(help));
+    }
     if finest <= tolerance {
         return said;
     }
@@ -226,11 +225,11 @@ mod tests {
         assert_eq!(balance.largest_error_relative, Some(Real(5e-10)));
         books.read(&[f64::NAN; 6]);
         assert!(books.balance().largest_error.0.is_nan());
-        assert!(warning(&books, Stepper::Verlet { step: 1e-6 }, (0.0, true), 0.0).is_some());
+        assert!(warning(&books, Stepper::Verlet { step: 1e-6 }, true, 0.0).is_some());
     }
 
     /// What is said of a throughput of 1 J, an elastic energy of `stored` and errors in a row, at an event and at the end, all in J.
-    fn said(stepper: Stepper, stored: f64, errors: [f64; 3], work: f64) -> Option<String> {
+    fn said(stepper: Stepper, stored: f64, errors: [f64; 3]) -> Option<String> {
         let names = ["input", "kinetic", "elastic", "friction", "damping", "error"];
         let channels = names.map(|n| Channel { name: format!("energy.{n}_J"), is_state: false });
         let mut books = Books::new(&channels);
@@ -238,30 +237,32 @@ mod tests {
         books.read(&row);
         books.read_event(&event);
         books.read(&end);
-        warning(&books, stepper, (work, true), 0.0).map(|warning| warning.message)
+        warning(&books, stepper, true, 0.0).map(|warning| warning.message)
     }
 
     #[test]
     fn books_are_open_by_their_throughput_or_by_the_tolerance() {
         let (verlet, event) = (Stepper::Verlet { step: 1e-6 }, Stepper::Event { tolerance: 1e-8 });
-        let open = |stepper, error| said(stepper, 0.0, [0.0, 0.0, error], 0.0).is_some();
+        let open = |stepper, error| said(stepper, 0.0, [0.0, 0.0, error]).is_some();
         assert_eq!(
             [0.99e-2, -0.99e-2, 1.01e-2, -1.01e-2].map(|e| open(verlet, e)),
             [false, false, true, true]
         );
-        assert_eq!([0.99e-5, 1.01e-5, 2e-2].map(|e| open(event, e)), [false, true, true]);
+        assert_eq!([0.99e-6, 1.01e-6, 2e-2].map(|e| open(event, e)), [false, true, true]);
         let reference = Stepper::Dopri5 { tolerance: 1e-8 };
         assert_eq!([0.99e-6, -1.01e-6].map(|e| open(reference, e)), [false, true]);
-        let message = said(event, 0.0, [0.0, 0.0, 2e-5], 0.0).unwrap();
+        let message = said(event, 0.0, [0.0, 0.0, 2e-5]).unwrap();
         assert!(
             message.ends_with(
                 "2.0e-5 of what went through them, 20.00 µJ of 1.000 J: 2000 times the tolerance of 1e-8"
             ),
             "{message}"
         );
-        // A tolerance is relative to the natural scale of work, and rounding to all that is stored.
-        assert!(said(event, 0.0, [0.0, 0.0, 2e-5], 3.0).is_none());
-        assert!(said(verlet, 1e11, [0.0, 0.0, 0.05], 0.0).is_none());
+        // Rounding is relative to all that is stored: without a tolerance it is not told of, with one as what it is.
+        assert!(said(verlet, 1e11, [0.0, 0.0, 0.05]).is_none());
+        assert!(
+            said(event, 1e11, [0.0, 0.0, 2e-6]).is_some() && said(event, 1e13, [0.0, 0.0, 2e-6]).is_none()
+        );
     }
 
     /// A body that starts 1 m from 0 has its place to 2.2e-16 m, a hundred millionth of 22 nm.
@@ -269,9 +270,7 @@ mod tests {
     fn a_smaller_tolerance_is_not_advised_where_places_are_rounded() {
         let books = Books { throughput: 1.0, worst: 1e-4, ..Books::new(&[]) };
         let help = |tolerance, finest| {
-            warning(&books, Stepper::Event { tolerance }, (0.0, true), finest)
-                .and_then(|said| said.help)
-                .unwrap()
+            warning(&books, Stepper::Event { tolerance }, true, finest).and_then(|said| said.help).unwrap()
         };
         assert!(help(1e-9, 1e-8).contains("rounded to 1e-8 u_c"));
         assert_eq!(help(1e-9, 1e-9), advice(Stepper::Event { tolerance: 1e-9 }));
@@ -284,9 +283,9 @@ mod tests {
         for stepper in
             [Stepper::Verlet { step: 1e-6 }, Stepper::Rk4 { step: 1e-6 }, Stepper::Dopri5 { tolerance: 1e-8 }]
         {
-            let open = |errors| said(stepper, 0.0, errors, 0.0).is_some();
+            let open = |errors| said(stepper, 0.0, errors).is_some();
             assert_eq!([[0.1, 0.0, 0.0], [0.0, 0.1, 0.0], [0.0, 0.0, 0.1]].map(open), [false, true, true]);
         }
-        assert!(said(event, 0.0, [0.1, 0.0, 0.0], 0.0).is_some());
+        assert!(said(event, 0.0, [0.1, 0.0, 0.0]).is_some());
     }
 }

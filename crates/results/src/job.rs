@@ -208,14 +208,6 @@ impl Job {
         plausibility::of_frames(self, stepper)
     }
 
-    /// Natural scale of work, J: μF_N u_c of the smallest contact; 0 where none has friction.
-    pub(crate) fn work(&self) -> f64 {
-        let contacts = 0..self.scenario.scene.contacts.len();
-        let scales = contacts.filter_map(|c| self.model.contact_natural(c));
-        let works = scales.map(|scale| scale.force * scale.displacement).filter(|work| *work > 0.0);
-        works.reduce(f64::min).unwrap_or(0.0)
-    }
-
     /// Name of the stepper that the run takes and its tolerance or step with that word.
     pub fn stepper(&self) -> (&'static str, &'static str, f64) {
         let stepper = self.model.effective(self.scenario.plan.stepper);

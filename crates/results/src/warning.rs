@@ -85,7 +85,7 @@ pub(crate) fn of_run(job: &Job, outcome: &Outcome) -> Vec<Warning> {
     let asked = job.scenario.plan.stepper;
     let stepper = job.model.effective(asked);
     let is_asked = stepper.name() == asked.name();
-    let of_books = books::warning(&outcome.books, stepper, (job.work(), is_asked), finest(job));
+    let of_books = books::warning(&outcome.books, stepper, is_asked, finest(job));
     let mut warnings: Vec<Warning> = of_books.into_iter().collect();
     let missed = outcome.state.counts().missed;
     if missed > 0 {
