@@ -119,6 +119,19 @@ impl Trial {
         Self::new(scene, self.plan)
     }
 
+    /// Rounding of the widest stroke in the smallest natural length along the slide: no tolerance below it is met.
+    pub(crate) fn rounding(&self) -> f64 {
+        let stroke = |freedom: Freedom| match freedom {
+            Freedom::Follows(w) => self.scene.waveforms.get(w).map(|w| w.part.range().1 - w.part.range().0),
+            _ => None,
+        };
+        let coordinates = self.scene.bodies.iter().flat_map(|body| body.part.coordinates());
+        let widest = coordinates.filter_map(|(_, c)| stroke(c.freedom)).fold(0.0, f64::max);
+        let lengths =
+            (0..self.scene.bodies.len()).filter_map(|body| self.scale(body)).map(|scale| scale.along);
+        f64::EPSILON * widest / lengths.fold(f64::INFINITY, f64::min)
+    }
+
     /// Natural scales of a body: those of its most sensitive contact.
     fn scale(&self, body: usize) -> Option<Scale> {
         scale(&self.scene, &self.model, body)

@@ -196,7 +196,7 @@ pub(super) fn all() -> Vec<Family> {
             Plain { mass, ..PLAIN }.smooth()
         }),
     ];
-    let others: [Family; 8] = [
+    let others: [Family; 9] = [
         family("grazing", "amplitude over slip", hairs(), |part| {
             // Heavy: the contact is swung by its foot, to the edge of gross slip and back.
             Plain { mass: 1e3, stroke: part * PLAIN.slip(), ..PLAIN }.scene()
@@ -216,6 +216,9 @@ pub(super) fn all() -> Vec<Family> {
             scene
         }),
         family("breathing", "largest force, N", decades(-6, 3, 13), breathing),
+        family("faint friction", "friction", decades(-14, -2, 13), |friction| {
+            Plain { friction, ..PLAIN }.smooth()
+        }),
     ];
     plain.into_iter().chain(others).collect()
 }

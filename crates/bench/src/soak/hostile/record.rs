@@ -69,8 +69,8 @@ const JUDGED: &str = "\
 ## How it is judged
 
 * **event**: its energy books close to 100 tolerances (1e-12 counts as the least of these) of what went through them, and no row
-  of any free coordinate is off the run at 1e-10 by more than 100 tolerances (1e-10 at the least) in natural lengths (u_c along
-  the slide, the indentation along the normal), times S, the growth of a change of the start by 1e-9 of them.
+  of any free coordinate is off the run at 1e-10 by more than 100 tolerances (1e-10 and the rounding of the stroke at the least) in
+  natural lengths (u_c along the slide, the indentation along the normal), times S, the growth of a change of the start by 1e-9 of them.
 * **verlet**, **rk4** at 60 steps or more in the fastest swing and 1 000 in a period of the drive, on whose steps its corners fall,
   **dopri5** at 1e-6: the second method. Run again at half and a quarter of the step, or a tenth and a hundredth of the tolerance, its
   own error is what these differ by (the last two, or half of the first two); right where the event stepper lies within twice

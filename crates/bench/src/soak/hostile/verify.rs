@@ -180,7 +180,7 @@ fn compared(finding: &mut Finding, trial: &Trial, (ran, tolerance): (&Ran, f64),
     let Some(reference) = reference else { return };
     let apart = trial.apart(ran, reference);
     finding.errors[0] = apart.by;
-    let allowed = MOST * tolerance.max(REFERENCE);
+    let allowed = MOST * tolerance.max(REFERENCE).max(trial.rounding());
     if apart.by <= allowed {
         return;
     }
