@@ -7,6 +7,8 @@ use std::f64::consts::FRAC_PI_2;
 
 /// The step, in 1/ω of the fastest swing, over the root of what may be lost of a stroke in a stroke.
 const STRIDE: f64 = 9.0;
+/// The same where the normal of a contact moves: it goes by one chord a step between its kinks.
+const MOVING: f64 = 2.0;
 /// Part of the longest stable step that is taken: what damps fast needs no accuracy, but must not ring.
 const STABLE: f64 = 0.5;
 /// 1 over the first term that a step of order 4 leaves of an exponential.
@@ -17,7 +19,8 @@ impl Model {
     ///
     /// Kinks of a contact's law inside a step (loops that close, turning points) cost a method of any order a local error of
     /// (ωh)², ω the fastest swing with all contacts stuck and as deep as they get, or the fastest wave of a waveform:
-    /// h = 9 √accuracy/ω, at most half the longest stable step. States of blocks go smoothly from corner to corner, and bodies settle on
+    /// h = 9 √accuracy/ω, at most half the longest stable step. Where the normal of a contact moves every step costs as much, by the area
+    /// between its chord and the path: h = 2 √accuracy/ω. States of blocks go smoothly from corner to corner, and bodies settle on
     /// damped contacts: there a step of the method loses (|λ|h)⁵/120 of what settles: h = (120 accuracy)^{1/5}/|λ|, λ the largest of
     /// their eigenvalues.
     pub fn substeps(&self, length: f64, accuracy: f64) -> f64 {
@@ -31,7 +34,13 @@ impl Model {
         let quarter = self.waveforms.iter().map(Waveform::resolution).fold(f64::INFINITY, f64::min);
         let fastest = swing.max(FRAC_PI_2 / quarter);
         let smooth = (TRUNCATION * accuracy).powf(0.2) / settling;
-        let step = (STRIDE * accuracy.sqrt() / fastest).min(STABLE * stable).min(smooth);
+        let stride = if self.has_moving_normals() { MOVING } else { STRIDE };
+        let step = (stride * accuracy.sqrt() / fastest).min(STABLE * stable).min(smooth);
         (length / step).ceil().max(1.0)
+    }
+
+    /// Whether the normal of a contact moves.
+    pub(crate) fn has_moving_normals(&self) -> bool {
+        self.contacts.iter().any(|contact| !contact.is_constant() && !contact.is_never_pressed())
     }
 }

@@ -22,7 +22,7 @@ use crate::record::Record;
 use crate::state::{FixedWay, Layout, State, Underway, beyond};
 use crate::{Plan, RunError, Stepper};
 pub(super) use branches::Weakening;
-use branches::{Branches, KNOTS};
+use branches::{Branches, GROWING_KNOTS, KNOTS};
 pub(super) use step::Between;
 use stickslip_contact::{ContactState, Memory, Segment};
 
@@ -137,7 +137,11 @@ impl<'a> Chords<'a> {
 
     /// How many turning points a contact remembers.
     pub(super) fn remembers(&self) -> usize {
-        if self.branches.is_some() { KNOTS } else { Memory::DEFAULT_CAPACITY }
+        match &self.branches {
+            Some(_) if self.model.has_moving_normals() => GROWING_KNOTS,
+            Some(_) => KNOTS,
+            None => Memory::DEFAULT_CAPACITY,
+        }
     }
 
     pub(super) fn equations<'s>(&'s self, state: &'s State) -> Equations<'s> {

@@ -7,9 +7,13 @@
 //! a step is bounded, and of several ends within an eighth the later ones cost the error of a kink in so short a time. Where an edge
 //! of a damped contact uses up its piece the step ends there, however soon: with the springs that stick goes a force of many times what
 //! friction holds. Of such pieces there are at most as many as a memory has turning points.
+//!
+//! A contact under a normal that moves keeps to none: it goes by the whole law of its memory, one chord a step. A chord across a touch or a
+//! change of what drags leaves a turning point in the memory that lies off the path by the square of the step, for good: steps are cut
+//! there, too.
 
 use super::Chords;
-use super::way::{Way, end_of};
+use super::way::{Way, end_of, kink};
 use crate::RunError;
 use crate::contact::{Contact, Mode, Motion};
 use crate::interval::Interval;
@@ -19,7 +23,9 @@ use crate::{Model, record::Record};
 use stickslip_contact::{Apex, Branch, Memory, Segment};
 
 /// Turning points that a contact remembers.
-pub(in crate::run) const KNOTS: usize = 256;
+pub(super) const KNOTS: usize = 256;
+/// The same where a normal moves: a contact that grows leaves one at each step.
+pub(super) const GROWING_KNOTS: usize = 1024;
 
 /// Ends of branches so near to each other, in shares of a step, are one.
 const TOGETHER: f64 = 1e-6;
@@ -145,7 +151,8 @@ impl<'a> Chords<'a> {
         true
     }
 
-    /// When the first branch ends in the step to time t in y, s; none where none does: then what was found before holds.
+    /// When the first branch ends in the step to time t in y, or the law of a contact under a moving normal has its first kink, s; none
+    /// where none does: then what was found before holds.
     pub(in crate::run) fn first_end(&mut self, state: &State, (t, y): (f64, &[f64])) -> Option<f64> {
         self.branches.as_ref()?;
         self.move_contacts(state, t, y);
@@ -153,9 +160,14 @@ impl<'a> Chords<'a> {
         let Some(branches) = &mut self.branches else { return None };
         let mut first = f64::INFINITY;
         for (c, (from, to)) in self.before.iter().zip(&self.motions).enumerate() {
-            let Mode::Slip(branch) = &state.modes[c] else { continue };
-            let left = branches.left(c, branch, to);
-            let Some((share, sense)) = end_of(branch, left, Way { from, to, duration }) else { continue };
+            let (contact, way) = (&self.model.contacts[c], Way { from, to, duration });
+            let end = match &state.modes[c] {
+                Mode::Slip(branch) => end_of(branch, branches.left(c, branch, to), way),
+                _ if contact.is_constant() => None,
+                // Without a branch there is no next one.
+                _ => kink(contact.interface.stick_slope(), way).map(|share| (share, 0.0)),
+            };
+            let Some((share, sense)) = end else { continue };
             if share < first - TOGETHER {
                 branches.due.clear();
             }

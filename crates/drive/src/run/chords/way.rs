@@ -1,7 +1,10 @@
-//! The way of a contact in a step, and where its branch ends on it.
+//! The way of a contact in a step, and where its branch ends on it, or its law has a kink.
 
 use crate::contact::Motion;
 use stickslip_contact::Branch;
+
+/// Share of a step in which a kink of the whole law counts as passed: where a step was cut at one, it comes again.
+const PASSED: f64 = 0.125;
 
 /// Where the branch of a contact ends on its way, as a share of it, and the sense of the next one; `left` is what is left of its piece
 /// at the end, m.
@@ -14,7 +17,26 @@ pub(super) fn end_of(branch: &Branch, left: f64, way: Way<'_>) -> Option<(f64, f
     turned.then(|| (way.turn().unwrap_or(0.0), -sense))
 }
 
-/// The way of a contact at constant depth in a step, by the cubic through both its ends.
+/// Where the law of a contact under a moving normal has its first kink on its way, as a share of it: it touches or parts, or an edge of its
+/// wedge, at the speeds u̇ ± κḋ, begins to drag or ceases to, κ the `slope` of the limit. One in the first [`PASSED`] is none.
+pub(super) fn kink(slope: f64, Way { from, to, duration }: Way<'_>) -> Option<f64> {
+    if from.d <= 0.0 && to.d <= 0.0 {
+        return None;
+    }
+    let touches = ((from.d > 0.0) != (to.d > 0.0)).then(|| from.d / (from.d - to.d));
+    // Without friction nothing drags.
+    let edges = [slope, -slope].into_iter().filter(|slope| *slope != 0.0).filter_map(|slope| {
+        let edge = |at: &Motion| Motion { u: at.u + slope * at.d, du: at.du + slope * at.dd, ..*at };
+        let (from, to) = (edge(from), edge(to));
+        if from.du * to.du >= 0.0 {
+            return None;
+        }
+        Way { from: &from, to: &to, duration }.turn()
+    });
+    touches.into_iter().chain(edges).filter(|share| *share > PASSED).reduce(f64::min)
+}
+
+/// The way of a contact in a step, by the cubic through both its ends.
 #[derive(Clone, Copy)]
 pub(super) struct Way<'a> {
     pub(super) from: &'a Motion,
