@@ -11,7 +11,7 @@ use std::path::{Component, Path, PathBuf};
 use std::sync::Arc;
 use stickslip_contact::Springs;
 use stickslip_drive::facts::{Setup, has_constant_load};
-use stickslip_drive::scene::Normal;
+use stickslip_drive::scene::{Freedom, Normal, Side};
 use stickslip_drive::{Accuracy, Model, SceneError, State, Stepper};
 use stickslip_scenario::{Scenario, ScenarioError, Stage, Warning};
 use thiserror::Error;
@@ -184,6 +184,17 @@ impl Job {
     /// Whether the bodies' motion presses contact `c`.
     pub fn is_coupled(&self, c: usize) -> bool {
         self.scenario.scene.contacts.get(c).is_some_and(|contact| contact.part.normal == Normal::Coupled)
+    }
+
+    /// Whether a body that is free along z presses contact `c`.
+    pub fn is_pressed_freely(&self, c: usize) -> bool {
+        let scene = &self.scenario.scene;
+        let is_free = |side: &Side| match side {
+            Side::Body(b) => scene.bodies.get(*b).is_some_and(|body| body.part.z.freedom == Freedom::Free),
+            Side::Ground => false,
+        };
+        self.is_coupled(c)
+            && scene.contacts.get(c).is_some_and(|contact| contact.part.between.iter().any(is_free))
     }
 
     /// Gross-slip displacement u_c (m) and normal force (N) of one contact of `c` at t = 0: in equilibrium, if the run

@@ -9,6 +9,8 @@ mod drivers;
 mod forces;
 mod motion;
 
+pub(crate) use motion::multiplied;
+
 use crate::job::Job;
 use crate::quantity::quantity;
 use crate::real::Real;

@@ -6,11 +6,17 @@
 use crate::books;
 use crate::job::Job;
 use crate::outcome::Outcome;
+use crate::plausibility::multiplied;
 use crate::quantity::quantity;
 use crate::real::Real;
 use crate::summary::flight;
 use serde::Serialize;
 use std::fmt;
+use stickslip_drive::Stepper;
+use stickslip_drive::scene::{Contact, Named};
+
+/// Most contacts that a warning names.
+const MOST: usize = 3;
 
 /// Something that makes results worth less than they look.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
@@ -99,6 +105,7 @@ pub(crate) fn of_run(job: &Job, outcome: &Outcome) -> Vec<Warning> {
                 .help("compare with a run at another tolerance, or with less contact damping"),
         );
     }
+    warnings.extend(impacts(job, outcome));
     if let Some(since) = flight(job, outcome) {
         let since = quantity(Real(since), "s");
         let message = format!(
@@ -111,6 +118,22 @@ pub(crate) fn of_run(job: &Job, outcome: &Outcome) -> Vec<Warning> {
     }
     warnings.extend(outcome.tally.excursions().warnings(job));
     warnings
+}
+
+/// Contacts that bodies press and that parted in a run by frames.
+fn impacts(job: &Job, outcome: &Outcome) -> Option<Warning> {
+    let Stepper::Frames { accuracy, .. } = job.model.effective(job.scenario.plan.stepper) else {
+        return None;
+    };
+    let contacts = job.scenario.scene.contacts.iter().enumerate().filter(|(c, _)| job.is_pressed_freely(*c));
+    let open = |(c, contact): (usize, &Named<Contact>)| {
+        let share = outcome.tally.contact(c)?.open_share().filter(|share| *share > 0.0)?;
+        Some(format!("{} was open for {:.2} % of the time", contact.name, 100.0 * share))
+    };
+    let parted: Vec<String> = contacts.filter_map(open).take(MOST).collect();
+    let message = format!("{}: {}", parted.join(", "), multiplied(accuracy));
+    let help = "compare with a smaller accuracy, or with the stepper event";
+    (!parted.is_empty()).then(|| Warning::new("frames_under_impacts", message).help(help))
 }
 
 #[cfg(test)]

@@ -52,6 +52,8 @@ fn odd_scenes_are_warned_of_word_for_word() {
         "damping",
         "driver_chatters",
         "endless",
+        "frames_under_damping",
+        "frames_under_impacts",
         "frames_under_limits",
         "friction",
         "geometry",

@@ -4,6 +4,7 @@
 use crate::shared::{Lottery, Stage, example, frames};
 use std::path::Path;
 use stickslip_drive::{Plan, Run, Stepper, Trace};
+use stickslip_results::Summary;
 
 /// Frames, s.
 const FRAMES: [f64; 6] = [1e-6, 5e-6, 20e-6, 50e-6, 200e-6, 1e-3];
@@ -154,6 +155,36 @@ fn work_is_bounded_whatever_comes() {
     let limit = model.contact_natural(0).unwrap().force;
     assert!(merged.knots > 0, "no memory was ever full");
     assert!(merged.force < 0.5 * limit, "{merged:?} of {limit:e} N");
+}
+
+/// Drives whose normal a waveform, a body or a lifting foot moves lost 8 to 40 times what was asked, in silence: no step ended where a contact
+/// touches or an edge begins to drag. Now they keep it, or are warned of, by check or by the run.
+#[test]
+fn frames_under_moving_normals_keep_their_accuracy_or_say_so() {
+    let scenes = ["under_a_swinging_load", "on_a_rough_line", "on_a_bouncing_slider", "of_lifting_feet"];
+    for (k, name) in scenes.into_iter().enumerate() {
+        let file = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("tests/data/frames_{name}.json"));
+        let stage = Stage::of(&file, &[]).unwrap();
+        let plan = stage.job.scenario.plan;
+        let Stepper::Frames { length, accuracy } = plan.stepper else { panic!("{name}: no frames") };
+        let exact = rows(&stage, Stepper::Event { tolerance: 1e-11 }, plan.duration);
+        let outcome = stage.job.run(&());
+        let off = apart(&stage, &exact, &rows(&stage, plan.stepper, plan.duration));
+        let natural = (0..).map_while(|c| stage.job.model.contact_natural(c)).map(|it| it.displacement);
+        let (low, high) = stage.job.scenario.scene.waveforms[0].part.range();
+        let lost = off * natural.fold(f64::INFINITY, f64::min) / (high - low);
+        let warnings = Summary::new(&stage.job, &outcome).warnings;
+        let warned: Vec<_> =
+            warnings.iter().map(|it| it.kind).filter(|it| it.starts_with("frames")).collect();
+        println!("{name}: {:.1e} of a stroke, {accuracy:e} asked, {warned:?}", lost);
+        assert!(lost <= accuracy || !warned.is_empty(), "{name}: {lost:e}");
+        // Of feet that lift and touch no number of steps keeps it.
+        assert!(k == 3 || lost <= accuracy, "{name}: {lost:e}");
+        // No cut makes more than eight of one.
+        let most = 8.0 * stage.job.model.substeps(length, accuracy) * (plan.duration / length).ceil();
+        let steps = outcome.state.counts().steps as f64;
+        assert!(k == 3 || steps <= most, "{name}: {steps} steps, {most}");
+    }
 }
 
 /// While springs stick their damping pushes with sixty times what friction holds, for the twentieth part of a step: it was a branch of its
