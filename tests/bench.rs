@@ -43,7 +43,7 @@ impl Runs {
 fn p1_is_measured_by_every_stepper_and_engine() {
     let out = tempdir().unwrap();
     let mut command = stickslip();
-    command.arg("bench").arg(scenario("p1")).args(["--budget", "6 s", "--known", &known()]);
+    command.arg("bench").arg(scenario("p1")).args(["--budget", "8 s", "--known", &known()]);
     command.arg("--page").arg(out.path().join("page.md"));
     let output = command.arg("--out").arg(out.path()).output().unwrap();
     assert_eq!(code(&output), 0, "{}", stderr(&output));
@@ -75,6 +75,15 @@ fn p1_is_measured_by_every_stepper_and_engine() {
         assert!(pairs.len() > 3);
         assert!(pairs.iter().all(|(a, b)| (a[1] - b[1]).abs() < 1e-6 && a[0] == b[0]), "{pairs:?}");
     }
+    for (method, springs) in [("loop-rk4", "64"), ("exact-verlet", ""), ("exact-rk4", "")] {
+        let engine = if springs.is_empty() { "curve" } else { "springs" };
+        assert!(Runs::read(&table, method, engine, springs).0.len() > 3, "{method}");
+    }
+    // So many nodes, and neither tolerance nor step.
+    for (method, most) in [("floor-4", 1e-4), ("floor-10", 1e-8), ("floor-16", 1e-9)] {
+        let runs = Runs::read(&table, method, "curve", "");
+        assert!(runs.0.len() == 1 && runs.0[0][1] < most && runs.0[0][0].is_nan(), "{method}: {:?}", runs.0);
+    }
     let outside = Runs::read(&table, "ode_solvers", "curve", "");
     let last = outside.0[outside.0.len() - 1];
     assert!(last[0] < 1e-8 && last[3] < 1e-6, "{last:?}");
@@ -86,6 +95,10 @@ fn p1_is_measured_by_every_stepper_and_engine() {
 /// The page names its command, its links lead somewhere, and its tables are whole.
 fn assert_page(page: &str, folder: &Path) {
     assert!(page.contains("stickslip bench ") && page.contains("--known p1:slider.x_m=1.00842862803207"));
+    // What is faster comes before all tables, and nothing is told that was not measured.
+    let [faster, first] =
+        ["**Where simpler code is faster**", "| ---"].map(|words| page.find(words).unwrap());
+    assert!(faster < first && !page.contains('≈'));
     assert!(page.contains(concat!("by stickslip ", env!("CARGO_PKG_VERSION"))));
     let links = page.split("](").skip(1).map(|rest| rest.split_once(')').unwrap().0);
     let sources = page.split("src=\"").skip(1).map(|rest| rest.split_once('"').unwrap().0);
@@ -142,7 +155,7 @@ fn the_loop_knows_loads_that_vary_and_bodies_that_turn() {
     let out = tempdir().unwrap();
     let mut command = stickslip();
     command.arg("bench").args([scenario("sine_drive"), scenario("oblique_impact")]);
-    let output = command.args(["--budget", "3 s", "--quiet", "--out"]).arg(out.path()).output().unwrap();
+    let output = command.args(["--budget", "4 s", "--quiet", "--out"]).arg(out.path()).output().unwrap();
     assert_eq!((code(&output), stdout(&output), stderr(&output)), (0, String::new(), String::new()));
     for name in ["sine_drive", "oblique_impact"] {
         let table = Table::read(&out.path().join(name).join("bench.csv"));
@@ -150,6 +163,7 @@ fn the_loop_knows_loads_that_vary_and_bodies_that_turn() {
         let runs = Runs::read(&table, "loop", "springs", "256");
         let order = runs.order(2..7);
         assert!((order - 2.0).abs() < 0.35 && runs.0[6][1] < 1e-3, "{name}: {order}, {:?}", runs.0);
+        assert!(Runs::read(&table, "exact-rk4", "curve", "").0.is_empty());
         assert!(Runs::read(&table, "ode_solvers", "curve", "").0.is_empty());
     }
 }

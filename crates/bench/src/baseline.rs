@@ -1,15 +1,15 @@
-//! What others would do: the loop of a researcher over a row of springs, and an outside integrator with events by hand.
+//! What others would do: the loops of a researcher, over rows of springs or on the exact contact, and an outside integrator with
+//! events by hand.
 //!
-//! Both know a scene as a [`Mechanism`], made here from its description; they share no force, no step and no event with the
+//! All know a scene as a [`Mechanism`], made here from its description; they share no force, no step and no event with the
 //! program's own engines and steppers, but take moduli, profiles and the memory at the start from it.
 
 mod events;
+mod fixed;
 mod form;
-mod half;
-mod spring_loop;
 
 pub(crate) use events::Outside;
-pub(crate) use spring_loop::SpringLoop;
+pub(crate) use fixed::{Exact, Fixed, Half};
 
 use crate::norm;
 use form::Form;
@@ -99,6 +99,19 @@ impl Mechanism {
             });
         }
         Ok(Self { free, ties, tracks })
+    }
+
+    /// A row of so many springs for each contact, a multiple of 64, over `spans` (m; none: the contact's width at the start).
+    pub(crate) fn rows(&self, springs: usize, spans: &[Option<f64>]) -> Vec<Half> {
+        let width = |tie: &Tie| 2.0 * tie.law.profile().radius(tie.start.apex().d);
+        let row =
+            |(tie, span): (&Tie, &Option<f64>)| Half::new(tie, springs, span.unwrap_or_else(|| width(tie)));
+        self.ties.iter().zip(spans).map(row).collect()
+    }
+
+    /// Each contact exactly; or what is not known of them.
+    pub(crate) fn exact(&self) -> Result<Vec<Exact>, String> {
+        self.ties.iter().map(Exact::new).collect()
     }
 
     /// Whether no indentation ever changes.

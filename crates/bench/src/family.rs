@@ -1,8 +1,9 @@
 //! Methods, each with its runs from coarse to fine.
 
-use crate::baseline::{Outside, SpringLoop};
+use crate::baseline::{Fixed, Mechanism, Outside};
 use crate::clock::Times;
 use crate::contestant::{Contestant, Own, Stepping, with_engine};
+use crate::floor::{Floor, Ground, Rule};
 use crate::norm::Errors;
 use crate::problem::Problem;
 use crate::steps;
@@ -18,10 +19,24 @@ pub(crate) const LOOPS: [usize; 4] = [64, 256, 1024, 4096];
 pub(crate) enum Method {
     /// A stepper of the program on the exact curve, or on rows of so many springs.
     Own { stepping: Stepping, springs: Option<usize> },
-    /// The loop of a researcher over rows of so many springs.
-    Loop { springs: usize },
+    /// The loop of a researcher over rows of so many springs, or on the exact contact; `staged`: by Runge and Kutta's method of order 4,
+    /// otherwise by Verlet's.
+    Loop { springs: Option<usize>, staged: bool },
+    /// The least code for the benchmark drive alone, with so many nodes.
+    Floor { nodes: u32 },
     /// An outside integrator with the exact contact and events by hand.
     Outside,
+}
+
+/// By what the runs of a method differ.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Setting {
+    /// A tolerance.
+    Tolerance,
+    /// A step, s.
+    Step,
+    /// Nothing: there is one.
+    Nothing,
 }
 
 /// A method with its runs, from coarse to fine.
@@ -34,7 +49,7 @@ pub(crate) struct Family<'p> {
 /// A method at one tolerance or step.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Run {
-    /// Tolerance, or step in s.
+    /// Tolerance, or step in s; nothing of a method with a single run.
     pub(crate) value: f64,
     /// What came of it; none of a run that was left out.
     pub(crate) result: Option<Measured>,
@@ -61,34 +76,37 @@ impl Method {
     pub(crate) fn name(self) -> &'static str {
         match self {
             Self::Own { stepping, .. } => stepping.name(),
-            Self::Loop { .. } => "loop",
+            Self::Loop { springs: Some(_), staged: false } => "loop",
+            Self::Loop { springs: Some(_), staged: true } => "loop-rk4",
+            Self::Loop { springs: None, staged: false } => "exact-verlet",
+            Self::Loop { springs: None, staged: true } => "exact-rk4",
+            Self::Floor { nodes: 4 } => "floor-4",
+            Self::Floor { nodes: 10 } => "floor-10",
+            Self::Floor { .. } => "floor-16",
             Self::Outside => "ode_solvers",
         }
     }
 
     /// How the contact is computed.
     pub(crate) fn engine(self) -> &'static str {
-        match self {
-            Self::Own { springs: None, .. } | Self::Outside => "curve",
-            Self::Own { springs: Some(_), .. } | Self::Loop { .. } => "springs",
-        }
+        if self.springs().is_some() { "springs" } else { "curve" }
     }
 
     /// Springs of a row.
     pub(crate) fn springs(self) -> Option<usize> {
         match self {
-            Self::Own { springs, .. } => springs,
-            Self::Loop { springs } => Some(springs),
-            Self::Outside => None,
+            Self::Own { springs, .. } | Self::Loop { springs, .. } => springs,
+            Self::Floor { .. } | Self::Outside => None,
         }
     }
 
-    /// Whether its runs differ by their step; otherwise by their tolerance.
-    pub(crate) fn is_fixed(self) -> bool {
+    /// By what its runs differ.
+    pub(crate) fn setting(self) -> Setting {
         match self {
-            Self::Own { stepping, .. } => stepping.is_fixed(),
-            Self::Loop { .. } => true,
-            Self::Outside => false,
+            Self::Own { stepping, .. } if stepping.is_fixed() => Setting::Step,
+            Self::Own { .. } | Self::Outside => Setting::Tolerance,
+            Self::Loop { .. } => Setting::Step,
+            Self::Floor { .. } => Setting::Nothing,
         }
     }
 }
@@ -129,12 +147,31 @@ pub(crate) fn families(problem: &Problem) -> Vec<Family<'_>> {
 fn baselines<'p>(problem: &'p Problem, steps: &[f64], tolerances: &[f64]) -> Vec<Family<'p>> {
     let Ok(mechanism) = &problem.mechanism else { return Vec::new() };
     let mut families = Vec::new();
-    for springs in LOOPS {
-        let contestant = SpringLoop::new(mechanism.clone(), problem.duration, springs, &problem.spans);
-        let contestant = contestant.ok().map(|c| Family::new(Method::Loop { springs }, Box::new(c), steps));
-        families.extend(contestant);
+    for staged in [false, true] {
+        let rows = LOOPS.into_iter().map(|springs| (Some(springs), mechanism.rows(springs, &problem.spans)));
+        families.extend(rows.filter_map(|(springs, rows)| {
+            let contestant = Fixed::new(mechanism.clone(), rows, (problem.duration, staged)).ok()?;
+            Some(Family::new(Method::Loop { springs, staged }, Box::new(contestant), steps))
+        }));
+        families.extend(exact(mechanism, (problem.duration, staged), steps));
     }
     let outside = Outside::new(mechanism.clone(), problem.duration, problem.scales());
     families.extend(outside.ok().map(|c| Family::new(Method::Outside, Box::new(c), tolerances)));
+    if let Some(floor) = Floor::of(&problem.scene, &problem.model, problem.duration) {
+        families.extend([ground::<4>(floor), ground::<10>(floor), ground::<16>(floor)]);
+    }
     families
+}
+
+/// The loop on the exact contact.
+fn exact<'p>(mechanism: &Mechanism, (duration, staged): (f64, bool), steps: &[f64]) -> Option<Family<'p>> {
+    let contacts = mechanism.exact().ok()?;
+    let contestant = Fixed::new(mechanism.clone(), contacts, (duration, staged)).ok()?;
+    Some(Family::new(Method::Loop { springs: None, staged }, Box::new(contestant), steps))
+}
+
+/// The least code with N nodes, over some periods.
+fn ground<'p, const N: usize>((floor, periods): (Floor, u32)) -> Family<'p> {
+    let contestant = Ground { floor, periods, rule: Rule::<N>::default() };
+    Family::new(Method::Floor { nodes: N as u32 }, Box::new(contestant), &[N as f64])
 }

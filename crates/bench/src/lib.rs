@@ -10,7 +10,8 @@
 //! In reading order: `request`; `problem` (a scenario with its reference), `norm` and `samples` (how far off a run is);
 //! `contestant`, `family` and `steps` (who runs, at what tolerances and steps), `baseline` (what others would do); `turns` and
 //! `clock` (the measurement), [`instructions`]; `front` (what an error costs); `sheet`, [`picture`] and `page` (what is written), `machine`;
-//! [`growth`]; [`frames`], which are drives in real time; [`floor`], how little the benchmark drive could cost.
+//! [`growth`]; [`frames`], which are drives in real time; `masing`, the memory under a constant load; [`floor`], how little the benchmark
+//! drive could cost.
 
 mod baseline;
 mod clock;
@@ -23,6 +24,7 @@ mod front;
 pub mod growth;
 pub mod instructions;
 mod machine;
+mod masing;
 mod measurement;
 mod norm;
 mod page;

@@ -74,8 +74,8 @@ impl Points {
             // The same in all panels.
             place: match self.method {
                 Method::Own { stepping, .. } => colour(stepping),
-                Method::Loop { .. } => 4,
-                Method::Outside => 5,
+                Method::Loop { staged, .. } => 4 + usize::from(staged),
+                Method::Outside | Method::Floor { .. } => 6,
             },
         }
     }

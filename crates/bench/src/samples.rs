@@ -25,6 +25,17 @@ impl Samples {
         duration / (MOMENTS as f64 + 0.5)
     }
 
+    /// All moments of the grid, s.
+    pub(crate) fn grid(duration: f64) -> impl Iterator<Item = f64> {
+        (0..=MOMENTS).map(move |k| k as f64 * Self::interval(duration))
+    }
+
+    /// When the next moment of the grid is, s; never once the end alone is left.
+    pub(crate) fn next(&self, duration: f64) -> f64 {
+        let len = self.len();
+        if len <= MOMENTS { len as f64 * Self::interval(duration) } else { f64::INFINITY }
+    }
+
     /// Number of moments of a run that came to its end.
     pub(crate) fn complete() -> usize {
         MOMENTS + 2

@@ -1,6 +1,6 @@
 //! The table of all runs.
 
-use crate::family::Family;
+use crate::family::{Family, Setting};
 use std::io::{self, Write};
 
 const HEAD: [&str; 16] = [
@@ -30,8 +30,11 @@ pub(crate) fn write(file: impl Write, families: &[Family<'_>], duration: f64) ->
         for run in &family.runs {
             let method = family.method;
             let value = number(run.value);
-            let (tolerance, step) =
-                if method.is_fixed() { (String::new(), value) } else { (value, String::new()) };
+            let (tolerance, step) = match method.setting() {
+                Setting::Tolerance => (value, String::new()),
+                Setting::Step => (String::new(), value),
+                Setting::Nothing => Default::default(),
+            };
             let mut line = vec![
                 method.name().to_owned(),
                 method.engine().to_owned(),

@@ -2,7 +2,6 @@
 
 use crate::contestant::Stepping;
 use crate::family::{Family, Measured, Method};
-use crate::floor::Beside;
 use crate::instructions::Counted;
 use crate::problem::Problem;
 use crate::request::Request;
@@ -17,10 +16,11 @@ pub(crate) struct Work {
     /// Simulated time, s.
     pub(crate) duration: f64,
     pub(crate) runs: Vec<Effort>,
-    pub(crate) floor: Vec<Beside>,
+    /// With 4, 10 and 16 nodes.
+    floor: Vec<Effort>,
 }
 
-/// A run at one of the tolerances.
+/// A run at one of the tolerances; of the floor with so many nodes instead.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Effort {
     pub(crate) tolerance: f64,
@@ -30,16 +30,24 @@ pub(crate) struct Effort {
 
 impl Work {
     pub(crate) fn of(problem: &Problem, families: &[Family<'_>], file: &Path, request: &Request) -> Self {
-        let event = Method::Own { stepping: Stepping::Event, springs: None };
-        let runs = families.iter().filter(|family| family.method == event).flat_map(Family::measured);
         let near = |a: f64, b: f64| (a / b - 1.0).abs() < 1e-9;
-        let runs = runs.filter_map(|(run, measured)| {
-            let tolerance = TOLERANCES.into_iter().find(|tolerance| near(*tolerance, run.value))?;
-            let count = || Counted::Event(tolerance).instructions(file, &request.set);
+        let (mut runs, mut floor) = (Vec::new(), Vec::new());
+        for (family, (run, measured)) in
+            families.iter().flat_map(|family| family.measured().map(move |run| (family, run)))
+        {
+            let tolerance = TOLERANCES.into_iter().find(|tolerance| near(*tolerance, run.value));
+            let (all, what) = match (family.method, tolerance) {
+                (Method::Own { stepping: Stepping::Event, springs: None }, Some(tolerance)) => {
+                    (&mut runs, Counted::Event(tolerance))
+                }
+                (Method::Floor { nodes }, _) => (&mut floor, Counted::Floor(nodes)),
+                _ => continue,
+            };
+            let count = || what.instructions(file, &request.set);
             let instructions = request.instructions.then(count).flatten();
-            Some(Effort { tolerance, measured: *measured, instructions })
-        });
-        Self { duration: problem.duration, runs: runs.collect(), floor: Beside::all(problem, file, request) }
+            all.push(Effort { tolerance: run.value, measured: *measured, instructions });
+        }
+        Self { duration: problem.duration, runs, floor }
     }
 
     /// Instructions per simulated second at a tolerance, where they were counted.
@@ -75,7 +83,8 @@ impl Work {
             return String::new();
         }
         let mut text = FLOOR.to_owned();
-        for (Beside { nodes, error, time, instructions }, run) in self.floor.iter().zip(&self.runs) {
+        for (Effort { tolerance: nodes, measured, instructions }, run) in self.floor.iter().zip(&self.runs) {
+            let (error, time) = (measured.errors.end, measured.cost.processor);
             let counts = instructions.zip(run.instructions);
             let by_count = counts.map_or("–".to_owned(), |(floor, own)| digits(own as f64 / floor as f64));
             let millions = instructions.map_or("–".to_owned(), |count| digits(1e-6 * count as f64));

@@ -1,30 +1,22 @@
 //! The floor beside the program, for scenes that are the benchmark drive with other numbers.
 
 use super::{Floor, Rule};
-use crate::clock::Stopwatch;
-use crate::instructions::Counted;
-use crate::problem::Problem;
-use crate::request::Request;
+use crate::clock::{Stopwatch, Times};
+use crate::contestant::{Contestant, Stop};
+use crate::samples::Samples;
 use std::hint::black_box;
-use std::path::Path;
 use stickslip_drive::scene::{Freedom, Normal, Varying};
-use stickslip_drive::{Model, Scene, Shape};
+use stickslip_drive::{Counts, Model, Scene, Shape};
+use stickslip_results::Watcher;
 
-/// Turns that the least code is timed in, and runs of each.
-const TURNS: u32 = 15;
-const RUNS: u32 = 50;
 /// Periods closer to a whole number are one.
 const WHOLE: f64 = 1e-9;
 
-/// What the least code takes with so many nodes.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Beside {
-    pub(crate) nodes: u32,
-    /// At the end, in parts of the norm.
-    pub(crate) error: f64,
-    /// Processor time of a run, s.
-    pub(crate) time: f64,
-    pub(crate) instructions: Option<u64>,
+/// The floor of a scene with N nodes.
+pub(crate) struct Ground<const N: usize> {
+    pub(crate) floor: Floor,
+    pub(crate) periods: u32,
+    pub(crate) rule: Rule<N>,
 }
 
 impl Floor {
@@ -65,32 +57,24 @@ impl Floor {
     }
 }
 
-impl Beside {
-    /// The floor of a problem with 4, 10 and 16 nodes; none of scenes that have no floor.
-    pub(crate) fn all(problem: &Problem, file: &Path, request: &Request) -> Vec<Self> {
-        let Some(of) = Floor::of(&problem.scene, &problem.model, problem.duration) else {
-            return Vec::new();
-        };
-        let mut all =
-            vec![Self::new::<4>(problem, &of), Self::new::<10>(problem, &of), Self::new::<16>(problem, &of)];
-        for own in all.iter_mut().filter(|_| request.instructions) {
-            own.instructions = Counted::Floor(own.nodes).instructions(file, &request.set);
-        }
-        all
+impl<const N: usize> Contestant for Ground<N> {
+    fn sample(&self, _: f64, _: f64, _: &dyn Watcher) -> Result<(Samples, Counts), Stop> {
+        let mut samples = Samples::new(1);
+        let duration = f64::from(self.periods) * self.floor.period;
+        let moments: Vec<f64> = Samples::grid(duration).collect();
+        let slide = self.floor.slide(self.periods, &self.rule, &moments, |place| samples.push(place));
+        samples.push(self.floor.place(self.periods, &self.rule));
+        Ok((samples, Counts { steps: slide.arcs, evaluations: slide.arcs * N as u64, ..Counts::default() }))
     }
 
-    /// With N nodes; its instructions are not counted yet.
-    fn new<const N: usize>(problem: &Problem, (floor, periods): &(Floor, u32)) -> Self {
-        let rule = Rule::<N>::default();
-        let mut time = f64::INFINITY;
-        for _ in 0..TURNS {
-            let watch = Stopwatch::start();
-            (0..RUNS).for_each(|_| {
-                black_box(floor.place(black_box(*periods), &rule));
-            });
-            time = time.min(watch.each(RUNS).processor);
+    fn time(&self, _: f64, times: u32, watcher: &dyn Watcher) -> Result<Times, Stop> {
+        let watch = Stopwatch::start();
+        for _ in 0..times {
+            black_box(self.floor.place(black_box(self.periods), &self.rule));
+            if !watcher.goes_on() {
+                return Err(Stop::Interrupted);
+            }
         }
-        let error = problem.norm.against(0, floor.place(*periods, &rule), problem.reference.end()[0]);
-        Self { nodes: N as u32, error, time, instructions: None }
+        Ok(watch.each(times))
     }
 }

@@ -14,8 +14,9 @@ Measure what accuracy costs: every stepper on both engines, errors over time and
 Runs a scenario by every stepper of the program (event and dopri5 at tolerances from 1e-1 to 1e-12, rk4 and verlet at steps \
 halved again and again, whose corners fall on steps), each on the exact curve and on rows of 64, 256 and 1 024 springs. The \
 scenario's own stepper, engines and output do not matter. Beside them, where they know the scene, what others would do: \
-\"loop\", velocity Verlet over rows of springs in code of its own, tuned; and \"ode_solvers\", Dopri5 of that crate with the exact \
-contact and events found by hand.
+\"loop\" and \"loop-rk4\", velocity Verlet and rk4 over half rows of 64 to 4 096 springs in code of its own, tuned; \"exact-verlet\" \
+and \"exact-rk4\", the same on the exact contact under a constant load; \"ode_solvers\", Dopri5 of that crate with the exact contact and \
+events found by hand; and \"floor-4\", \"floor-10\" and \"floor-16\", the least code for P1 and its like, with so many nodes.
 
 An error is the largest error of any free coordinate, at the end or at any of 1 001 moments of the run, in parts of the \
 stroke of the scenario's waveform (or of the largest travel, where no body follows it); an angle counts as the way it makes \

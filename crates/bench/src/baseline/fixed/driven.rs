@@ -1,12 +1,12 @@
-//! What is driven, step by step.
+//! What is driven, half a step after half a step.
 
 use crate::baseline::Track;
 use crate::contestant::Stop;
 
 /// Longest table of driven places.
-const TABLE: usize = 1 << 22;
+const TABLE: usize = 1 << 23;
 
-/// Places of a track step by step, over a period or the whole run.
+/// Places of a track every half step, over a period or the whole run.
 pub(super) struct Table(Vec<f64>);
 
 /// Where what is driven stands.
@@ -21,15 +21,16 @@ impl<'t> Driven<'t> {
         Self { values, tables: tables.iter().map(|table| (table.0.as_slice(), 0)).collect() }
     }
 
-    /// To the next step.
-    #[inline]
-    pub(super) fn advance(&mut self) {
-        for (value, (table, at)) in self.values.iter_mut().zip(&mut self.tables) {
-            *at += 1;
-            if *at == table.len() {
-                *at = 0;
+    /// By one or two half steps.
+    #[inline(always)]
+    pub(super) fn advance(&mut self, halves: usize) {
+        for k in 0..self.tables.len() {
+            let (table, at) = &mut self.tables[k];
+            *at += halves;
+            if *at >= table.len() {
+                *at -= table.len();
             }
-            *value = table[*at];
+            self.values[k] = table[*at];
         }
     }
 }
@@ -41,11 +42,12 @@ impl Table {
         let endless = timing.delay == 0.0 && timing.cycles.is_none();
         let period = track.waveform.period().filter(|_| endless).map(|period| period / step);
         let divided = period.filter(|steps| (steps - steps.round()).abs() < 1e-9 * steps);
-        let length = divided.map_or((duration / step).round() + 1.0, f64::round) as usize;
+        let steps = divided.map_or((duration / step).round() + 1.0, f64::round);
+        let length = 2 * steps as usize;
         if length > TABLE {
             return Err(Stop::Failed("its table of driven places would be too long".to_owned()));
         }
-        let place = |n: usize| track.place(n as f64 * step);
+        let place = |n: usize| track.place(0.5 * n as f64 * step);
         Ok(Self((0..length).map(place).collect()))
     }
 }

@@ -1,0 +1,211 @@
+//! The loops that a researcher writes, with a fixed step and nothing else in the loop: over half rows of springs, or on the exact
+//! contact under a constant load.
+//!
+//! Bodies free in x, z and pitch. Tuned: coordinates in arrays of fixed size, driven places from a table, half of each symmetric row
+//! by the widest vectors of the machine.
+//!
+//! In reading order: `walk`, the loop; `driven`, what is driven; `row` and `exact`, the contacts.
+
+mod driven;
+mod exact;
+mod row;
+mod walk;
+
+pub(crate) use exact::Exact;
+pub(crate) use row::Half;
+
+use super::Mechanism;
+use crate::clock::{Stopwatch, Times};
+use crate::contestant::{Contestant, Stop};
+use crate::samples::Samples;
+use driven::{Driven, Table};
+use std::hint::black_box;
+use std::time::Instant;
+use stickslip_drive::Counts;
+use stickslip_results::Watcher;
+use walk::{Contact, Walk, Walker};
+
+/// Most free coordinates; each number of them has its own loop.
+const MOST: usize = 6;
+/// Steps between two looks at the clock.
+const STRIDE: usize = 4096;
+/// Evaluations in a step of four stages.
+const STAGES: u64 = 4;
+
+/// A loop over some contacts.
+pub(crate) struct Fixed<C> {
+    mechanism: Mechanism,
+    duration: f64,
+    /// Each contact as it stands at the start.
+    contacts: Vec<C>,
+    /// Whether it is the method of order 4.
+    staged: bool,
+}
+
+impl<C: Contact> Fixed<C> {
+    pub(crate) fn new(
+        mechanism: Mechanism,
+        contacts: Vec<C>,
+        (duration, staged): (f64, bool),
+    ) -> Result<Self, String> {
+        if !(1..=MOST).contains(&mechanism.free.len()) {
+            return Err(format!("more than {MOST} free coordinates"));
+        }
+        Ok(Self { mechanism, duration, contacts, staged })
+    }
+
+    fn steps(&self, step: f64) -> usize {
+        (self.duration / step).round() as usize
+    }
+
+    fn tables(&self, step: f64) -> Result<Vec<Table>, Stop> {
+        self.mechanism.tracks.iter().map(|track| Table::new(track, step, self.duration)).collect()
+    }
+
+    fn walker<'t>(&self, step: f64, tables: &'t [Table]) -> Box<dyn Walker + 't>
+    where
+        C: 't,
+    {
+        match self.mechanism.free.len() {
+            1 => Box::new(self.walk::<1>(step, tables)),
+            2 => Box::new(self.walk::<2>(step, tables)),
+            3 => Box::new(self.walk::<3>(step, tables)),
+            4 => Box::new(self.walk::<4>(step, tables)),
+            5 => Box::new(self.walk::<5>(step, tables)),
+            _ => Box::new(self.walk::<MOST>(step, tables)),
+        }
+    }
+
+    fn walk<'t, const F: usize>(&self, step: f64, tables: &'t [Table]) -> Walk<'t, C, F> {
+        Walk::new((&self.mechanism, &self.contacts), (step, self.staged), Driven::new(tables))
+    }
+}
+
+impl<C: Contact> Contestant for Fixed<C> {
+    fn sample(&self, step: f64, wall: f64, watcher: &dyn Watcher) -> Result<(Samples, Counts), Stop> {
+        let begun = Instant::now();
+        let tables = self.tables(step)?;
+        let mut walker = self.walker(step, &tables);
+        let (steps, mut samples) = (self.steps(step), Samples::new(self.mechanism.free.len()));
+        let before = |walker: &dyn Walker| {
+            let (x, v) = walker.places();
+            (x.to_vec(), v.to_vec())
+        };
+        for n in 0..steps {
+            let start = (samples.next(self.duration) <= (n + 1) as f64 * step).then(|| before(&*walker));
+            walker.advance(1);
+            if let Some(start) = start {
+                between(&mut samples, (n, step, self.duration), &start, walker.places());
+            }
+            if n.is_multiple_of(STRIDE) {
+                if !watcher.goes_on() {
+                    return Err(Stop::Interrupted);
+                } else if begun.elapsed().as_secs_f64() > wall {
+                    return Err(Stop::Slow);
+                }
+            }
+        }
+        walker.places().0.iter().for_each(|x| samples.push(*x));
+        let evaluations = if self.staged { STAGES } else { 1 } * steps as u64 + 1;
+        Ok((samples, Counts { steps: steps as u64, evaluations, ..Counts::default() }))
+    }
+
+    fn time(&self, step: f64, times: u32, watcher: &dyn Watcher) -> Result<Times, Stop> {
+        let tables = self.tables(step)?;
+        let watch = Stopwatch::start();
+        for _ in 0..times {
+            let mut walker = self.walker(step, &tables);
+            let mut left = self.steps(step);
+            while left > 0 {
+                walker.advance(left.min(STRIDE));
+                left -= left.min(STRIDE);
+                if !watcher.goes_on() {
+                    return Err(Stop::Interrupted);
+                }
+            }
+            black_box(walker.places());
+        }
+        Ok(watch.each(times))
+    }
+}
+
+/// Takes the places at the common moments within a step, on the cubic through both its ends.
+fn between(
+    samples: &mut Samples,
+    (n, step, duration): (usize, f64, f64),
+    start: &(Vec<f64>, Vec<f64>),
+    (x, v): (&[f64], &[f64]),
+) {
+    let from = n as f64 * step;
+    while samples.next(duration) <= from + step {
+        let s = (samples.next(duration) - from) / step;
+        for (((x0, v0), x), v) in start.0.iter().zip(&start.1).zip(x).zip(v) {
+            let mean = (x - x0) / step;
+            let bend = s * (1.0 - s) * ((1.0 - s) * (v0 - mean) - s * (v - mean));
+            samples.push(x0 + step * (s * mean + bend));
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::contestant::Stepping;
+    use crate::family::{Method, families};
+    use crate::problem::Problem;
+    use std::path::Path;
+    use stickslip_results::Job;
+
+    fn problem(name: &str) -> Problem {
+        let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..").join(name);
+        Problem::new(&Job::prepare(&file, &[], Path::new("")).unwrap(), &[], &()).unwrap()
+    }
+
+    /// Errors along the way in parts of the stroke, at these steps, s.
+    fn errors(problem: &Problem, method: Method, steps: [f64; 3]) -> [f64; 3] {
+        let families = families(problem);
+        let family = families.iter().find(|family| family.method == method).unwrap();
+        steps.map(|step| {
+            let (samples, _) = family.contestant.sample(step, f64::INFINITY, &()).unwrap();
+            problem.errors(&samples).0.trajectory
+        })
+    }
+
+    /// Turns and ends of branches fall within steps and leave both methods of order 2: against the event stepper at 1e-14, which is the
+    /// 50-digit solution of P1.
+    #[test]
+    fn plain_loops_on_the_exact_contact_come_to_p1_at_their_order() {
+        for name in
+            ["scenarios/p1.json", "crates/bench/scenes/p1_cone.json", "crates/bench/scenes/p1_power4.json"]
+        {
+            let problem = problem(name);
+            for (staged, most) in [(false, 0.1), (true, 0.01)] {
+                let steps = [5e-6, 1.25e-6, 0.3125e-6];
+                let errors = errors(&problem, Method::Loop { springs: None, staged }, steps);
+                let limits = steps.map(|step| most * (step / 10e-6).powi(2));
+                assert!(
+                    errors.iter().zip(limits).all(|(e, l)| *e < l),
+                    "{name} {staged}: {errors:?} {limits:?}"
+                );
+            }
+        }
+    }
+
+    /// The same steps, the same springs, in other words: what is left is rounding, of loads, of drives and of bodies that rock.
+    #[test]
+    fn half_a_row_moves_as_the_program_s_whole_one() {
+        for name in ["p1", "sine_drive", "oblique_impact", "three_ball_stage"] {
+            let problem = problem(&format!("scenarios/{name}.json"));
+            let families = families(&problem);
+            let samples = |method: Method| {
+                let family = families.iter().find(|family| family.method == method).unwrap();
+                family.contestant.sample(problem.duration / 4000.0, f64::INFINITY, &()).unwrap().0
+            };
+            for (staged, stepping) in [(false, Stepping::Verlet), (true, Stepping::Rk4)] {
+                let own = samples(Method::Own { stepping, springs: Some(64) });
+                let half = samples(Method::Loop { springs: Some(64), staged });
+                let apart = problem.norm.errors(&half, &own).trajectory;
+                assert!(apart < 1e-10, "{name} {staged}: {apart:e}");
+            }
+        }
+    }
+}

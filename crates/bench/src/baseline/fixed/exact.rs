@@ -1,0 +1,49 @@
+//! The exact contact under a constant load, as anyone would write it for such a scene.
+
+use super::walk::Contact;
+use crate::baseline::Tie;
+use crate::masing::Masing;
+use pulp::Simd;
+
+/// A contact of the profile |x|ⁿ.
+#[derive(Debug, Clone)]
+pub(crate) struct Exact {
+    memory: Masing,
+    /// u at the start, m; 1/u_c, 1/m; μF_N, N.
+    origin: f64,
+    scale: f64,
+    limit: f64,
+}
+
+impl Exact {
+    /// A contact at its start; or what is not known of it.
+    pub(in crate::baseline) fn new(tie: &Tie) -> Result<Self, String> {
+        let (law, apex) = (&tie.law, tie.start.apex());
+        if tie.press.is_some() {
+            return Err("loads that vary".to_owned());
+        }
+        let exponent = law.profile().exponent().ok_or("profiles that are no power")?;
+        if tie.start.knots().any(|(_, anchor)| anchor != apex.u) {
+            return Err("contacts that have slid before".to_owned());
+        }
+        Ok(Self {
+            memory: Masing::new((exponent + 1.0) / exponent),
+            origin: apex.u,
+            scale: law.gross_slip_displacement(apex.d).recip(),
+            limit: law.friction() * law.normal_force(apex.d),
+        })
+    }
+}
+
+impl Contact for Exact {
+    const WIDE: bool = false;
+
+    #[inline(always)]
+    fn force<S: Simd, const KEEP: bool>(&mut self, _: S, u: f64, _: f64) -> (f64, f64) {
+        let u = (u - self.origin) * self.scale;
+        if KEEP {
+            self.memory.slide(u);
+        }
+        (self.limit * self.memory.look(u), 0.0)
+    }
+}
