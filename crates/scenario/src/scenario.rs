@@ -33,8 +33,8 @@ pub struct Scenario {
     pub plan: Plan,
     /// Whose period and whose motion make steps and speeds.
     pub figures: Figures,
-    /// Whether the motion that the drive would settle on is looked for beside its run.
-    pub steady_motion: bool,
+    /// Whether the motion that the drive would settle on is looked for beside its run: at all it costs, or not; by default at little cost.
+    pub steady_motion: Option<bool>,
     /// Columns of the trace; none: all.
     pub channels: Option<Vec<String>>,
     /// What every spring does over time, if asked for.

@@ -75,7 +75,7 @@ impl Info {
             bodies: info::bodies(job),
             waveforms: info::waveforms(job),
             contacts: info::contacts(job),
-            steady_motion: outlook(job, &|| begun.elapsed().as_secs_f64() < wall),
+            steady_motion: outlook(job, None, &|| begun.elapsed().as_secs_f64() < wall),
             stepping: Stepping::of(job),
             expected: Expectation::of(job),
             actuators: info::piezos(job),

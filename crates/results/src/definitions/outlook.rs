@@ -35,7 +35,10 @@ const KEYS: [(&str, &str); 12] = [
         "steady_motion.shaken_down",
         "contacts that never slip grossly: the motion is one of a whole family, and what they slide in a period counts as its error",
     ),
-    ("steady_motion.fault", "why it was not found at little cost; the others are left out then"),
+    (
+        "steady_motion.fault",
+        "why it was not found at little cost, beside a run a fifth of its steps; the others are left out then",
+    ),
 ];
 
 pub(super) const SUMMARY: &[Definition] = &of("summary.json");

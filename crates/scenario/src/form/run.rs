@@ -174,7 +174,7 @@ fn default_events() -> Count {
 }
 
 /// Whose period and whose motion make steps and speeds.
-#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct FiguresForm {
     /// Name of a waveform with a period; the only waveform there is by default.
@@ -185,30 +185,15 @@ pub(crate) struct FiguresForm {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(example = &"slider")]
     pub(crate) body: Option<String>,
-    /// Whether `run` and `info` look for the motion that the drive would settle on, beside the run; by default they do, with work that is
-    /// bounded. `false` saves that work; `stickslip steady` looks for it all the same.
-    #[serde(default = "yes", skip_serializing_if = "is_yes")]
-    #[schemars(example = false)]
-    pub(crate) steady_motion: bool,
-}
-
-fn yes() -> bool {
-    true
-}
-
-#[expect(clippy::trivially_copy_pass_by_ref, reason = "serde asks so")]
-fn is_yes(value: &bool) -> bool {
-    *value
-}
-
-impl Default for FiguresForm {
-    fn default() -> Self {
-        Self { waveform: None, body: None, steady_motion: true }
-    }
+    /// Whether `run` and `info` look for the motion that the drive would settle on, beside the run. By default `run` spends at most a fifth
+    /// of its own steps on it; `true` lets it take as many as it needs; `false` saves that work. `stickslip steady` looks for it all the same.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(example = true)]
+    pub(crate) steady_motion: Option<bool>,
 }
 
 impl FiguresForm {
     pub(crate) fn is_empty(&self) -> bool {
-        self.waveform.is_none() && self.body.is_none() && self.steady_motion
+        self.waveform.is_none() && self.body.is_none() && self.steady_motion.is_none()
     }
 }

@@ -1,6 +1,7 @@
 //! What a drive would settle on, as far as a glance tells.
 
 use super::{Kind, Options, Steady, SteadyError, find};
+use stickslip_drive::Counts;
 use stickslip_drive::scene::{Coordinate, EngineChoice, Freedom, Scene};
 use stickslip_results::outlook::{Outlook, Repetition};
 use stickslip_results::{Job, Real};
@@ -9,6 +10,10 @@ use stickslip_results::{Job, Real};
 const TOLERANCE: f64 = 1e-9;
 /// Steps that a glance may take where a step is cheap: more than all examples need that have a motion to be found but one.
 const STEPS: u64 = 75_000;
+/// The part of a run's own steps that it may cost.
+const SHARE: u64 = 5;
+/// Periods that it takes at least: four to settle, one for Newton's method, two finer ones for the error, two to see it come back.
+const LEAST: u64 = 9;
 /// Coordinates and contacts up to which a step is: more than those of any example.
 const FEW: usize = 16;
 /// Springs of a row that cost what a contact without a row does.
@@ -79,11 +84,29 @@ fn steps(scene: &Scene) -> u64 {
     STEPS * FEW as u64 / parts as u64
 }
 
-/// What a job's drive would settle on, if that can be told at little cost; none of scenes that do not ask the question: without a
-/// period, without a free body that figures are of, and of those that say no to it. `goes_on` is asked before every period; `false` gives up.
-pub fn outlook(job: &Job, goes_on: &dyn Fn() -> bool) -> Option<Outlook> {
-    job.scenario.figures.body.zip(job.scenario.figures.waveform).filter(|_| job.scenario.steady_motion)?;
-    let steps = steps(&job.scenario.scene);
+/// What is said where a share of a run's steps does not lead to it.
+fn too_few(steps: u64) -> Outlook {
+    let asked = "`stickslip steady` takes all it needs, and so does a run with figures.steady_motion=true";
+    Outlook::NotFound {
+        fault: format!("no steady motion found within {steps} steps, a fifth of the run's: {asked}"),
+    }
+}
+
+/// What a job's drive would settle on, if that can be told at little cost, or is asked for at any; none of scenes that do not ask the
+/// question: without a period, without a free body that figures are of, and of those that say no to it. Beside a run, whose counts are
+/// given, it costs at most a share of its steps. `goes_on` is asked before every period; `false` gives up.
+pub fn outlook(job: &Job, run: Option<Counts>, goes_on: &dyn Fn() -> bool) -> Option<Outlook> {
+    let (_, waveform) = job.scenario.figures.body.zip(job.scenario.figures.waveform)?;
+    let share = run.map(|run| (run.steps + run.rejected) / SHARE);
+    let steps = match job.scenario.steady_motion {
+        Some(true) => u64::MAX,
+        Some(false) => return None,
+        None => steps(&job.scenario.scene).min(share.unwrap_or(u64::MAX)),
+    };
+    let period = job.scenario.scene.waveforms.get(waveform)?.part.period()?;
+    if Some(steps) == share && job.scenario.plan.duration < (SHARE * LEAST) as f64 * period {
+        return Some(too_few(steps));
+    }
     let options = Options { tolerance: TOLERANCE, steps, goes_on, ..Options::default() };
     match find(job, &options) {
         Ok(found) => found.repetition(job).map(Outlook::Found),
@@ -94,6 +117,7 @@ pub fn outlook(job: &Job, goes_on: &dyn Fn() -> bool) -> Option<Outlook> {
             | SteadyError::Commanded(_)
             | SteadyError::Interrupted(_),
         ) => None,
+        Err(SteadyError::Costly { steps }) if Some(steps) == share => Some(too_few(steps)),
         // Its first line says what, the others what to try.
         Err(error) => {
             let fault = error.to_string().lines().next().unwrap_or_default().to_owned();

@@ -2,6 +2,7 @@
 
 use std::error::Error;
 use std::path::Path;
+use stickslip_drive::Counts;
 use stickslip_results::Job;
 use stickslip_results::outlook::Outlook;
 use stickslip_study::steady::outlook;
@@ -18,7 +19,7 @@ fn p1(set: &[(&str, &str)]) -> Result<Job, Box<dyn Error>> {
 fn the_dearer_a_step_the_fewer_are_spent() -> Result<(), Box<dyn Error>> {
     let row = p1(&[("contacts.ball.engine", r#"{"springs":{"count":64000}}"#), ("plots", "[]")])?;
     // 75 000 steps for 16 parts, of which this row counts for 1 001 and the slider for one.
-    let told = outlook(&row, &|| true);
+    let told = outlook(&row, None, &|| true);
     assert!(
         matches!(&told, Some(Outlook::NotFound { fault }) if fault.contains("within 1197 steps")),
         "{told:?}"
@@ -28,12 +29,32 @@ fn the_dearer_a_step_the_fewer_are_spent() -> Result<(), Box<dyn Error>> {
 
 #[test]
 fn a_scenario_can_do_without() -> Result<(), Box<dyn Error>> {
-    assert!(matches!(outlook(&p1(&[])?, &|| true), Some(Outlook::Found(_))));
+    assert!(matches!(outlook(&p1(&[])?, None, &|| true), Some(Outlook::Found(_))));
     let without = p1(&[("figures.steady_motion", "false")])?;
-    assert_eq!(outlook(&without, &|| true), None);
+    assert_eq!(outlook(&without, None, &|| true), None);
     // What it says is kept, and costs those nothing who say nothing.
     assert!(without.resolved.contains("\"steady_motion\": false"));
     assert!(!p1(&[])?.resolved.contains("steady_motion"));
+    Ok(())
+}
+
+/// It took three times as many steps as the run beside it, and nobody had asked.
+#[test]
+fn beside_a_run_it_costs_a_fifth_of_its_steps_or_is_asked_for() -> Result<(), Box<dyn Error>> {
+    let of = |steps: u64| Some(Counts { steps, rejected: 5, ..Counts::default() });
+    let long = p1(&[("run.cycles", "100")])?;
+    // It takes some 90 steps in 12 periods, and none where these are too few from the beginning.
+    let (short, scarce, enough) = (
+        outlook(&p1(&[])?, of(140), &|| panic!("a period of a search for nothing")),
+        outlook(&long, of(140), &|| true),
+        outlook(&long, of(700), &|| true),
+    );
+    let is_told = |told: &Option<Outlook>| matches!(told, Some(Outlook::NotFound { fault }) if fault.contains("within 29 steps, a fifth of the run's"));
+    assert!(is_told(&short) && is_told(&scarce), "{short:?} {scarce:?}");
+    assert!(matches!(enough, Some(Outlook::Found(_))), "{enough:?}");
+    let asked = p1(&[("figures.steady_motion", "true")])?;
+    assert_eq!(outlook(&asked, of(140), &|| true), enough);
+    assert!(asked.resolved.contains("\"steady_motion\": true"));
     Ok(())
 }
 
@@ -42,7 +63,7 @@ fn a_scenario_can_do_without() -> Result<(), Box<dyn Error>> {
 fn a_drive_on_a_row_of_springs_steps() -> Result<(), Box<dyn Error>> {
     let row = p1(&[("contacts.ball.engine", r#"{"springs":{"count":101}}"#), ("plots", "[]")])?;
     let (Some(Outlook::Found(row)), Some(Outlook::Found(curve))) =
-        (outlook(&row, &|| true), outlook(&p1(&[])?, &|| true))
+        (outlook(&row, None, &|| true), outlook(&p1(&[])?, None, &|| true))
     else {
         return Err("no motion".into());
     };

@@ -113,7 +113,7 @@ pub(crate) fn write(
             interrupted.set(!goes_on());
             !interrupted.get() && has_time()
         };
-        summary.set_outlook(outlook(job, &goes_on));
+        summary.set_outlook(outlook(job, Some(outcome.state.counts()), &goes_on));
         gave_up = interrupted.get();
         if gave_up {
             summary.set_outlook(Some(Outlook::NotFound { fault: GIVEN_UP.to_owned() }));
