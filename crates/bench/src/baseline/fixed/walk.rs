@@ -180,21 +180,22 @@ impl<const F: usize> Row<F> {
 
     #[inline(always)]
     fn value(&self, driven: &Driven<'_>, x: &[f64; F]) -> f64 {
-        let mut value = self.constant;
+        let (free, mut value) = (&self.free, self.constant);
         for k in 0..self.driven.len() {
             let (track, factor) = self.driven[k];
             value += factor * driven.values[track];
         }
         for i in 0..F {
-            value += self.free[i] * x[i];
+            value += free[i] * x[i];
         }
         value
     }
 
     #[inline(always)]
     fn act(&self, a: &mut [f64; F], force: f64) {
+        let push = &self.push;
         for i in 0..F {
-            a[i] += self.push[i] * force;
+            a[i] += push[i] * force;
         }
     }
 }
