@@ -60,7 +60,9 @@ fn books_of_growth_follow_the_tolerance() {
         let ran = at("set_down_on_a_cone", tolerance);
         let ((missed, warned), off) = (books(&ran), (place(&ran, "ball", 0) - reference).abs());
         println!("{tolerance:e}: books miss {missed:.1e}, {off:.1e} u_c from verlet's, {own:.1e}");
-        assert!(missed < most * tolerance && !warned, "{tolerance:e}: {missed:e}, warned: {warned}");
+        // What is beyond 100 tolerances is told, too.
+        let told = warned == (missed > 100.0 * tolerance);
+        assert!(missed < most * tolerance && told, "{tolerance:e}: {missed:e}, warned: {warned}");
         assert!(off < own.max(1e-9), "{tolerance:e}: {off:e}");
     }
 }
