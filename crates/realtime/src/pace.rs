@@ -15,6 +15,8 @@ use stickslip_drive::RunError;
 
 /// How far ahead the first deadline lies, ns.
 const AHEAD: u64 = 2_000_000;
+/// Longest sleep before somebody who wants the loop to end is heard, ns.
+const NAP: u64 = 50_000_000;
 const NANO: f64 = 1e9;
 /// Numbers of steps of a frame that are told apart; from here on all are one.
 const MOST_STEPS: usize = 4096;
@@ -51,6 +53,11 @@ pub trait Cycle {
     /// # Errors
     /// Why the loop ends here; the frame then does not count.
     fn act(&mut self, frame: u64) -> Result<Work, Stop>;
+
+    /// Whether the loop is to go on; asked while it waits for a deadline that is far off.
+    fn goes_on(&self) -> bool {
+        true
+    }
 
     /// Is told how long a frame took, and how many deadlines are left out after it; not part of any frame's time.
     fn timed(&mut self, frame: &Slow, left_out: u64) {
@@ -182,6 +189,18 @@ impl Grid {
     }
 }
 
+/// Sleeps until a moment, by naps where that is far off.
+fn wait_until(moment: u64, cycle: &impl Cycle) -> Result<(), Stop> {
+    while moment.saturating_sub(now()) > NAP {
+        if !cycle.goes_on() {
+            return Err(Stop::Interrupted);
+        }
+        sleep_until(moment.min(now() + NAP));
+    }
+    sleep_until(moment);
+    Ok(())
+}
+
 /// Runs frames until there are no more of them or something stops them. Besides what the cycle does, nothing is allocated, and
 /// nothing but the sleep is asked of the system.
 ///
@@ -197,7 +216,7 @@ pub fn run(pace: &Pace, frames: u64, cycle: &mut impl Cycle, timing: &mut Timing
         let mut woke = now();
         if pace.overrun.is_some() {
             let deadline = grid.at(slot);
-            sleep_until(deadline.saturating_sub(spin));
+            wait_until(deadline.saturating_sub(spin), cycle)?;
             woke = now();
             while woke < deadline {
                 std::hint::spin_loop();
@@ -296,6 +315,28 @@ mod tests {
         assert_eq!(run(&pace, 20, &mut late, &mut timing), Err(Stop::Overrun));
         // A busy machine may be late before.
         assert!(timing.frames() <= 3 && timing.overruns == 1, "{}", timing.frames());
+    }
+
+    /// Frames of an hour, in whose wait somebody has had enough.
+    struct Enough(std::cell::Cell<u64>);
+
+    impl Cycle for Enough {
+        fn act(&mut self, _: u64) -> Result<Work, Stop> {
+            Ok(Work::default())
+        }
+
+        fn goes_on(&self) -> bool {
+            self.0.set(self.0.get() + 1);
+            self.0.get() < 3
+        }
+    }
+
+    #[test]
+    fn a_long_wait_for_a_deadline_ends_when_it_is_asked_to() {
+        let pace = Pace { period: 3600.0, overrun: Some(Overrun::Skip), spin: 0.0 };
+        let (mut enough, mut timing) = (Enough(0.into()), Timing::new());
+        assert_eq!(run(&pace, 20, &mut enough, &mut timing), Err(Stop::Interrupted));
+        assert_eq!((timing.frames(), enough.0.get()), (1, 3));
     }
 
     #[test]

@@ -118,6 +118,10 @@ impl<P: Plant> Cycle for Live<'_, P> {
         Ok(work)
     }
 
+    fn goes_on(&self) -> bool {
+        self.observer.goes_on()
+    }
+
     fn timed(&mut self, slow: &Slow, left_out: u64) {
         let Slow { frame, latency, execution, .. } = *slow;
         if let Some(log) = &mut self.wiring.log {
@@ -138,6 +142,10 @@ impl Cycle for Idle<'_> {
             return Err(Stop::Interrupted);
         }
         Ok(Empty.frame(&[], &mut [])?)
+    }
+
+    fn goes_on(&self) -> bool {
+        self.0.goes_on()
     }
 }
 
