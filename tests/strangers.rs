@@ -29,9 +29,13 @@ fn answer(arguments: &[&Path]) -> Output {
 #[test]
 fn pipes_and_devices_are_refused() {
     let out = tempdir().unwrap();
-    let good = run_example("p1", &out.path().join("good"), &["run.cycles=1", "plots=[\"loop\", \"state\"]"]);
+    let good = run_example(
+        "p1",
+        &out.path().join("good"),
+        &["run.cycles=1", "plots=[\"loop\", \"state\"]", "output.memory={}"],
+    );
     let bad = out.path().join("bad");
-    for name in ["trace.csv", "events.csv", "summary.json", "scenario.json", "springs.csv"] {
+    for name in ["trace.csv", "events.csv", "summary.json", "scenario.json", "springs.csv", "memory.csv"] {
         for device in ["pipe", "/dev/zero", "folder"] {
             let _ = fs::remove_dir_all(&bad);
             fs::create_dir(&bad).unwrap();
@@ -56,30 +60,6 @@ fn pipes_and_devices_are_refused() {
             }
         }
     }
-}
-
-/// Pictures that do not need a table are drawn whatever stands in its place, and one that needs it is said to be missing: no pipe is waited for.
-#[cfg(unix)]
-#[test]
-fn a_pipe_for_a_table_keeps_no_other_picture_from_being_drawn() {
-    let out = tempdir().unwrap();
-    let folder = run_example("p1", out.path(), &["run.cycles=1", "plots=[\"loop\", \"memory\"]"]);
-    let (table, picture) = (folder.join("memory.csv"), folder.join("loop.png"));
-    fs::remove_file(&table).unwrap();
-    assert!(std::process::Command::new("mkfifo").arg(&table).status().unwrap().success());
-    let drawn = |more: &[&str]| {
-        fs::remove_file(&picture).unwrap();
-        let more = more.iter().map(Path::new);
-        let output = answer(&["plot".as_ref(), folder.as_path()].into_iter().chain(more).collect::<Vec<_>>());
-        assert!(picture.is_file());
-        (code(&output), stderr(&output))
-    };
-    assert_eq!(drawn(&["--plots", "loop"]), (0, String::new()));
-    let (code, said) = drawn(&[]);
-    assert!(
-        code == 2 && said.contains("memory was not drawn: ") && said.contains("it is not a plain file"),
-        "{said}"
-    );
 }
 
 /// A word of 50 MB once took 100 s.

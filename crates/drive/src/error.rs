@@ -99,7 +99,7 @@ pub enum RunError {
     },
     /// Nothing balances the load on a coordinate without mass any more: gross slip, or a contact that has parted.
     #[error(
-        "nothing balances {load:.3e} N along {} of `{body}` from t = {t:.15e} s on: its contacts hold {}",
+        "nothing balances {load:.3e} N along {} of `{body}` from t = {t:.15e} s on: {}",
         .axis.key(),
         held(*.load, *.limit)
     )]

@@ -8,10 +8,7 @@ use crate::quantity::quantity;
 use crate::real::Real;
 use crate::warning::Warning;
 use std::collections::HashMap;
-use stickslip_drive::scene::{Freedom, Scene, Side};
-
-/// Angle up to which angles are small, rad: there a lever's end lies off by θ²/2 = 0.5 % of the lever.
-const SMALL: f64 = 0.1;
+use stickslip_drive::scene::{Freedom, SMALL_ANGLE, Scene, Side};
 
 /// Places of channels by their names.
 type Places<'a> = HashMap<&'a str, usize>;
@@ -116,10 +113,13 @@ impl Excursions {
     }
 
     fn angle(&self, job: &Job) -> Option<Warning> {
-        let turn =
-            self.turns.iter().max_by(|a, b| a.most.total_cmp(&b.most)).filter(|turn| turn.most > SMALL)?;
+        let turn = self
+            .turns
+            .iter()
+            .max_by(|a, b| a.most.total_cmp(&b.most))
+            .filter(|turn| turn.most > SMALL_ANGLE)?;
         let name = &job.scenario.scene.bodies.get(turn.body)?.name;
-        let [angle, small] = [turn.most, SMALL].map(|angle| quantity(Real(angle), "rad"));
+        let [angle, small] = [turn.most, SMALL_ANGLE].map(|angle| quantity(Real(angle), "rad"));
         let message = format!(
             "{name} turns by {angle}, beyond small angles of {small}: its points go on along straight lines, where they would go \
              round, and lie off by θ²/2 of their levers"

@@ -77,9 +77,12 @@ impl Results {
         let last = if synopsis.text("/status") == "done" { LastRow::End } else { LastRow::Stop };
         let mut kept = replay::read(tables, &job.columns, (&job.scenario.plots, last))?;
         kept.whole_until = synopsis.number("/counts/events_whole_until_s");
-        // What was not written is not there; what is there must be sealed.
+        // What was not written is not there; what is there must be a plain file that is sealed.
         let optional = |name: &str| match folder.join(name) {
-            path if path.exists() => synopsis.table(name),
+            path if path.exists() => match guard::open(&path) {
+                Ok(_) => Ok(synopsis.table(name)?),
+                Err(source) => Err(ResultsError::Read { path, source }),
+            },
             path => Ok(path.into()),
         };
         Ok(Self { job, kept, insides: InsideTables::find(optional)? })

@@ -409,8 +409,7 @@ impl Implausible<'_> {
 /// What frames lose of an accuracy where contacts part and touch.
 pub(crate) fn multiplied(accuracy: f64) -> String {
     format!(
-        "each touch multiplies errors, and more than the {accuracy:e} that frames are asked for may be lost of a stroke; of 200 drawn drives a \
-         sixth lost more, most of them up to 0.02, the wildest all of it"
+        "each touch multiplies errors, and more than the {accuracy:e} that frames are asked for may be lost of a stroke"
     )
 }
 

@@ -252,7 +252,8 @@ fn result(job: &Job, outcome: &Outcome, summary: &Summary) -> String {
         lines.push(format!("  {}, mean speed {}", settling(steps), quantity(steps.mean_speed, "m/s")));
         lines.extend(steps.oddity().iter().map(|line| format!("    {line}")));
         // Who has a settled step need not hear that a motion was not looked for any further.
-        let outlook = summary.outlook().filter(|it| matches!(it, Outlook::Found(_)) || steps.steady.is_none());
+        let outlook =
+            summary.outlook().filter(|it| matches!(it, Outlook::Found(_)) || steps.steady.is_none());
         lines.extend(outlook.map(|outlook| format!("  {}", lasting(outlook))));
     }
     for (name, contact) in &summary.contacts.0 {

@@ -177,7 +177,9 @@ mod tests {
     fn a_steady_motion_that_nobody_waits_for_is_told() {
         let root = tempfile::tempdir().unwrap();
         let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenarios/p1.json");
-        let job = Job::prepare(&file, &[("plots".to_owned(), "[]".to_owned())], root.path()).unwrap();
+        let set = [("plots", "[]"), ("figures.steady_motion", "true")];
+        let set = set.map(|(path, value)| (path.to_owned(), value.to_owned()));
+        let job = Job::prepare(&file, &set, root.path()).unwrap();
         let look = Look { formats: Vec::new(), themes: Vec::new(), scale: 1, width: None };
         let written = |goes_on: &dyn Fn() -> bool| {
             let folder = Folder::make(&job.folder).unwrap();
