@@ -47,7 +47,7 @@ impl Warning {
 
     /// All that `check` warns of.
     pub fn of_check(job: &Job) -> Vec<Self> {
-        job.warnings().iter().map(|odd| Self::of_odd(odd)).collect()
+        job.warnings().iter().map(Self::of_odd).collect()
     }
 
     fn of_odd(odd: &stickslip_scenario::Warning) -> Self {
@@ -59,7 +59,7 @@ impl Warning {
     pub fn of_scenario(job: &Job) -> Vec<Self> {
         let odd = job.warnings();
         let told = odd.iter().filter(|odd| odd.kind != stickslip_scenario::Warning::WORDING);
-        let mut warnings: Vec<Self> = told.map(|odd| Self::of_odd(odd)).collect();
+        let mut warnings: Vec<Self> = told.map(Self::of_odd).collect();
         warnings.sort_by(|a, b| (&a.path, a.kind, &a.message).cmp(&(&b.path, b.kind, &b.message)));
         warnings
     }

@@ -70,68 +70,56 @@ fn odd_scenes_are_warned_of_word_for_word() {
     assert_eq!(kinds, all);
 }
 
+const NONE: (&str, &str) = ("run.duration", "20 ms");
+const STEEL: (&str, &str) = ("contacts.ball.materials", r#"["ruby", "steel"]"#);
+const FLYBACK: &str = "waveforms.drive.sawtooth.flyback";
+
+/// An example, a path, a value outside the bounds and one inside, what is set beside it, and the kind of the warning with words of it.
+type Slip = (&'static str, &'static str, [&'static str; 2], (&'static str, &'static str), [&'static str; 2]);
+
+const SLIPS: [Slip; 9] = [
+    ("driven_stage", "bodies.stage.mass", ["100 kg", "25 kg"], NONE, ["mass", "100.0 kg are more than"]),
+    ("driven_stage", STIFFNESS, ["0.1 N/m", "0.2 N/um"], NONE, ["stiffness", "a stiffness of 100.0 mN/m: "]),
+    ("driven_stage", STIFFNESS, ["100 N/mm", "1 N/um"], NONE, ["stiffness", "a stiffness of 100.0 kN/m: "]),
+    (
+        "driven_stage",
+        STIFFNESS,
+        ["11000 N/um", "10000 N/um"],
+        NONE,
+        ["stiffness", "200.0 kN/m to 10.00 GN/m"],
+    ),
+    ("driven_stage", CAPACITANCE, ["7.2 mF", "1 mF"], NONE, ["capacitance", "a capacitance of 7.200 mF: "]),
+    (
+        "quickstart",
+        "contacts.ball.damping",
+        ["1.1 ms", "1 ms"],
+        NONE,
+        ["damping_time", "1.100 ms, more than 1.000 ms"],
+    ),
+    // 2a = 18.16 µm of √(G/ρ) = 3.208 km/s in steel: 5.661 ns each.
+    (
+        "quickstart",
+        FLYBACK,
+        ["56 ns", "57 ns"],
+        NONE,
+        ["flank", "a flank of 56.00 ns, shorter than 56.61 ns"],
+    ),
+    // The voltage of a stack: 2a = 58.4 µm, 91 ns a passage ten times.
+    ("driven_stage", FLYBACK, ["10 ns", "1 us"], NONE, ["flank", "a flank of 10.00 ns, shorter than"]),
+    // 1.07 of 355 MPa: 1.159 GPa under 300 mN, and pressures go with the third root of the force.
+    (
+        "quickstart",
+        PRESS,
+        ["10.6 mN", "10.5 mN"],
+        STEEL,
+        ["pressure", "structural STEEL, of a yield stress up to 355.0 MPa"],
+    ),
+];
+
 /// What a slip of a prefix makes of an example is told with its number and its bound; what lies just inside the bound is not.
 #[test]
 fn slips_of_a_prefix_are_warned_of_and_what_lies_inside_the_bounds_is_not() {
-    let steel = ("contacts.ball.materials", r#"["ruby", "steel"]"#);
-    let none = ("run.duration", "20 ms");
-    let flyback = "waveforms.drive.sawtooth.flyback";
-    for (name, path, [outside, inside], beside, [kind, words]) in [
-        ("driven_stage", "bodies.stage.mass", ["100 kg", "25 kg"], none, ["mass", "100.0 kg are more than"]),
-        (
-            "driven_stage",
-            STIFFNESS,
-            ["0.1 N/m", "0.2 N/um"],
-            none,
-            ["stiffness", "a stiffness of 100.0 mN/m: "],
-        ),
-        (
-            "driven_stage",
-            STIFFNESS,
-            ["100 N/mm", "1 N/um"],
-            none,
-            ["stiffness", "a stiffness of 100.0 kN/m: "],
-        ),
-        (
-            "driven_stage",
-            STIFFNESS,
-            ["11000 N/um", "10000 N/um"],
-            none,
-            ["stiffness", "200.0 kN/m to 10.00 GN/m"],
-        ),
-        (
-            "driven_stage",
-            CAPACITANCE,
-            ["7.2 mF", "1 mF"],
-            none,
-            ["capacitance", "a capacitance of 7.200 mF: "],
-        ),
-        (
-            "quickstart",
-            "contacts.ball.damping",
-            ["1.1 ms", "1 ms"],
-            none,
-            ["damping_time", "1.100 ms, more than 1.000 ms"],
-        ),
-        // 2a = 18.16 µm of √(G/ρ) = 3.208 km/s in steel: 5.661 ns each.
-        (
-            "quickstart",
-            flyback,
-            ["56 ns", "57 ns"],
-            none,
-            ["flank", "a flank of 56.00 ns, shorter than 56.61 ns"],
-        ),
-        // The voltage of a stack: 2a = 58.4 µm, 91 ns a passage ten times.
-        ("driven_stage", flyback, ["10 ns", "1 us"], none, ["flank", "a flank of 10.00 ns, shorter than"]),
-        // 1.07 of 355 MPa: 1.159 GPa under 300 mN, and pressures go with the third root of the force.
-        (
-            "quickstart",
-            PRESS,
-            ["10.6 mN", "10.5 mN"],
-            steel,
-            ["pressure", "structural steel, of a yield stress up to 355.0 MPa"],
-        ),
-    ] {
+    for (name, path, [outside, inside], beside, [kind, words]) in SLIPS {
         let kinds = |value: &str| {
             let set = [beside, (path, value)].map(|(path, value)| (path.to_owned(), value.to_owned()));
             let job =

@@ -176,7 +176,6 @@ fn frames_under_moving_normals_keep_their_accuracy_or_say_so() {
         let warnings = Summary::new(&stage.job, &outcome).warnings;
         let warned: Vec<_> =
             warnings.iter().map(|it| it.kind).filter(|it| it.starts_with("frames")).collect();
-        println!("{name}: {:.1e} of a stroke, {accuracy:e} asked, {warned:?}", lost);
         assert!(lost <= accuracy || !warned.is_empty(), "{name}: {lost:e}");
         // Of feet that lift and touch no number of steps keeps it.
         assert!(k == 3 || lost <= accuracy, "{name}: {lost:e}");

@@ -141,7 +141,8 @@ impl Curve {
     /// longest.
     fn edge(&self, search: &Search<'_>, (name, rises): (&'static str, bool)) -> Landmark {
         let traced = search.traced;
-        let (sense, lengths, known) = self.lengths(traced, rises);
+        let (sense, lengths) = self.lengths(traced);
+        let known = from_steps(&lengths, rises);
         let from = known.iter().position(|(_, step)| step.is_some()).unwrap_or(0);
         let steps: Vec<(f64, f64)> =
             known[from..].iter().map_while(|(at, step)| step.map(|step| (*at, step))).collect();
@@ -167,7 +168,8 @@ impl Curve {
 
     /// Where a drive ceases to step as its amplitude grows; none where the largest has a step, or none has.
     fn upper_edge(&self, search: &Search<'_>, name: &'static str) -> Option<Landmark> {
-        let (sense, lengths, known) = self.lengths(search.traced, true);
+        let (sense, lengths) = self.lengths(search.traced);
+        let known = from_steps(&lengths, true);
         let first = known.iter().position(|(_, step)| step.is_some()).filter(|first| *first > 0)?;
         let (still, _) = *known.get(first - 1)?;
         let steps = known[first..].iter().map_while(|(at, step)| step.map(|step| (*at, step)));
@@ -190,21 +192,11 @@ impl Curve {
         }
     }
 
-    /// The sense of the steps, the lengths of all points that have one, and the steps from the side on which there are some: from the
-    /// largest amplitude, or the least load.
-    fn lengths(&self, traced: &Traced, rises: bool) -> (f64, Vec<(f64, Length)>, Vec<(f64, Option<f64>)>) {
+    /// The sense of the steps, and the lengths of all points that have one.
+    fn lengths(&self, traced: &Traced) -> (f64, Vec<(f64, Length)>) {
         let sense = if self.kind.is_of_load() { traced.direction } else { sense(traced) };
-        let points = traced.points.iter();
-        let traced_so =
-            points.filter_map(|point| Some((point.value, Length::of(point.motion.clone(), sense).ok()?)));
-        let lengths: Vec<(f64, Length)> = traced_so.collect();
-        let mut known: Vec<(f64, Option<f64>)> =
-            lengths.iter().map(|(at, length)| (*at, length.step)).collect();
-        let size = |place: Option<&(f64, Option<f64>)>| place.map_or(0.0, |(at, _)| at.abs());
-        if rises && size(known.last()) >= size(known.first()) {
-            known.reverse();
-        }
-        (sense, lengths, known)
+        let length = |point: &Point| Some((point.value, Length::of(point.motion.clone(), sense).ok()?));
+        (sense, traced.points.iter().filter_map(length).collect())
     }
 
     /// An edge among what is known around it.
@@ -417,6 +409,16 @@ impl Landmark {
             beyond: None,
         }
     }
+}
+
+/// The steps of points from the side on which there are some: from the largest amplitude where steps rise with it, from the least load.
+fn from_steps(lengths: &[(f64, Length)], rises: bool) -> Vec<(f64, Option<f64>)> {
+    let mut known: Vec<(f64, Option<f64>)> = lengths.iter().map(|(at, length)| (*at, length.step)).collect();
+    let size = |place: Option<&(f64, Option<f64>)>| place.map_or(0.0, |(at, _)| at.abs());
+    if rises && size(known.last()) >= size(known.first()) {
+        known.reverse();
+    }
+    known
 }
 
 /// By how much steps become longer with the distance from where there is none: between the two places nearest to it, or from the
