@@ -60,6 +60,8 @@ pub(super) struct Allowance {
     work: f64,
     /// Share of a work that is rounding, where no contact and no stroke tells how much of it matters.
     rounding: f64,
+    /// Share of the kinetic energy that is rounding of works, beside contacts that rub.
+    moving: f64,
     /// What rounding makes of the work that waveforms put in, J.
     least: f64,
     /// Whether a contact's friction is so small that the tolerance may lie below the rounding of places beside it.
@@ -108,7 +110,10 @@ impl Allowance {
             .iter()
             .any(|contact| (f64::MIN_POSITIVE..FAINT).contains(&contact.interface.friction()));
         let work = model.work_scale();
-        Self { allowed: Allowed { scale, power: 0.0 }, tolerance, strict, work, rounding, least, is_faint }
+        // Where nothing rubs the works have no scale but what moves: a swing at resonance grows by the same in every period.
+        let moving = if rubs { f64::EPSILON } else { 0.0 };
+        let allowed = Allowed { scale, power: 0.0 };
+        Self { allowed, tolerance, strict, work, rounding, moving, least, is_faint }
     }
 
     /// The tolerance times the natural scale, and never below what rounding of a far-travelled coordinate makes of the force,
@@ -142,7 +147,7 @@ impl Allowance {
         let noise = if beyond > 0.0 { PLACES * state.t * surge(model, state) } else { 0.0 };
         // A mass that a step of load drives over metres has put in 10¹⁵ times what natural lengths of a micrometre let expect.
         let gone = self.rounding * (state.y[layout.input()].abs() + state.y[layout.damping()].abs());
-        let least = (f64::EPSILON * kinetic).max(self.least);
+        let least = (self.moving * kinetic).max(self.least);
         scale[layout.dimension()..].fill((work + noise.min(beyond) + gone).max(least));
         if model.contacts.len() > 1 {
             self.allow_walked(model, state);
