@@ -112,7 +112,7 @@ const SLIPS: [Slip; 9] = [
         PRESS,
         ["10.6 mN", "10.5 mN"],
         STEEL,
-        ["pressure", "structural STEEL, of a yield stress up to 355.0 MPa"],
+        ["pressure", "structural steel, of a yield stress up to 355.0 MPa"],
     ),
 ];
 
