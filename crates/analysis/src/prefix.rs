@@ -26,7 +26,7 @@ impl Prefix {
         if !(magnitude.is_finite() && (1e-24..1e27).contains(&magnitude)) {
             return Self::NONE;
         }
-        let mut exponent = 3 * (magnitude.log10() / 3.0).floor() as i32;
+        let mut exponent = 3 * (math::log10(magnitude) / 3.0).floor() as i32;
         // The logarithm may round to the wrong side of a power of ten.
         if magnitude >= 1000.0 * ten(exponent) {
             exponent += 3;

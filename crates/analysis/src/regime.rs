@@ -112,7 +112,7 @@ fn rigid(n: f64) -> Result<(f64, f64), SeriesError> {
     }
     check_positive("n", n)?;
     // 2^{1/(n+1)} - 1 without cancellation for large n.
-    Ok((1.0 / (2.0 * n + 1.0), (std::f64::consts::LN_2 / (n + 1.0)).exp_m1()))
+    Ok((1.0 / (2.0 * n + 1.0), math::exp_m1(std::f64::consts::LN_2 / (n + 1.0))))
 }
 
 fn ratio(a: f64, d: f64) -> Option<f64> {

@@ -161,7 +161,7 @@ fn refuse(scene: &Scene) -> Result<(), String> {
 /// Gravity and constant loads on a free coordinate, N or N m.
 fn force(scene: &Scene, body: usize, axis: Axis, mass: f64) -> f64 {
     let weight = -mass * scene.gravity.acceleration;
-    let (along, normal) = scene.gravity.incline.sin_cos();
+    let (along, normal) = math::sin_cos(scene.gravity.incline);
     let constant = |value: Varying| if let Varying::Constant(value) = value { value } else { 0.0 };
     let loads = scene.loads.iter().filter(|load| load.on == body).map(|load| {
         let (x, z) = (constant(load.x), constant(load.z));

@@ -52,7 +52,7 @@ impl Floor {
         let (young, poisson, radius, friction, normal) = (210e9, 0.3_f64, 1e-3_f64, 0.15, 1.0);
         let pressing = young / (2.0 * (1.0 - poisson * poisson));
         let sliding = young / ((1.0 + poisson) * (2.0 - poisson));
-        let depth = (0.75 * normal / (pressing * radius.sqrt())).powf(2.0 / 3.0);
+        let depth = math::powf(0.75 * normal / (pressing * radius.sqrt()), 2.0 / 3.0);
         let length = friction * pressing / sliding * depth;
         Self { mass: 0.02, limit: friction * normal, length, stroke: 0.5e-6, period: 1e-3, flyback: 1e-4 }
     }

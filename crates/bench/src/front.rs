@@ -60,8 +60,8 @@ impl Front {
         if e1 == 0.0 {
             return Some(Cost::Measured(t1));
         }
-        let part = (error / e0).ln() / (e1 / e0).ln();
-        Some(Cost::Measured(t0 * (t1 / t0).powf(part)))
+        let part = math::ln(error / e0) / math::ln(e1 / e0);
+        Some(Cost::Measured(t0 * math::powf(t1 / t0, part)))
     }
 }
 

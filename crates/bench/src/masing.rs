@@ -170,7 +170,7 @@ fn raised(z: f64, p: f64) -> f64 {
     } else if p == 1.25 {
         z * z.sqrt().sqrt()
     } else {
-        z.powf(p)
+        math::powf(z, p)
     }
 }
 

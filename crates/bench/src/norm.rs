@@ -58,7 +58,7 @@ fn arm(scene: &Scene, body: usize) -> f64 {
     let contacts = scene.contacts.iter().map(|contact| &contact.part);
     let ends = contacts.flat_map(|contact| contact.between.into_iter().zip(contact.at));
     let own = ends.filter(|(side, _)| *side == Side::Body(body));
-    let farthest = own.map(|(_, at)| at.x.hypot(at.z)).fold(0.0, f64::max);
+    let farthest = own.map(|(_, at)| math::hypot(at.x, at.z)).fold(0.0, f64::max);
     if farthest > 0.0 { farthest } else { 1.0 }
 }
 

@@ -307,8 +307,8 @@ pub(crate) fn parent(file: &Path) -> &Path {
 
 /// Two significant digits, three from 100 on.
 fn digits(value: f64) -> String {
-    let decimals = (1.0 - value.abs().max(1e-9).log10().floor()).clamp(0.0, 9.0) as usize;
-    let grain = if value >= 1000.0 { 10_f64.powi(value.log10().floor() as i32 - 1) } else { 1.0 };
+    let decimals = (1.0 - math::log10(value.abs().max(1e-9)).floor()).clamp(0.0, 9.0) as usize;
+    let grain = if value >= 1000.0 { 10_f64.powi(math::log10(value).floor() as i32 - 1) } else { 1.0 };
     let shown = if value >= 1000.0 { (value / grain).round() * grain } else { value };
     let text = format!("{shown:.decimals$}");
     // A value of that size has no decimals.

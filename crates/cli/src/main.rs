@@ -10,8 +10,8 @@ mod console;
 use arguments::{Arguments, Command};
 use clap::Parser;
 use commands::{
-    bench, characterise, check, compare, completions, contact, explain, gallery, info, loops, materials, new,
-    plot, realtime, repro, resume, run, schema, sensitivity, soak, steady, validate,
+    bench, characterise, check, compare, completions, contact, explain, gallery, info, loops,
+    materials, new, plot, realtime, repro, resume, run, schema, sensitivity, soak, steady, validate,
 };
 use std::process::ExitCode;
 
@@ -46,4 +46,12 @@ fn main() -> ExitCode {
         Command::Validate(arguments) => validate::validate(&arguments),
     };
     ExitCode::from(verdict.max(console::answer::verdict()).code())
+}
+
+/// x^y for what the program is made of: dependencies (the progress bar's estimate, the benchmarks' other solver) ask for it by this
+/// name, and would be given the C library's of the machine.
+#[expect(unsafe_code, reason = "a name that C libraries define as well; the function is safe")]
+#[unsafe(no_mangle)]
+extern "C" fn pow(x: f64, y: f64) -> f64 {
+    math::powf(x, y)
 }

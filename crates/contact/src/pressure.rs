@@ -77,10 +77,10 @@ fn slope_integral(profile: &Profile, a: f64, r: f64) -> f64 {
             return graded([from, to], panels, |x| profile.depth_slope(x) / x);
         }
         // x = r cosh v takes the root away, however small r is.
-        let angle = |x: f64| (((x - r) * (x + r)).sqrt() / r).asinh();
+        let angle = |x: f64| math::asinh(((x - r) * (x + r)).sqrt() / r);
         let range = [angle(from), angle(to)];
         let panels = panels.max((PER_UNIT * (range[1] - range[0])).ceil() as usize);
-        graded(range, panels, |v| profile.depth_slope((r * v.cosh()).clamp(from, to)))
+        graded(range, panels, |v| profile.depth_slope((r * math::cosh(v)).clamp(from, to)))
     };
     ends.windows(2).map(part).sum()
 }

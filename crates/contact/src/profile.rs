@@ -2,7 +2,6 @@
 
 mod angle;
 mod chart;
-mod cube_root;
 mod error;
 mod flat;
 mod foundation;

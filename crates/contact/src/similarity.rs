@@ -76,7 +76,7 @@ impl fmt::Display for Similarity {
 
 /// So many digits.
 fn short(value: f64, digits: i32) -> String {
-    let places = digits - 1 - value.abs().log10().floor() as i32;
+    let places = digits - 1 - math::log10(value.abs()).floor() as i32;
     if (0..=6).contains(&places) {
         format!("{value:.*}", usize::try_from(places).unwrap_or(0))
     } else {

@@ -223,7 +223,7 @@ impl Contact {
             return crowded;
         }
         let (left, allowed) = left();
-        crowded.max(2e-4 * fading * left.powf(power) / allowed)
+        crowded.max(2e-4 * fading * math::powf(left, power) / allowed)
     }
 
     /// βω: what damping makes of a natural speed, in parts of the natural force. 0 without damping.

@@ -16,7 +16,7 @@ pub(crate) use reach::Reach;
 
 use crate::model::Terms;
 use crate::{Model, Sample, State, Stepper};
-use nalgebra::{Complex, DMatrix, DVector, Schur, SymmetricEigen};
+use nalgebra::{Complex, ComplexField, DMatrix, DVector, Schur, SymmetricEigen};
 use reach::{longest, rk4_reach};
 use std::f64::consts::SQRT_2;
 
@@ -244,7 +244,7 @@ impl Linearised {
             return 2.0 * SQRT_2 / frequency;
         }
         let rates = self.rates(if frequency > 0.0 { frequency } else { 1.0 });
-        rates.iter().filter(|rate| rate.norm() > 0.0).map(rk4_reach).fold(f64::INFINITY, f64::min)
+        rates.iter().filter(|rate| rate.modulus() > 0.0).map(rk4_reach).fold(f64::INFINITY, f64::min)
     }
 
     /// All λ of λ²M + λC + K, 1/s, as those of a matrix of first order in x and v/`frequency`, which have like sizes.

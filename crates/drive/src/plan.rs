@@ -90,7 +90,7 @@ pub enum Stepper {
         /// What may be lost of a stroke in a stroke, 1e-9 to 1e-1.
         accuracy: f64,
     },
-    /// Dormand–Prince 5(4) of the crate `ode_solvers`, without events: the plain explicit reference.
+    /// Dormand–Prince 5(4), without events: the plain explicit reference.
     Dopri5 {
         /// Local error per step, 1e-13 to 1e-2.
         tolerance: f64,

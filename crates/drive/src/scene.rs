@@ -239,7 +239,7 @@ impl Gravity {
             1.0 if turned => (1.0, 0.0),
             2.0 if turned => (0.0, -1.0),
             3.0 if turned => (-1.0, 0.0),
-            _ => self.incline.sin_cos(),
+            _ => math::sin_cos(self.incline),
         };
         (self.acceleration * sine, self.acceleration * cosine)
     }

@@ -193,7 +193,7 @@ fn walk(spec: &Spec, command: &Waveform, (start, period): (f64, f64)) -> Option<
             }
             let wish = match spec.time() {
                 None => passed - voltage,
-                Some(time) => -(passed - voltage) * (-h / time).exp_m1(),
+                Some(time) => -(passed - voltage) * math::exp_m1(-h / time),
             };
             voltage += wish.clamp(-down * h, up * h);
             own = (own.0.min(voltage), own.1.max(voltage));

@@ -29,7 +29,7 @@ impl<B: DrawingBackend> Painter<'_, B> {
             let middle = length(way) / 2.0;
             let [tail, tip] = [middle - head / 2.0, middle + head / 2.0].map(|gone| at(way, gone));
             let (dx, dy) = (tip.0 - tail.0, tip.1 - tail.1);
-            let share = HALF / LENGTH * head / dx.hypot(dy).max(f64::MIN_POSITIVE);
+            let share = HALF / LENGTH * head / math::hypot(dx, dy).max(f64::MIN_POSITIVE);
             let corner = |sign: f64| (tail.0 - sign * share * dy, tail.1 + sign * share * dx);
             self.canvas.polygon(&[tip, corner(1.0), corner(-1.0)], stroke.colour)?;
         }
@@ -59,7 +59,7 @@ fn ways(line: &[Point]) -> Vec<&[Point]> {
 
 /// Length of a way, px.
 fn length(way: &[Point]) -> f64 {
-    way.windows(2).map(|pair| (pair[1].0 - pair[0].0).hypot(pair[1].1 - pair[0].1)).sum()
+    way.windows(2).map(|pair| math::hypot(pair[1].0 - pair[0].0, pair[1].1 - pair[0].1)).sum()
 }
 
 /// The point so far along a way, px.
@@ -67,7 +67,7 @@ fn at(way: &[Point], gone: f64) -> Point {
     let mut left = gone;
     for pair in way.windows(2) {
         let (from, to) = (pair[0], pair[1]);
-        let step = (to.0 - from.0).hypot(to.1 - from.1);
+        let step = math::hypot(to.0 - from.0, to.1 - from.1);
         if step >= left && step > 0.0 {
             let share = left / step;
             return (from.0 + share * (to.0 - from.0), from.1 + share * (to.1 - from.1));

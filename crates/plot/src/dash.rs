@@ -25,7 +25,7 @@ pub(crate) fn dashed(line: &[Point], dash: Dash, width: f64) -> Vec<Vec<Point>> 
     let (mut turn, mut left) = (0, pattern[0] * width);
     for pair in line.windows(2) {
         let (from, to) = (pair[0], pair[1]);
-        let way = (to.0 - from.0).hypot(to.1 - from.1);
+        let way = math::hypot(to.0 - from.0, to.1 - from.1);
         let mut gone = 0.0;
         while way - gone > left {
             gone += left;

@@ -118,7 +118,7 @@ fn light(Colour(r, g, b): Colour) -> Light {
 
 /// The curve of sRGB (IEC 61966-2-1), value 0 to 1.
 fn linear(value: f64) -> f64 {
-    if value <= 0.040_45 { value / 12.92 } else { ((value + 0.055) / 1.055).powf(2.4) }
+    if value <= 0.040_45 { value / 12.92 } else { math::powf((value + 0.055) / 1.055, 2.4) }
 }
 
 /// The way back from light to the nearest of 256 values.

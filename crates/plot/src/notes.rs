@@ -189,7 +189,7 @@ impl Board {
         let area = self.area(text, at);
         let away = distance(area, text.about) / self.em;
         let (here, there) = (centre(area), centre(text.about));
-        let off = (here.0 - there.0).hypot(here.1 - there.1) / self.em;
+        let off = math::hypot(here.0 - there.0, here.1 - there.1) / self.em;
         away + CENTRED * off + if away > FAR { POINTING } else { 0.0 }
     }
 
@@ -232,7 +232,7 @@ impl Board {
         let cell = self.em / FINENESS;
         // No line that can be seen is longer than both sides of the frame together.
         let most = 4.0 * (self.columns + self.rows) as f64;
-        let steps = (2.0 * (to.0 - from.0).hypot(to.1 - from.1) / cell).ceil().clamp(1.0, most) as usize;
+        let steps = (2.0 * math::hypot(to.0 - from.0, to.1 - from.1) / cell).ceil().clamp(1.0, most) as usize;
         (0..=steps).filter_map(move |k| {
             let share = k as f64 / steps as f64;
             let x = (from.0 + share * (to.0 - from.0) - self.frame.left) / cell;
@@ -301,5 +301,5 @@ fn nearest(area: Area, (x, y): Point) -> Point {
 /// How far two rectangles are apart.
 fn distance(a: Area, b: Area) -> f64 {
     let gap = |a: (f64, f64), b: (f64, f64)| (a.0 - b.0 - b.1).max(b.0 - a.0 - a.1).max(0.0);
-    gap((a.left, a.width), (b.left, b.width)).hypot(gap((a.top, a.height), (b.top, b.height)))
+    math::hypot(gap((a.left, a.width), (b.left, b.width)), gap((a.top, a.height), (b.top, b.height)))
 }

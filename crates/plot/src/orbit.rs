@@ -66,12 +66,12 @@ pub fn orbit_figure<'a>(title: &str, course: &OrbitCourse<'a>) -> Figure<'a> {
 /// Multipliers by what becomes of a disturbance.
 fn circle(multipliers: &[(f64, f64)]) -> Panel<'static> {
     let angles = (0..POINTS).map(|k| std::f64::consts::TAU * f64::from(k) / f64::from(POINTS - 1));
-    let (x, y): (Vec<f64>, Vec<f64>) = angles.map(|angle| (angle.cos(), angle.sin())).unzip();
+    let (x, y): (Vec<f64>, Vec<f64>) = angles.map(|angle| (math::cos(angle), math::sin(angle))).unzip();
     let mut series = vec![Series {
         style: Style { ink: Some(Ink::Muted), dash: Some(Dash::Solid), width: 0.6 },
         ..Series::new("", x, y)
     }];
-    let grows = |(re, im): &(f64, f64)| re.hypot(*im) > 1.0 + NEUTRAL;
+    let grows = |(re, im): &(f64, f64)| math::hypot(*re, *im) > 1.0 + NEUTRAL;
     for (place, (name, outside)) in [("fades or stays", false), ("grows", true)].into_iter().enumerate() {
         let points = multipliers.iter().filter(|multiplier| grows(multiplier) == outside);
         // Gaps between: they are points, and no line.

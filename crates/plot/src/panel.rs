@@ -194,7 +194,7 @@ impl Axis {
 
     /// What is laid off along the axis for a value: the value, or its power of ten.
     pub(crate) fn measure(&self, value: f64) -> f64 {
-        if self.logarithmic { value.log10() } else { value }
+        if self.logarithmic { math::log10(value) } else { value }
     }
 }
 

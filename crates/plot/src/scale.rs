@@ -157,7 +157,7 @@ impl Multiple {
         if takes_prefix(unit) && (1.0..1000.0).contains(&magnitude) {
             return Self { exponent: 0, unit: unit.to_owned() };
         }
-        let exponent = 3 * (magnitude.log10() / 3.0).floor() as i32;
+        let exponent = 3 * (math::log10(magnitude) / 3.0).floor() as i32;
         let gap = if unit.is_empty() { "" } else { " " };
         Self { exponent, unit: format!("10{}{gap}{unit}", superscript(exponent)) }
     }
@@ -175,7 +175,7 @@ fn offset(from: f64, to: f64) -> f64 {
     if span >= OFFSET_BELOW * from.abs().max(to.abs()) {
         return 0.0;
     }
-    let grain = 10_f64.powi(span.log10().ceil() as i32);
+    let grain = 10_f64.powi(math::log10(span).ceil() as i32);
     let offset = ((from + span / 2.0) / grain).round() * grain;
     if offset.is_finite() { offset } else { 0.0 }
 }
@@ -183,7 +183,7 @@ fn offset(from: f64, to: f64) -> f64 {
 /// The offset in its own prefix, to the digit that the span needs.
 fn offset_text(offset: f64, span: f64, unit: &str) -> String {
     let multiple = Multiple::of(offset, unit);
-    let grain = span.log10().ceil() as i32;
+    let grain = math::log10(span).ceil() as i32;
     let decimals = usize::try_from(multiple.exponent - grain).unwrap_or(0).min(17);
     let text = format!("{:.decimals$}", multiple.apply(offset));
     let text = if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.') } else { &text };
@@ -197,7 +197,7 @@ pub(crate) fn quantity(value: f64, unit: &str, digits: usize) -> String {
     }
     let multiple = Multiple::of(value.abs(), unit);
     let shown = multiple.apply(value);
-    let whole = if shown == 0.0 { 1 } else { shown.abs().log10().floor() as i32 + 1 };
+    let whole = if shown == 0.0 { 1 } else { math::log10(shown.abs()).floor() as i32 + 1 };
     let decimals = usize::try_from(digits as i32 - whole).unwrap_or(0).min(17);
     let text = number(shown, decimals);
     let text = if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.') } else { &text };
@@ -218,7 +218,7 @@ fn ticks((low, high): (f64, f64), along: Along, em: f64) -> Result<Vec<(f64, Str
     if !(span > 0.0 && span.is_finite()) {
         return Ok(Vec::new());
     }
-    let decade = span.log10().floor() as i32 - 1;
+    let decade = math::log10(span).floor() as i32 - 1;
     let steps = (decade..decade + 3).flat_map(|k| [(1.0, k), (2.0, k), (5.0, k)]);
     let mut best = Vec::new();
     for (digit, exponent) in steps {
@@ -252,7 +252,7 @@ fn decades((low, high): (f64, f64), along: Along, em: f64) -> Result<Vec<(f64, S
     let at = |value: f64| ((value - low) / span).clamp(0.0, 1.0);
     let (first, last) = ((low - 1e-9).ceil() as i32, (high + 1e-9).floor() as i32);
     if last <= first {
-        let one = |k: i32| [1, 2, 5].map(|digit| (f64::from(digit).log10() + f64::from(k), digit, k));
+        let one = |k: i32| [1, 2, 5].map(|digit| (math::log10(f64::from(digit)) + f64::from(k), digit, k));
         let all = (first - 1..=last).flat_map(one).filter(|(value, ..)| (low..=high).contains(value));
         let text = |digit: i32, k: i32| match digit {
             1 => format!("10{}", superscript(k)),

@@ -156,7 +156,7 @@ impl SceneGravity {
     /// Whether the x axis goes up by more than 45 degrees: such a slide is drawn upright, its height normal to it to the right.
     pub fn is_upright(&self) -> bool {
         // Of 45 degrees themselves rounding says nothing.
-        self.acceleration > 0.0 && self.incline.sin() > std::f64::consts::FRAC_1_SQRT_2 + 1e-9
+        self.acceleration > 0.0 && math::sin(self.incline) > std::f64::consts::FRAC_1_SQRT_2 + 1e-9
     }
 }
 

@@ -125,7 +125,7 @@ pub(crate) fn without_retraced(lines: &[Vec<Point>]) -> Vec<Vec<Point>> {
         let mut piece: Vec<Point> = line.first().copied().into_iter().collect();
         for pair in line.windows(2) {
             let (from, to) = (pair[0], pair[1]);
-            let way = (to.0 - from.0).hypot(to.1 - from.1);
+            let way = math::hypot(to.0 - from.0, to.1 - from.1);
             let steps = way.ceil().max(1.0);
             for k in 1..=steps as usize {
                 let share = k as f64 / steps;
@@ -165,7 +165,7 @@ fn cell((x, y): Point) -> (i64, i64) {
 
 /// Length of polylines, px.
 pub(crate) fn length(lines: &[Vec<Point>]) -> f64 {
-    let way = |pair: &[Point]| (pair[1].0 - pair[0].0).hypot(pair[1].1 - pair[0].1);
+    let way = |pair: &[Point]| math::hypot(pair[1].0 - pair[0].0, pair[1].1 - pair[0].1);
     lines.iter().flat_map(|line| line.windows(2)).map(way).sum()
 }
 

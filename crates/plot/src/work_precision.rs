@@ -116,7 +116,7 @@ fn name(curve: &WorkCurve<'_>, work: &[f64]) -> Option<Note> {
 fn slope(points: &[(f64, f64)]) -> Option<f64> {
     let least = points.iter().map(|point| point.1).fold(f64::INFINITY, f64::min);
     let above = points.iter().filter(|(_, error)| *error > FLOOR * least);
-    let above: Vec<(f64, f64)> = above.map(|(work, error)| (work.ln(), error.ln())).collect();
+    let above: Vec<(f64, f64)> = above.map(|(work, error)| (math::ln(*work), math::ln(*error))).collect();
     let count = above.len() as f64;
     let mean = |of: fn(&(f64, f64)) -> f64| above.iter().map(of).sum::<f64>() / count;
     let (x, y) = (mean(|point| point.0), mean(|point| point.1));

@@ -86,8 +86,8 @@ impl Histogram {
     /// So many bins for each decade, from 10 ns on, as (lower edge, upper edge, count), edges in ns; the last has all that is longer
     /// than 20 ms. Where bins are narrower than those that were counted in, the counts lie in the first that touches them.
     pub fn decades(&self, per_decade: u32) -> Vec<(f64, f64, u64)> {
-        let edge = |bin: u32| FINE_BIN as f64 * 10_f64.powf(f64::from(bin) / f64::from(per_decade));
-        let last = (f64::from(per_decade) * (COARSE as f64 / FINE_BIN as f64).log10()).ceil() as u32;
+        let edge = |bin: u32| FINE_BIN as f64 * math::powf(10.0, f64::from(bin) / f64::from(per_decade));
+        let last = (f64::from(per_decade) * math::log10(COARSE as f64 / FINE_BIN as f64)).ceil() as u32;
         let mut bins: Vec<(f64, f64, u64)> = (0..=last).map(|bin| (edge(bin), edge(bin + 1), 0)).collect();
         let fine = self.fine.iter().enumerate().map(|(i, n)| (i as u64 * FINE_BIN, n));
         let coarse = self.coarse.iter().enumerate().map(|(i, n)| (i as u64 * COARSE_BIN, n));

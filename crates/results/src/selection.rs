@@ -142,7 +142,7 @@ pub(crate) fn expected(events: f64, most: u64) -> f64 {
     } else if events <= most {
         events
     } else {
-        most * (1.0 + 0.5 * (events / most).log2())
+        most * (1.0 + 0.5 * math::log2(events / most))
     }
 }
 

@@ -99,15 +99,15 @@ impl StepControl {
             return Verdict { accepted: false, next: h * shrink };
         }
         if error > 1.0 {
-            let log_error = error.ln();
+            let log_error = math::ln(error);
             let rejection = Rejection { step: h, log_error };
-            let factor = safety * (-self.decay(rejection) * log_error).exp();
+            let factor = safety * math::exp(-self.decay(rejection) * log_error);
             self.history.rejected = Some(rejection);
             return Verdict { accepted: false, next: h * factor.max(shrink) };
         }
         // Below the smallest normal number the logarithm would leave the range of the exponential.
-        let log_error = error.max(f64::MIN_POSITIVE).ln();
-        let factor = safety * (self.beta * self.history.log_error - self.alpha * log_error).exp();
+        let log_error = math::ln(error.max(f64::MIN_POSITIVE));
+        let factor = safety * math::exp(self.beta * self.history.log_error - self.alpha * log_error);
         // A step that grew at once after a rejection would be rejected again: 619 times instead of 450 on slopes with
         // roots of the time, an eighth more evaluations.
         let ceiling = if self.history.rejected.is_some() { 1.0 } else { grow };
@@ -141,7 +141,7 @@ impl StepControl {
     fn decay(&self, now: Rejection) -> f64 {
         // The method's own power throughout rejects 545 times instead of 450 there: an error that falls with h² is not met
         // by a step that would quarter one of order 8. Powers that seem stronger than the method's are chance.
-        let power = |before: Rejection| (before.log_error - now.log_error) / (before.step / now.step).ln();
+        let power = |before: Rejection| (before.log_error - now.log_error) / math::ln(before.step / now.step);
         let shown = self.history.rejected.map(power).filter(|power| *power > 0.0);
         shown.map_or(self.alpha, |power| power.recip().clamp(self.alpha, 1.0))
     }

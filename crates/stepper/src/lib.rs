@@ -16,7 +16,7 @@
 //! * [`StepControl`]: how long the next step is.
 //! * [`root()`], [`narrow`], [`Cubic`]: where inside a step a guard crosses zero.
 //! * [`FixedStep`], [`Rk4`], [`Verlet`]: steps of a given length.
-//! * [`reference`](mod@reference): a driver for the solver `Dopri5` of the crate `ode_solvers`, without events.
+//! * [`reference`](mod@reference): the pair of order 5(4) of Dormand and Prince, without events.
 //!
 //! ```
 //! use stickslip_stepper::{Attempt, Completion, DormandPrince, Step, StepControl, StepLimits, System, Target};

@@ -47,7 +47,7 @@ pub(crate) fn ratio() -> f64 {
 impl Shot {
     /// At a speed, m/s, and an angle to the normal, degrees; alumina on glass.
     pub(crate) fn at_angle(speed: f64, degrees: f64) -> Self {
-        let (sine, cosine) = degrees.to_radians().sin_cos();
+        let (sine, cosine) = math::sin_cos(degrees.to_radians());
         Self { along: speed * sine, approach: speed * cosine, alike: false }
     }
 
@@ -117,7 +117,7 @@ impl Rebound {
 
     /// Angle of the way of the centre to the normal, degrees.
     pub(crate) fn angle(&self) -> f64 {
-        self.along.atan2(self.away).to_degrees()
+        math::atan2(self.along, self.away).to_degrees()
     }
 
     /// ψ₂ = (G\*/(E\*μ)) V_x/V_z at the point of contact, V_z that of the approach.

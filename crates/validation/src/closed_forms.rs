@@ -50,8 +50,8 @@ impl Contact {
     /// First loading to [`TURN`], unloading to its mirror image, reloading; stick radii of the first loading that are off, parts of a.
     fn path(&self) -> Result<(Vec<Place>, f64), ValidationError> {
         let p = (self.n + 1.0) / self.n;
-        let first = |share: f64| 1.0 - (1.0 - share).powf(p);
-        let branch = |way: f64| 2.0 * (1.0 - (1.0 - 0.5 * way).powf(p));
+        let first = |share: f64| 1.0 - math::powf(1.0 - share, p);
+        let branch = |way: f64| 2.0 * (1.0 - math::powf(1.0 - 0.5 * way, p));
         let mut contact = self.pressed()?;
         let (mut places, mut radius) = (Vec::new(), 0.0);
         let mut go = |share: f64, known: f64, is_first: bool| -> Result<(), ValidationError> {
@@ -61,7 +61,7 @@ impl Contact {
                 let whole = self.law.profile().radius(DEPTH);
                 radius = worst([
                     radius,
-                    contact.stick_radius(&self.law) / whole - (1.0 - share).powf(1.0 / self.n),
+                    contact.stick_radius(&self.law) / whole - math::powf(1.0 - share, 1.0 / self.n),
                 ]);
             }
             Ok(())
@@ -108,7 +108,7 @@ fn loop_work(n: f64, amplitude: f64) -> f64 {
         return sum;
     }
     let left = 1.0 - amplitude;
-    amplitude + amplitude * left.powf(p) - 2.0 / (p + 1.0) * (1.0 - left.powf(p + 1.0))
+    amplitude + amplitude * math::powf(left, p) - 2.0 / (p + 1.0) * (1.0 - math::powf(left, p + 1.0))
 }
 
 pub(crate) fn page() -> Result<Page, ValidationError> {
@@ -199,7 +199,7 @@ fn figure(contacts: &[Contact; 3], paths: &[Vec<Place>]) -> Result<Figure<'stati
         let whole = 4.0 * contact.limit * contact.gross;
         let mut work = Vec::new();
         for k in 0..=60 {
-            let amplitude = 0.01 * 300.0_f64.powf(f64::from(k) / 60.0);
+            let amplitude = 0.01 * math::powf(300.0, f64::from(k) / 60.0);
             work.push((amplitude, contact.work(amplitude)?));
         }
         works.push(curve(

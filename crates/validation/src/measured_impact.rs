@@ -28,8 +28,8 @@ pub(crate) fn page(watcher: &dyn Watcher) -> Result<Page, ValidationError> {
     let mut rebound: Vec<Row> = Vec::new();
     for &(angle, measured) in &known.rebound_deg {
         // Full normal restitution: tan of the rebound is the tangential restitution times tan of the incidence.
-        let spring = interpolated(&known.one_spring, angle) * angle.to_radians().tan();
-        rebound.push((angle, measured, at(angle)?.angle(), spring.atan().to_degrees()));
+        let spring = interpolated(&known.one_spring, angle) * math::tan(angle.to_radians());
+        rebound.push((angle, measured, at(angle)?.angle(), math::atan(spring).to_degrees()));
     }
     let mut smooth = Vec::new();
     for step in 1..=62 {
@@ -137,7 +137,7 @@ fn figure(known: &Impacts, own: &[(f64, f64, f64)]) -> Figure<'static> {
     let spring = known
         .one_spring
         .iter()
-        .map(|(angle, e)| (*angle, (e * angle.to_radians().tan()).atan().to_degrees()));
+        .map(|(angle, e)| (*angle, math::atan(e * math::tan(angle.to_radians())).to_degrees()));
     let rebound = Panel {
         x: axis("angle of incidence, °", ""),
         y: axis("angle of the rebound, °", ""),

@@ -125,12 +125,12 @@ falls, 1.5e-14 m from the one integrated here, which is worth 2e-7 N: so far the
 
 /// d of Hertz' contact, m.
 fn depth(law: &Interface, force: f64) -> f64 {
-    (9.0 * force * force / (16.0 * RADIUS * law.normal_modulus().powi(2))).cbrt()
+    math::cbrt(9.0 * force * force / (16.0 * RADIUS * law.normal_modulus().powi(2)))
 }
 
 /// `du/dF_N` by Mindlin and Deresiewicz while `F_x` follows its straight line, m/N.
 fn rate(law: &Interface, slope: f64, normal: f64, tangential: f64) -> f64 {
-    let theta = (1.0 - tangential / (FRICTION * normal)).cbrt();
+    let theta = math::cbrt(1.0 - tangential / (FRICTION * normal));
     let radius = (RADIUS * depth(law, normal)).sqrt();
     (slope - FRICTION * (1.0 - theta)) / (2.0 * law.tangential_modulus() * radius * theta)
 }

@@ -2,7 +2,7 @@
 
 use crate::sequence::Sequence;
 use crate::series::sum;
-use nalgebra::{Complex, DMatrix, DVector, Schur};
+use nalgebra::{Complex, ComplexField, DMatrix, DVector, Schur};
 
 /// Orders of recurrences that are tried.
 // Three lines of a spectrum are told apart; what needs more is called irregular. With order 2 alone the growth of a beat whose
@@ -89,17 +89,24 @@ impl Recurrence {
             _ => f64::from(u8::from(i == j + 1)),
         });
         let roots = Schur::try_new(companion, f64::EPSILON, MOST_TURNS)?.complex_eigenvalues();
-        let largest_root = roots.iter().max_by(|p, q| p.norm().total_cmp(&q.norm()))?;
+        let largest_root = roots.iter().max_by(|p, q| p.modulus().total_cmp(&q.modulus()))?;
         // A swing and its overtones grow alike: it is the slowest of them.
-        let alike = |root: &&Complex<f64>| root.norm() >= 0.995 * largest_root.norm() && root.arg() != 0.0;
-        let slowest = roots.iter().filter(alike).min_by(|p, q| p.arg().abs().total_cmp(&q.arg().abs()));
-        let root = slowest.filter(|_| largest_root.arg() != 0.0).unwrap_or(largest_root);
+        let alike =
+            |root: &&Complex<f64>| root.modulus() >= 0.995 * largest_root.modulus() && root.argument() != 0.0;
+        let slowest =
+            roots.iter().filter(alike).min_by(|p, q| p.argument().abs().total_cmp(&q.argument().abs()));
+        let root = slowest.filter(|_| largest_root.argument() != 0.0).unwrap_or(largest_root);
         // S = Σ of all later differences: S = Σ aⱼ (S + the last j of them).
         let known = |j: usize| sum((0..=j).map(|k| e(steps.len() - 1 - k)));
         let left = sum((0..order).map(|j| a[j] * known(j))) / (1.0 - a.sum());
         let limit = values.last()? + left * largest;
-        let is_good = rest.is_finite() && limit.is_finite() && root.norm() < WILD;
-        is_good.then(|| Self { rest, root: (root.norm(), root.arg().abs()), limit, apart: f64::INFINITY })
+        let is_good = rest.is_finite() && limit.is_finite() && root.modulus() < WILD;
+        is_good.then(|| Self {
+            rest,
+            root: (root.modulus(), root.argument().abs()),
+            limit,
+            apart: f64::INFINITY,
+        })
     }
 
     /// By which factor a swing grows from one value to the next: that of the root where nothing else is left, or else that of the
@@ -115,7 +122,7 @@ impl Recurrence {
         }
         let square = |part| sum(values.part(part).map(|value: f64| (value - self.limit).powi(2)));
         let ratio = square(count - span..count) / square(middle..middle + span);
-        let envelope = ratio.powf(0.5 / (half - span) as f64);
+        let envelope = math::powf(ratio, 0.5 / (half - span) as f64);
         let agree = (envelope > 1.0) == (self.root.0 > 1.0);
         let growth = if self.rest > CLEAN { envelope } else { self.root.0 };
         (growth.is_finite() && (agree || self.rest > CLEAN)).then_some(growth)

@@ -14,7 +14,7 @@ impl<const N: usize> Default for Rule<N> {
     fn default() -> Self {
         let [mut nodes, mut weights] = [[0.0; N]; 2];
         for (i, (node, weight)) in nodes.iter_mut().zip(&mut weights).enumerate() {
-            let mut x = -(PI * (i as f64 + 0.75) / (N as f64 + 0.5)).cos();
+            let mut x = -math::cos(PI * (i as f64 + 0.75) / (N as f64 + 0.5));
             let mut slope = 0.0;
             for _ in 0..5 {
                 let (mut before, mut value) = (1.0, x);

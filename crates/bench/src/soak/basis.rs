@@ -118,7 +118,7 @@ fn profile(draw: &mut Draw, radius: f64, reduced: f64) -> Option<(&'static str, 
         }
         5 => {
             let n = [1.5, 2.5, 3.0, 4.0, 6.0][draw.below(5) as usize];
-            let coefficient = depth(n) / radius.powf(n);
+            let coefficient = depth(n) / math::powf(radius, n);
             let shape = Profile::power(coefficient, n).ok()?;
             ("power", json!({ "power": { "coefficient": coefficient, "exponent": n } }), shape)
         }

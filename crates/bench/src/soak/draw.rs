@@ -27,7 +27,7 @@ impl Draw {
 
     /// Evenly in the logarithm between two numbers above 0.
     pub(super) fn spread(&mut self, low: f64, high: f64) -> f64 {
-        self.between(low.ln(), high.ln()).exp()
+        math::exp(self.between(math::ln(low), math::ln(high)))
     }
 
     /// One of the first whole numbers, evenly.

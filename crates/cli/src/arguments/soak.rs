@@ -10,7 +10,7 @@ Draw scenes, run them all, and judge them: do they end, and are they right?
 
 A seed draws a scenario: every profile, both engines, contacts pressed by constants, by waveforms and by the bodies' own heights, \
 waveforms of every kind with phases, starts anywhere or in equilibrium, one to four bodies, counts, damping, stacks, inclines. The \
-same seed draws the same scenario, to the last place of the machine's exponentials; --write writes it as a file for `stickslip run`.
+same seed draws the same scenario on every machine; --write writes it as a file for `stickslip run`.
 
 Each is run by the stepper `event` at tolerances of 1e-6, 1e-8 and 1e-10, and is right where, at each, it ends; where no \
 coordinate is ever off the run at 1e-10 by more than 100 tolerances in its natural length, times S where the scene itself makes \

@@ -132,7 +132,7 @@ fn tell(asked: &Sensitivity, taken: &Taken) {
                 let [share, doubt] = shares.map_or([const { String::new() }; 2], |(share, doubt)| {
                     known((share, doubt.abs()), |places| format!("{share:+.*}", places.clamp(0, 4) as usize))
                 });
-                let size = slope.value.abs().log10().floor() as i32;
+                let size = math::log10(slope.value.abs()).floor() as i32;
                 let [value, error] = known((slope.value, slope.error), |places| {
                     format!("{:.*e}", places.saturating_add(size).clamp(0, 5) as usize, slope.value)
                 });
@@ -152,7 +152,7 @@ fn known((value, error): (f64, f64), digits: impl Fn(i32) -> String) -> [String;
     match error {
         0.0 => [digits(i32::MAX), format!("{error:.0e}")],
         _ if error >= value.abs() => [format!("< {:.0e}", value.abs() + error), String::new()],
-        _ => [digits(-error.log10().floor() as i32), format!("{error:.0e}")],
+        _ => [digits(-math::log10(error).floor() as i32), format!("{error:.0e}")],
     }
 }
 

@@ -210,11 +210,11 @@ impl Drag {
         if steady {
             return (if limit * way > 0.0 { limit * pressure(deepest) * way } else { 0.0 }, way);
         }
-        let angles = [outer, inner].map(|rim| (rim.x / r).min(1.0).acos());
+        let angles = [outer, inner].map(|rim| math::acos((rim.x / r).min(1.0)));
         let work = adaptive(angles, wanted, DEEPEST, &|angle: f64| {
-            let x = r * angle.cos();
+            let x = r * math::cos(angle);
             let share = (front[0] - profile.depth(x)) / (front[0] - front[1]);
-            let slid = FRAC_2_PI * angle * steep * profile.depth_slope(x) * r * angle.sin();
+            let slid = FRAC_2_PI * angle * steep * profile.depth_slope(x) * r * math::sin(angle);
             if slid > 0.0 { pressure(depth_at(share)) * slid } else { 0.0 }
         });
         (limit * work, way)

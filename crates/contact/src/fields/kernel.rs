@@ -86,7 +86,7 @@ impl<'a> Kernel<'a> {
             };
         }
         match self {
-            Self::Flat(b) => (FRAC_2_PI * rim.h * (b / r).asin(), 0.0),
+            Self::Flat(b) => (FRAC_2_PI * rim.h * math::asin(b / r), 0.0),
             Self::Power(power) => (rim.h * power.outside(rim.x / r), 0.0),
             Self::Any(profile) => {
                 let (value, error) = smooth::arc_integral(profile, rim.x, r);

@@ -76,9 +76,9 @@ impl PowerField {
             return self.slope_integral(high.0, high.1, r) - self.slope_integral(low.0, low.1, r);
         }
         // n ∫ Bxⁿ⁻² dx where each of the two is infinite.
-        let (n, ratio) = (self.exponent, (high.1 / low.1).ln());
+        let (n, ratio) = (self.exponent, math::ln(high.1 / low.1));
         let e = n - 1.0;
-        let steps = if e == 0.0 { ratio } else { -(-e * ratio).exp_m1() / e };
+        let steps = if e == 0.0 { ratio } else { -math::exp_m1(-e * ratio) / e };
         n * high.0 / high.1 * steps
     }
 
@@ -99,7 +99,7 @@ impl PowerField {
     /// jₙ(ρ) = ∫₀^Y (ρ²+y²)^{(n-2)/2} dy, Y = √(1-ρ²): smooth as long as Y is no more than √3 ρ.
     fn outer(&self, rho: f64) -> f64 {
         let (root, half) = (((1.0 - rho) * (1.0 + rho)).sqrt(), 0.5 * self.exponent - 1.0);
-        self.panels([0.0, root], |y| (rho * rho + y * y).powf(half))
+        self.panels([0.0, root], |y| math::powf(rho * rho + y * y, half))
     }
 
     /// ∫f over a range in as many panels as a steep power needs.
@@ -118,7 +118,7 @@ impl PowerField {
             return if n > 1.0 { 1.0 / (n - 1.0) } else { f64::INFINITY };
         }
         let (double, square) = (rho / MIDDLE, rho * rho);
-        let (fade, log) = (double.powf(n - 1.0), double.ln());
+        let (fade, log) = (math::powf(double, n - 1.0), math::ln(double));
         let mut sum = fade * self.inner;
         // cₖρ²ᵏ, and cₖρ²ᵏ(2ρ)ᵉ: the latter falls by 1/4 from term to term.
         let (mut term, mut lower) = (1.0, fade);
@@ -127,7 +127,7 @@ impl PowerField {
             sum += match e.abs() {
                 // Where e is next to nothing both ends are nearly the same.
                 0.0 => -term * log,
-                tiny if tiny < 0.1 => -term * (e * log).exp_m1() / e,
+                tiny if tiny < 0.1 => -term * math::exp_m1(e * log) / e,
                 _ => (term - lower) / e,
             };
             let next = (k + 0.5) / (k + 1.0);
@@ -149,19 +149,19 @@ impl PowerField {
             return FRAC_2_PI * whole_outside(whole, s);
         }
         // ∫(1-(sin φ/s)ⁿ)dφ up to sin φ = s: from the middle on all is smooth, what is below is the series'.
-        let (from, to) = (MIDDLE.asin(), s.asin());
+        let (from, to) = (math::asin(MIDDLE), math::asin(s));
         let inside = MIDDLE / s;
-        let share = |phi: f64| 1.0 - (phi.sin() / s).powf(n);
+        let share = |phi: f64| 1.0 - math::powf(math::sin(phi) / s, n);
         let outer = self.panels([from, to], share);
         // Below it 1-(x/s)ⁿ = q [1-(2x)ⁿ] + 1-q with q = (1/2s)ⁿ.
-        let q = inside.powf(n);
+        let q = math::powf(inside, n);
         FRAC_2_PI * (q * self.outside(MIDDLE) / FRAC_2_PI + from * (1.0 - q) + outer)
     }
 }
 
 /// arcsin s - Kₙ/sⁿ with Kₙ = ∫₀^{arcsin s} sinⁿ, n Kₙ = (n-1) Kₙ₋₂ - sⁿ⁻¹√(1-s²), of a whole exponent.
 fn whole_outside(n: u32, s: f64) -> f64 {
-    let (angle, cosine) = (s.asin(), ((1.0 - s) * (1.0 + s)).sqrt());
+    let (angle, cosine) = (math::asin(s), ((1.0 - s) * (1.0 + s)).sqrt());
     // Kₘ/sᵐ.
     let (mut share, from) = if n % 2 == 1 { ((1.0 - cosine) / s, 3) } else { (angle, 2) };
     for m in (from..=n).step_by(2) {
@@ -174,7 +174,7 @@ fn whole_outside(n: u32, s: f64) -> f64 {
 /// jₙ of a whole exponent.
 fn whole_moment(n: u32, rho: f64, root: f64) -> f64 {
     let square = rho * rho;
-    let (mut moment, from) = if n % 2 == 1 { (((1.0 + root) / rho).ln(), 3) } else { (root, 4) };
+    let (mut moment, from) = if n % 2 == 1 { (math::ln((1.0 + root) / rho), 3) } else { (root, 4) };
     if n % 2 == 1 && rho == 0.0 {
         return if n == 1 { f64::INFINITY } else { 1.0 / f64::from(n - 1) };
     }

@@ -65,19 +65,19 @@ pub(super) fn slope_between(profile: &Profile, [from, to]: [f64; 2], r: f64) -> 
 /// where h does not fade.
 fn from_border(delta: f64, span: f64, h: impl Fn(f64) -> f64) -> Estimate {
     let [near, nearer] = [h(delta), h(delta / CLOSER)];
-    let power = (near / nearer).ln() / CLOSER.ln();
+    let power = math::ln(near / nearer) / math::ln(CLOSER);
     let tail = match near {
         near if near <= 0.0 => 0.0,
         _ if power < LEAST_POWER => return (f64::INFINITY, 0.0),
         near => near / power,
     };
-    let end = (span / delta).ln();
+    let end = math::ln(span / delta);
     let panels = end.ceil().max(1.0);
     let mut total = (tail, 0.0);
     for k in 0..panels as u32 {
         let share = |k: f64| end * k / panels;
         let (value, error) =
-            kronrod([share(f64::from(k)), share(f64::from(k) + 1.0)], |t| h(delta * t.exp()));
+            kronrod([share(f64::from(k)), share(f64::from(k) + 1.0)], |t| h(delta * math::exp(t)));
         total = (total.0 + value, total.1 + error);
     }
     total
@@ -96,11 +96,12 @@ pub(super) fn arc_integral(profile: &Profile, x: f64, r: f64) -> Estimate {
         // At the lower end g' may be singular, at the upper one arcsin.
         let lower = kronrod([0.0, span], |s| {
             let x = at(s);
-            (x / r).min(1.0).asin() * profile.depth_slope(x) * s / x
+            math::asin((x / r).min(1.0)) * profile.depth_slope(x) * s / x
         });
-        let angles = [(middle / r).asin(), (high / r).min(1.0).asin()];
-        let upper =
-            kronrod(angles, |phi| phi * profile.depth_slope((r * phi.sin()).min(high)) * r * phi.cos());
+        let angles = [math::asin(middle / r), math::asin((high / r).min(1.0))];
+        let upper = kronrod(angles, |phi| {
+            phi * profile.depth_slope((r * math::sin(phi)).min(high)) * r * math::cos(phi)
+        });
         total = (total.0 + lower.0 + upper.0, total.1 + lower.1 + upper.1);
     }
     total
@@ -117,13 +118,13 @@ pub(super) fn gap(profile: &Profile, r: f64) -> Estimate {
 
 /// ∫f(s, ds/dt) dt over s = δ sinh t from 0 to `span`, in panels of about a unit of t.
 fn by_logarithm(delta: f64, span: f64, f: impl Fn(f64, f64) -> f64) -> Estimate {
-    let end = (span / delta).asinh();
+    let end = math::asinh(span / delta);
     let panels = end.ceil().max(1.0);
     let mut total = (0.0, 0.0);
     for k in 0..panels as u32 {
         let share = |k: f64| end * k / panels;
         let range = [share(f64::from(k)), share(f64::from(k) + 1.0)];
-        let (value, error) = kronrod(range, |t| f(delta * t.sinh(), delta * t.cosh()));
+        let (value, error) = kronrod(range, |t| f(delta * math::sinh(t), delta * math::cosh(t)));
         total = (total.0 + value, total.1 + error);
     }
     total

@@ -19,18 +19,18 @@ pub(super) struct Place {
 impl Place {
     /// The place of a given w.
     pub(super) fn beyond(border: f64, w: f64) -> Self {
-        Self { border, w, x: border.hypot(w), angle: w.atan2(border) }
+        Self { border, w, x: math::hypot(border, w), angle: math::atan2(w, border) }
     }
 
     /// The place x > b.
     pub(super) fn at(border: f64, x: f64) -> Self {
         let w = ((x - border) * (x + border)).sqrt();
-        Self { border, w, x, angle: w.atan2(border) }
+        Self { border, w, x, angle: math::atan2(w, border) }
     }
 
     /// ψ = π/2 - φ.
     pub(super) fn complement(&self) -> f64 {
-        self.border.atan2(self.w)
+        math::atan2(self.border, self.w)
     }
 
     /// x - b, m.
@@ -40,7 +40,7 @@ impl Place {
 
     /// y = arsinh(w/b).
     pub(super) fn hyperbolic(&self) -> f64 {
-        (self.w / self.border).asinh()
+        math::asinh(self.w / self.border)
     }
 }
 
@@ -87,7 +87,7 @@ pub(super) fn gudermann_integral(y: f64) -> f64 {
         let square = y * y;
         return square * EULER.iter().rev().fold(0.0, |sum, c| sum * square + c);
     }
-    let z = (-y).exp();
+    let z = math::exp(-y);
     let (square, mut power, mut sum, mut odd) = (z * z, z, 0.0, 1.0);
     // 21 terms at the end of the series, fewer beyond.
     while f64::abs(power) > 1e-18 {

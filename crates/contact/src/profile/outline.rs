@@ -149,7 +149,7 @@ impl Outline {
 
     /// g (m) at x = √(b²+w²) > 0 and its derivative to w, b the radius of a kink (or 0) below x and none between them.
     pub(super) fn foundation(&self, b: f64, w: f64) -> [f64; 2] {
-        let x = b.hypot(w);
+        let x = math::hypot(b, w);
         let (mut mean, mut bend) = (0.0, 0.0);
         let mut from = (0.0, 1.0, 0.0);
         for (cell, &start) in self.radii.iter().enumerate().take(self.slopes.len()) {
@@ -159,7 +159,7 @@ impl Outline {
             let end = self.radii[cell + 1].min(x);
             // At the border itself w says more than x does.
             let cosine = if end == b { w / x } else { ((x - end) * (x + end)).max(0.0).sqrt() / x };
-            let (sine, angle) = (end / x, (end / x).atan2(cosine));
+            let (sine, angle) = (end / x, math::atan2(end / x, cosine));
             let to = (sine, cosine, angle);
             let (width, rise, [low, high]) = self.cell(cell);
             let (first, second) = (6.0 * rise - 4.0 * low - 2.0 * high, 3.0 * (low + high) - 6.0 * rise);

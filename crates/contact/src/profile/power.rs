@@ -1,6 +1,5 @@
 //! Power laws g = B|x|ⁿ: closed forms throughout.
 
-use super::cube_root::cube_root;
 use super::error::positive;
 use super::kappa::kappa;
 use super::kind::{Kind, Peak};
@@ -87,7 +86,7 @@ impl Power {
             4.0 => Root::Fourth,
             _ => {
                 let q = 1.0 / n;
-                Root::Any { q, delta: (-q).mul_add(n, 1.0) / n }
+                Root::Any { q, delta: math::mul_add(-q, n, 1.0) / n }
             }
         };
         Self {
@@ -131,11 +130,11 @@ impl Power {
         match self.root {
             Root::First => x,
             Root::Second => x.sqrt(),
-            Root::Third => x.cbrt(),
+            Root::Third => math::cbrt(x),
             Root::Fourth => x.sqrt().sqrt(),
             // Of a height next to none nothing is left, and its logarithm is none.
             Root::Any { .. } if x == 0.0 => 0.0,
-            Root::Any { q, delta } => x.powf(q) * (1.0 + delta * x.ln()),
+            Root::Any { q, delta } => math::powf(x, q) * (1.0 + delta * math::ln(x)),
         }
     }
 }
@@ -167,7 +166,7 @@ impl Kind for Power {
             Root::Second => a * a,
             Root::Third => a * a * a,
             Root::Fourth => (a * a) * (a * a),
-            Root::Any { .. } => a.powf(self.exponent),
+            Root::Any { .. } => math::powf(a, self.exponent),
         };
         power / self.scale
     }
@@ -177,10 +176,10 @@ impl Kind for Power {
         let y = reduced_force / self.force_factor;
         match self.root {
             Root::First => (y / self.scale).sqrt(),
-            Root::Second => cube_root(y / self.scale * y),
+            Root::Second => math::cbrt(y / self.scale * y),
             _ => {
                 let n = self.exponent;
-                let h = y.powf(n / (n + 1.0)) / self.scale.powf(1.0 / (n + 1.0));
+                let h = math::powf(y, n / (n + 1.0)) / math::powf(self.scale, 1.0 / (n + 1.0));
                 // The rounded exponents cost 4ε at n = 2.5 and 7ε at n = 5: one Newton step leaves 1.5ε.
                 let slope = self.reduced_stiffness(h);
                 if slope > 0.0 && slope.is_finite() {

@@ -67,7 +67,7 @@ impl Term {
 /// aⁿ, whole exponents by multiplication.
 fn power(a: f64, n: f64) -> f64 {
     const MOST: f64 = 16.0;
-    if n.fract() == 0.0 && n <= MOST { a.powi(n as i32) } else { a.powf(n) }
+    if n.fract() == 0.0 && n <= MOST { a.powi(n as i32) } else { math::powf(a, n) }
 }
 
 impl Powers {
@@ -78,21 +78,22 @@ impl Powers {
         const STEPS: usize = 60;
         const ENOUGH: f64 = 1e-10;
         // Each term alone reaches it later than all together.
-        let alone =
-            |term: &Term| (wanted / (factor(term) * term.coefficient)).powf(1.0 / (term.exponent + more));
+        let alone = |term: &Term| {
+            math::powf(wanted / (factor(term) * term.coefficient), 1.0 / (term.exponent + more))
+        };
         let mut a = self.terms.iter().map(alone).fold(f64::INFINITY, f64::min);
         for _ in 0..STEPS {
             let (mut sum, mut slope) = (0.0, 0.0);
             for term in &self.terms {
-                let value = factor(term) * term.at(a) * a.powf(more);
+                let value = factor(term) * term.at(a) * math::powf(a, more);
                 sum += value;
                 slope += (term.exponent + more) * value;
             }
-            let step = ((wanted - sum) / sum).ln_1p() * (sum / slope);
+            let step = math::ln_1p((wanted - sum) / sum) * (sum / slope);
             if !step.is_finite() {
                 break;
             }
-            a *= step.exp();
+            a *= math::exp(step);
             if step.abs() <= ENOUGH {
                 break;
             }

@@ -54,14 +54,14 @@ fn series(t: f64, c: impl Fn(f64) -> f64) -> f64 {
 
 /// gR/b² and its derivative to t = w/b: √(1+t²)(t - arctan t) and (2t - arctan t) t/√(1+t²).
 fn depth(t: f64) -> (f64, f64) {
-    let (x, angle) = (1.0_f64.hypot(t), t.atan());
+    let (x, angle) = (math::hypot(1.0, t), math::atan(t));
     let rest = if t < SERIES_END { t * t * t * series(t, |k| 1.0 / (2.0 * k + 3.0)) } else { t - angle };
     (x * rest, (t + rest) * t / x)
 }
 
 /// MR/b³ and its derivative to t: (4/3)t³ + t - (1+t²) arctan t and 2(2t - arctan t)t.
 fn force(t: f64) -> (f64, f64) {
-    let angle = t.atan();
+    let angle = math::atan(t);
     let force = if t < SERIES_END {
         // (4/3)t³ - Σ(-1)ᵏ 2t^{2k+3}/((2k+1)(2k+3)), whose first term is half of it.
         t * t * t * (4.0 / 3.0 - series(t, |k| 2.0 / ((2.0 * k + 1.0) * (2.0 * k + 3.0))))
@@ -90,14 +90,14 @@ impl RoundedFlat {
     fn t(&self, h: f64) -> f64 {
         let [b] = self.border;
         let wanted = h / b * (self.radius / b);
-        let start = if wanted < 1.0 { (3.0 * wanted).cbrt() } else { wanted.sqrt() + FRAC_PI_4 };
+        let start = if wanted < 1.0 { math::cbrt(3.0 * wanted) } else { wanted.sqrt() + FRAC_PI_4 };
         root(wanted, start, depth)
     }
 }
 
 impl Kind for RoundedFlat {
     fn reduced_stiffness(&self, h: f64) -> f64 {
-        2.0 * self.border[0] * 1.0_f64.hypot(self.t(h))
+        2.0 * self.border[0] * math::hypot(1.0, self.t(h))
     }
 
     fn reduced_force(&self, h: f64) -> f64 {
@@ -115,7 +115,8 @@ impl Kind for RoundedFlat {
         let [b] = self.border;
         let wanted = wanted / (b * b) * (self.radius / b);
         // M ≥ (2/3)t³ and, far out, about (4/3)t³.
-        let start = if wanted < 1.0 { (1.5 * wanted).cbrt() } else { (0.75 * wanted).cbrt() + FRAC_PI_4 };
+        let start =
+            if wanted < 1.0 { math::cbrt(1.5 * wanted) } else { math::cbrt(0.75 * wanted) + FRAC_PI_4 };
         b * (b / self.radius) * depth(root(wanted, start, force)).0
     }
 

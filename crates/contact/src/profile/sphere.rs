@@ -9,7 +9,6 @@
 //!
 //! For s → 0 these are the paraboloid's: m = 2√(Rh), M = (4/3)√R h^{3/2}.
 
-use super::cube_root::cube_root;
 use super::error::positive;
 use super::kind::{Kind, Peak};
 use super::{Profile, ProfileError, Shape};
@@ -100,7 +99,7 @@ fn invert(eta: f64) -> f64 {
     let (low, high) = (eta, eta + 0.2785);
     let mut t = eta + 1.0 / fit;
     for _ in 0..STEPS {
-        let e = (-2.0 * t).exp();
+        let e = math::exp(-2.0 * t);
         let tanh = (1.0 - e) / (1.0 + e);
         let slope = tanh + 4.0 * t * e / ((1.0 + e) * (1.0 + e));
         let step = (t * tanh - eta) / slope;
@@ -163,13 +162,13 @@ impl Kind for Sphere {
     /// g(a) = a artanh(a/R), m; infinite from the equator on.
     fn depth(&self, a: f64) -> f64 {
         let s = a / self.radius;
-        if s < 1.0 { a * s.atanh() } else { f64::INFINITY }
+        if s < 1.0 { a * math::atanh(s) } else { f64::INFINITY }
     }
 
     /// g'(a) = artanh s + s/(1-s²), s = a/R.
     fn depth_slope(&self, a: f64) -> f64 {
         let s = a / self.radius;
-        if s < 1.0 { s.atanh() + s / (1.0 - s * s) } else { f64::INFINITY }
+        if s < 1.0 { math::atanh(s) + s / (1.0 - s * s) } else { f64::INFINITY }
     }
 
     /// m(h) = 2Rs, m.
@@ -201,7 +200,7 @@ impl Kind for Sphere {
         // Four steps at most between 1e-6 and 3.8 radii; the rest is for arguments beyond, whose guess may be far off.
         const STEPS: usize = 60;
         let wanted = force / (self.radius * self.radius);
-        let hertz = cube_root(0.5625 * wanted * wanted);
+        let hertz = math::cbrt(0.5625 * wanted * wanted);
         let mut eta = if wanted < 1.0 { hertz * (1.0 + hertz / 15.0) } else { 0.5 * (wanted + 1.0) };
         for _ in 0..STEPS {
             let step = (reduced_force(eta) - wanted) / (2.0 * ratio(eta));
@@ -250,7 +249,7 @@ fn reduced_force(eta: f64) -> f64 {
 fn reduced_energy_beyond(eta: f64, t: f64) -> f64 {
     const TWELFTH_PI2: f64 = std::f64::consts::PI * std::f64::consts::PI / 12.0;
     let s = eta / t;
-    let log1q = (-2.0 * t).exp().ln_1p();
+    let log1q = math::ln_1p(math::exp(-2.0 * t));
     let first = 0.5 * ((s * s - 1.0) * t + s);
     let second = 0.5 * t * t + t * log1q - 0.5 * (TWELFTH_PI2 + dilogarithm(log1q));
     eta * eta * s * (4.0 / 3.0) - (2.0 * eta - 2.0 / 3.0) * first - second * (2.0 / 3.0)

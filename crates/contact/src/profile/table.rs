@@ -120,7 +120,7 @@ impl Stretch<'_> {
     /// Both ends of a panel.
     fn ends(&self, from: At, to: At) -> Ends {
         let (b, width) = (self.border, to.w - from.w);
-        let radius = [b.hypot(from.w), b.hypot(to.w)];
+        let radius = [math::hypot(b, from.w), math::hypot(b, to.w)];
         Ends {
             radius,
             radius_slope: [width * from.w / radius[0].max(f64::MIN_POSITIVE), width * to.w / radius[1]]
@@ -137,7 +137,7 @@ impl Stretch<'_> {
         let height = value(&rising_cubic(ends.height, ends.height_slope), 0.5);
         let radius = value(&rising_cubic(ends.radius, ends.radius_slope), 0.5);
         let missed = (height - middle.height).abs();
-        let aside = (radius - self.border.hypot(middle.w)).abs() * (to.slope * (to.w - from.w)).abs()
+        let aside = (radius - math::hypot(self.border, middle.w)).abs() * (to.slope * (to.w - from.w)).abs()
             / (ends.radius[1] - ends.radius[0]);
         let is_between = from.height < middle.height && middle.height < to.height;
         if halvings == 0 || missed.max(aside) <= self.tolerance || !is_between {

@@ -87,7 +87,7 @@ impl Kind for TippedParaboloid {
             return cone;
         }
         let wanted = self.radius * wanted;
-        let x = root(wanted, (0.75 * wanted).cbrt(), |x| {
+        let x = root(wanted, math::cbrt(0.75 * wanted), |x| {
             let place = Place::at(b, x.max(b));
             (force(&place), 2.0 * x * (2.0 * place.w + b * place.complement()))
         });

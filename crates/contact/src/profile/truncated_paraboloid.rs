@@ -37,7 +37,7 @@ impl TruncatedParaboloid {
     /// w at h > 0, m, from w²(b²+w²) = R²h².
     fn w(&self, h: f64) -> f64 {
         let ([b], rh) = (self.border, self.radius * h);
-        rh * (2.0 / (b * b + (b * b).hypot(2.0 * rh))).sqrt()
+        rh * (2.0 / (b * b + math::hypot(b * b, 2.0 * rh))).sqrt()
     }
 
     /// M over its factor: w³ + (3/2)b²w.
@@ -50,7 +50,7 @@ impl TruncatedParaboloid {
 impl Kind for TruncatedParaboloid {
     #[inline]
     fn reduced_stiffness(&self, h: f64) -> f64 {
-        2.0 * self.border[0].hypot(self.w(h))
+        2.0 * math::hypot(self.border[0], self.w(h))
     }
 
     #[inline]
@@ -69,9 +69,9 @@ impl Kind for TruncatedParaboloid {
     fn height_of_reduced_force(&self, force: f64) -> f64 {
         let ([b], wanted) = (self.border, 0.75 * self.radius * force);
         let unit = b * std::f64::consts::FRAC_1_SQRT_2;
-        let w = 2.0 * unit * ((0.5 * wanted / (unit * unit * unit)).asinh() / 3.0).sinh();
+        let w = 2.0 * unit * math::sinh(math::asinh(0.5 * wanted / (unit * unit * unit)) / 3.0);
         let w = w - (self.cubic(w) - wanted) / (3.0 * w * w + 1.5 * b * b);
-        w * b.hypot(w) / self.radius
+        w * math::hypot(b, w) / self.radius
     }
 
     fn depth(&self, a: f64) -> f64 {

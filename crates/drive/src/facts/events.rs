@@ -168,7 +168,7 @@ fn rings_from_start(Setup { scene, model, start }: Setup<'_>, c: usize, frequenc
     let rate = eq.motion(contact, 0.0, |i| start.y[i]).du;
     let free: f64 = contact.u.free.iter().map(|(i, a)| a * slopes[layout.velocity(*i)]).sum();
     let driven: f64 = contact.u.driven.iter().map(|(w, a)| a * model.signals().first(*w).acceleration).sum();
-    let amplitude = (rate / frequency).hypot((free + driven) / (frequency * frequency));
+    let amplitude = math::hypot(rate / frequency, (free + driven) / (frequency * frequency));
     let given = |w: usize| {
         let Some(waveform) = scene.waveforms.get(w).map(|named| &named.part) else { return 0.0 };
         let (low, high) = waveform.range();

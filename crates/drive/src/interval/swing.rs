@@ -121,7 +121,7 @@ impl<'a> Swing<'a> {
     /// The same in the room there is.
     pub(crate) fn renewed(self, model: &Model, tolerance: f64) -> Self {
         let Self { mut laws, mut slips, .. } = self;
-        let last = (0.1 * tolerance.cbrt()).clamp(EXACT, ROUGH);
+        let last = (0.1 * math::cbrt(tolerance)).clamp(EXACT, ROUGH);
         let near = (0.1 * tolerance.sqrt()).clamp(1e-7, 1e-2);
         let grazing = (NEARNESS * tolerance).sqrt();
         laws.clear();

@@ -7,7 +7,7 @@ use super::eigenvalues as all;
 use crate::component::{Block, Moment, Standing};
 use crate::model::MOST_OF_A_BLOCK;
 use crate::{Model, Sample};
-use nalgebra::{Complex, DMatrix};
+use nalgebra::{Complex, ComplexField, DMatrix};
 
 impl Model {
     /// Eigenvalues, 1/s, of the states of all blocks, but for those that stay as they are.
@@ -15,7 +15,7 @@ impl Model {
         let signals = self.signals();
         let with_states = self.blocks.iter().filter(|wired| wired.count() > 0);
         let of = with_states.flat_map(|wired| wired.block().eigenvalues(&signals.first_inputs(wired)));
-        of.map(|(re, im)| Complex { re, im }).filter(|rate| rate.norm() > 0.0).collect()
+        of.map(|(re, im)| Complex { re, im }).filter(|rate| rate.modulus() > 0.0).collect()
     }
 }
 

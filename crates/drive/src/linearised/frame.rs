@@ -3,6 +3,7 @@
 use super::Linearised;
 use crate::contact::Contact;
 use crate::{Model, Stepper, Waveform};
+use nalgebra::ComplexField;
 use std::f64::consts::FRAC_PI_2;
 
 /// The step, in 1/ω of the fastest swing, over the root of what may be lost of a stroke in a stroke.
@@ -26,14 +27,14 @@ impl Model {
     pub fn substeps(&self, length: f64, accuracy: f64) -> f64 {
         let parts = self.parts(|d| d.most);
         let swing = parts.iter().map(Linearised::highest_frequency).fold(0.0, f64::max);
-        let of_blocks = self.block_eigenvalues().iter().map(|rate| rate.norm()).fold(0.0, f64::max);
+        let of_blocks = self.block_eigenvalues().iter().map(|rate| rate.modulus()).fold(0.0, f64::max);
         // What other dampers make of bodies is gone before it counts, but where a contact slips its damping is another.
         let is_damped = self.contacts.iter().any(Contact::is_damped);
         let settling = if is_damped { of_blocks.max(self.paces().fading) } else { of_blocks };
         let stable = self.longest_step(Stepper::Frames { length, accuracy }).unwrap_or(f64::INFINITY);
         let quarter = self.waveforms.iter().map(Waveform::resolution).fold(f64::INFINITY, f64::min);
         let fastest = swing.max(FRAC_PI_2 / quarter);
-        let smooth = (TRUNCATION * accuracy).powf(0.2) / settling;
+        let smooth = math::powf(TRUNCATION * accuracy, 0.2) / settling;
         let stride = if self.has_moving_normals() { MOVING } else { STRIDE };
         let step = (stride * accuracy.sqrt() / fastest).min(STABLE * stable).min(smooth);
         (length / step).ceil().max(1.0)

@@ -1,7 +1,7 @@
 //! How fast the small motions of a scene go, and whether some of them are stiff.
 
 use crate::Model;
-use nalgebra::Complex;
+use nalgebra::{Complex, ComplexField};
 use std::f64::consts::FRAC_PI_2;
 
 /// Share of a motion e^{λt} that is decay, -Re λ/|λ|, from which on it is gone before it has swung.
@@ -51,7 +51,7 @@ impl Model {
                     continue;
                 }
                 for rate in part.rates(if frequency > 0.0 { frequency } else { 1.0 }) {
-                    fastest = fastest.max(rate.norm());
+                    fastest = fastest.max(rate.modulus());
                     all.add(&rate);
                 }
             }
@@ -64,7 +64,7 @@ impl Model {
 
 impl Rates {
     fn add(&mut self, rate: &Complex<f64>) {
-        let size = rate.norm();
+        let size = rate.modulus();
         if size == 0.0 {
             return;
         }

@@ -1,7 +1,7 @@
 //! How long the steps of methods of fixed step may be.
 
 use super::Linearised;
-use nalgebra::Complex;
+use nalgebra::{Complex, ComplexField};
 
 /// Halvings that find a longest step to the last bit.
 // 32 leave a longest step wrong by 3e-10.
@@ -32,22 +32,22 @@ pub(super) fn rk4_reach(rate: &Complex<f64>) -> f64 {
     };
     // The half disc is asked first: near 0 growth differs from 1 by rounding only, and rounding may fall on
     // the wrong side.
-    longest(3.0 / rate.norm(), |h| h * rate.norm() < 2.6 || growth(h).norm() <= 1.0)
+    longest(3.0 / rate.modulus(), |h| h * rate.modulus() < 2.6 || growth(h).modulus() <= 1.0)
 }
 
 /// The same of velocity Verlet, which steps states of first order as Adams and Bashforth's method of order 2 does: the roots of
 /// ξ² - (1 + 3z/2) ξ + z/2 stay in the unit circle, of a decay until z = -1. An eigenvalue that does not decay has no such
 /// step; it gets one that resolves it.
 fn verlet_reach(rate: &Complex<f64>) -> f64 {
-    let most = 1.0 / rate.norm();
+    let most = 1.0 / rate.modulus();
     if rate.re >= 0.0 {
         return most;
     }
     longest(most, |h| {
         let z = rate * h;
         let half = (z * 1.5 + 1.0) / 2.0;
-        let root = (half * half - z / 2.0).sqrt();
-        (half + root).norm().max((half - root).norm()) <= 1.0 + f64::EPSILON
+        let root = ComplexField::sqrt(half * half - z / 2.0);
+        (half + root).modulus().max((half - root).modulus()) <= 1.0 + f64::EPSILON
     })
 }
 

@@ -1,4 +1,4 @@
-//! The plain explicit reference: `Dopri5` of `ode_solvers`, one instance per smooth stretch, no events.
+//! The plain explicit reference: Dormand–Prince 5(4), one call per smooth stretch, no events.
 
 use super::chords::Chords;
 use super::horizon::Goal;
@@ -14,7 +14,7 @@ use stickslip_stepper::reference::{Accepting, ReferenceError, ReferenceOptions, 
 // times the work.
 const SEEN: f64 = 0.125;
 
-/// A run whose steps an outside solver chooses: it asks for slopes on shared borrows and hands each accepted step to the
+/// A run whose steps a solver chooses by itself: it asks for slopes on shared borrows and hands each accepted step to the
 /// chords, which commit it. An error of a commit waits here until the solver returns.
 struct Driven<'a> {
     chords: Chords<'a>,
@@ -54,8 +54,8 @@ impl Accepting for Driven<'_> {
 
 /// Runs from corner to corner.
 ///
-/// Between two corners the outside solver chooses its steps by `tolerance`, relative to natural lengths,
-/// speeds and the scales of blocks' states; at each corner a new instance begins with the step the last one
+/// Between two corners the solver chooses its steps by `tolerance`, relative to natural lengths,
+/// speeds and the scales of blocks' states; at each corner a new call begins with the step the last one
 /// ended with. Fails as its solver does, with too many steps or one too small, or as [`Chords::accept`] does.
 pub(super) fn run(
     model: &Model,
@@ -121,7 +121,7 @@ impl Driven<'_> {
     }
 }
 
-/// The outside solver's error in a run's words, at the time reached.
+/// The solver's error in a run's words, at the time reached.
 fn failure(error: &ReferenceError, plan: &Plan, t: f64) -> RunError {
     match error {
         ReferenceError::TooManySteps { .. } => RunError::TooManySteps { t, limit: plan.limits.steps },

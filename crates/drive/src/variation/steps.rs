@@ -42,7 +42,7 @@ impl Grade {
 
     /// For a height that goes between these.
     fn between(heights: [f64; 2], n: f64) -> Self {
-        Self { roots: heights.map(|height| height.max(0.0).powf(n.recip())), n }
+        Self { roots: heights.map(|height| math::powf(height.max(0.0), n.recip())), n }
     }
 
     /// Part of the stride where the roots have gone so far, and how steeply it moves with that.
@@ -51,9 +51,12 @@ impl Grade {
         if self.n == 1.0 {
             return (gone, 1.0);
         }
-        let (rise, all) = (to - from, to.powf(self.n) - from.powf(self.n));
+        let (rise, all) = (to - from, math::powf(to, self.n) - math::powf(from, self.n));
         let root = from + rise * gone;
-        ((root.powf(self.n) - from.powf(self.n)) / all, self.n * root.powf(self.n - 1.0) * rise / all)
+        (
+            (math::powf(root, self.n) - math::powf(from, self.n)) / all,
+            self.n * math::powf(root, self.n - 1.0) * rise / all,
+        )
     }
 }
 
@@ -114,7 +117,7 @@ impl Variation<'_> {
                 at = to;
                 continue;
             }
-            let shorter = (SAFETY * missed.powf(-FALLS)).max(SHRINK) * (to - at);
+            let shorter = (SAFETY * math::powf(missed, -FALLS)).max(SHRINK) * (to - at);
             if shorter.is_nan() || shorter < SHORTEST {
                 return Err(VariationError::NotSmooth { t: from.t });
             }
@@ -233,6 +236,6 @@ impl Variation<'_> {
         }
         let tail = self.method.attempt((paces, &nodes), components, &self.columns, &self.scale);
         (self.nodes, self.passed, self.y, self.length) = (nodes, passed, y, length);
-        (MISSED.0 * tail.last.powf(MISSED.1)).max(ROOT * tail.rest)
+        (MISSED.0 * math::powf(tail.last, MISSED.1)).max(ROOT * tail.rest)
     }
 }

@@ -86,7 +86,7 @@ impl Creep {
         let (weights, misfit) = fitted(decades, &logs);
         Ok(Self {
             direct: 1.0 + per_decade * weights[0],
-            times: logs.iter().map(|log| from * 10f64.powf(*log)).collect(),
+            times: logs.iter().map(|log| from * math::powf(10.0, *log)).collect(),
             weights: weights[1..].iter().map(|c| per_decade * c).collect(),
             misfit: per_decade * misfit,
         })
@@ -119,7 +119,8 @@ impl Creep {
 
     /// L(t)/L₁ at a time after a step, s.
     pub fn response(&self, t: f64) -> f64 {
-        let crept = self.times.iter().zip(&self.weights).map(|(time, weight)| -weight * (-t / time).exp_m1());
+        let crept =
+            self.times.iter().zip(&self.weights).map(|(time, weight)| -weight * math::exp_m1(-t / time));
         self.direct + crept.sum::<f64>()
     }
 }
@@ -129,7 +130,7 @@ fn fitted(decades: usize, logs: &[f64]) -> (Vec<f64>, f64) {
     let places: Vec<f64> = (0..=decades * PER_DECADE).map(|i| i as f64 / PER_DECADE as f64).collect();
     let term = |i: usize, j: usize| match j {
         0 => 1.0,
-        _ => -(-10f64.powf(places[i] - logs[j - 1])).exp_m1(),
+        _ => -math::exp_m1(-math::powf(10.0, places[i] - logs[j - 1])),
     };
     let matrix = DMatrix::from_fn(places.len(), logs.len() + 1, term);
     let wanted = DVector::from_vec(places);

@@ -113,7 +113,7 @@ impl Spec {
     pub(super) fn overshoot(&self) -> f64 {
         match self.low {
             Some(Low { ratio, .. }) if ratio < 1.0 => {
-                (PI * ratio / (2.0 * (1.0 - ratio * ratio).sqrt())).tanh().recip()
+                math::tanh(PI * ratio / (2.0 * (1.0 - ratio * ratio).sqrt())).recip()
             }
             _ => 1.0,
         }

@@ -96,7 +96,7 @@ impl BoucWen {
         let (power, slope) = if n.fract() == 0.0 {
             (size.powi(n as i32), n * size.powi(n as i32 - 1))
         } else {
-            (size.max(0.0).powf(n), n * size.max(0.0).powf(n - 1.0))
+            (math::powf(size.max(0.0), n), n * math::powf(size.max(0.0), n - 1.0))
         };
         let held = if sense * side > 0.0 { 1.0 } else { 1.0 - 2.0 * self.share };
         (self.slope * (1.0 - held * power), -self.slope * held * slope * side / self.limit)
@@ -137,14 +137,14 @@ impl BoucWen {
     fn along_exponentials(&self, x: f64, left: f64) -> f64 {
         let q = 2.0 * self.share - 1.0;
         if x >= 0.0 {
-            return 1.0 - (1.0 - x) * (-left).exp();
+            return 1.0 - (1.0 - x) * math::exp(-left);
         }
         // Going back: x' = 1 - qx up to 0.
-        let to_zero = if q > 0.0 { (-q * x).ln_1p() / q } else { -x };
+        let to_zero = if q > 0.0 { math::ln_1p(-q * x) / q } else { -x };
         if left > to_zero {
-            return 1.0 - (to_zero - left).exp();
+            return 1.0 - math::exp(to_zero - left);
         }
-        if q > 0.0 { (1.0 - (1.0 - q * x) * (-q * left).exp()) / q } else { x + left }
+        if q > 0.0 { (1.0 - (1.0 - q * x) * math::exp(-q * left)) / q } else { x + left }
     }
 }
 

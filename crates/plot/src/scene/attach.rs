@@ -249,7 +249,7 @@ impl<'d, 's, 'a> Attacher<'d, 's, 'a> {
             return;
         }
         let end = face.point(self.plan.outlines[body], face.along(at), 0.0);
-        if (end.0 - at.0).hypot(end.1 - at.1) > 2.0 * self.draft.unit {
+        if math::hypot(end.0 - at.0, end.1 - at.1) > 2.0 * self.draft.unit {
             self.sheet.draw(vec![vec![at, end]], TIE);
         }
         self.sheet.draw(vec![vec![at]], line(Ink::Foreground, 0.9));

@@ -187,7 +187,7 @@ fn ground(draft: &Draft<'_, '_>, plan: &Arrangement, sheet: &mut Sheet) {
 fn gravity(draft: &Draft<'_, '_>, sheet: &mut Sheet) {
     let (Some(gravity), Some(bounds)) = (draft.scene.gravity, sheet.bounds()) else { return };
     let (half, aside) = (GRAVITY * draft.unit / 2.0, ASIDE * draft.unit);
-    let (sin, cos) = gravity.incline.sin_cos();
+    let (sin, cos) = math::sin_cos(gravity.incline);
     // Where the drawing has room: beside it, also of one that is turned upright.
     let middle = if gravity.is_upright() {
         (bounds.right - half, bounds.top + aside + half)

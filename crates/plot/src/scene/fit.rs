@@ -107,7 +107,7 @@ fn stretch((x, z): Point) -> Point {
 
 /// The next of 1, 2, 5, 10, 20 and so on below a number.
 fn round_down(number: f64) -> f64 {
-    let decade = 10_f64.powf(number.log10().floor());
+    let decade = math::powf(10.0, math::log10(number).floor());
     [5.0, 2.0].into_iter().map(|digit| digit * decade).find(|round| *round <= number).unwrap_or(decade)
 }
 

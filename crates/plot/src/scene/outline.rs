@@ -171,7 +171,7 @@ impl Draft<'_, '_> {
         let near = contact.profile.iter().rfind(|(r, _)| *r <= 0.2 * radius)?;
         let is_round = near.0 > 0.0 && (near.1 * 2.0 * radius / near.0.powi(2) - 1.0).abs() < ROUND;
         let inside = (self.scale.0 * radius).min(self.scale.1 * radius);
-        let holds_all = self.inner_points(body).all(|(x, y)| x.hypot(y) <= inside);
+        let holds_all = self.inner_points(body).all(|(x, y)| math::hypot(x, y) <= inside);
         (x == 0.0 && others.at == (0.0, 0.0) && is_round && holds_all).then_some(radius)
     }
 

@@ -15,7 +15,7 @@ struct Way {
 impl Way {
     fn new(from: Point, to: Point) -> Self {
         let (x, y) = (to.0 - from.0, to.1 - from.1);
-        let length = x.hypot(y);
+        let length = math::hypot(x, y);
         let ahead = if length > 0.0 { (x / length, y / length) } else { (1.0, 0.0) };
         Self { from, ahead, length }
     }
@@ -130,7 +130,7 @@ fn head(from: Point, to: Point, unit: f64) -> Vec<Point> {
 
 /// An arrow along a circle from one angle to another, rad, counter-clockwise from the x axis.
 pub(super) fn turn(centre: Point, radius: f64, (from, to): (f64, f64), is_double: bool, unit: f64) -> Lines {
-    let on = |angle: f64| (centre.0 + radius * angle.cos(), centre.1 + radius * angle.sin());
+    let on = |angle: f64| (centre.0 + radius * math::cos(angle), centre.1 + radius * math::sin(angle));
     let arc = (0..=32).map(|k| on(from + (to - from) * f64::from(k) / 32.0));
     // A head's axis is a chord: along the tangent it would stand off the arc.
     let back = HEAD.0 * unit / radius * (to - from).signum();
@@ -164,7 +164,7 @@ pub(crate) fn hatched(from: Point, to: Point, unit: f64) -> Lines {
 pub(super) fn ellipse((x, y): Point, (wide, high): Point) -> Vec<Point> {
     let corner = |k: u32| {
         let angle = std::f64::consts::TAU * f64::from(k) / 96.0;
-        (x + wide * angle.cos(), y + high * angle.sin())
+        (x + wide * math::cos(angle), y + high * math::sin(angle))
     };
     (0..=96).map(corner).collect()
 }

@@ -425,9 +425,9 @@ fn share(waveform: &Waveform, period: f64, order: u32) -> f64 {
     let amplitude = |order: u32| {
         let sums = values.iter().zip(0_u32..).fold((0.0, 0.0), |(a, b), (value, k)| {
             let angle = TAU * f64::from(order) * f64::from(k) / f64::from(MOMENTS);
-            (a + value * angle.cos(), b + value * angle.sin())
+            (a + value * math::cos(angle), b + value * math::sin(angle))
         });
-        f64::hypot(sums.0, sums.1)
+        math::hypot(sums.0, sums.1)
     };
     let largest = (1..=HARMONICS).map(amplitude).fold(0.0, f64::max);
     if largest > 0.0 { amplitude(order) / largest } else { 0.0 }

@@ -38,7 +38,7 @@ fn interval(meaning: &Meaning) -> f64 {
 
 /// The next larger of 1, 2 and 5 times a power of ten; the value itself where that is none.
 fn round_up(value: f64) -> f64 {
-    let exponent = value.log10().floor() as i32;
+    let exponent = math::log10(value).floor() as i32;
     let candidates = [(1, exponent), (2, exponent), (5, exponent), (1, exponent + 1)];
     // As a decimal number is read, to the last bit.
     let read =

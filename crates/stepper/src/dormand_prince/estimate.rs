@@ -32,7 +32,8 @@ impl DormandPrince {
         self.evaluations += 1;
         let bend = norm(&|i| (self.newest[i] - self.ends.first[i]) / trial);
         let largest = speed.max(bend);
-        let step = if largest > 1e-15 { (0.01 / largest).powf(1.0 / f64::from(ORDER)) } else { 1e3 * trial };
+        let step =
+            if largest > 1e-15 { math::powf(0.01 / largest, 1.0 / f64::from(ORDER)) } else { 1e3 * trial };
         step.min(100.0 * trial).min(longest)
     }
 
@@ -54,7 +55,7 @@ impl DormandPrince {
         }
         probe += self.end.iter().sum::<f64>();
         let error = self.extent.step.abs() * most;
-        if probe.is_finite() { error * error.powf(0.6) } else { f64::INFINITY }
+        if probe.is_finite() { error * math::powf(error, 0.6) } else { f64::INFINITY }
     }
 
     fn error_of_eighth(&self, scale: &[f64]) -> f64 {

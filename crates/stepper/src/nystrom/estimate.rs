@@ -40,7 +40,7 @@ impl<N: Storage> Nystrom<N> {
             .map(|(track, scale)| track.k[0].abs() / scale)
             .fold(0.0, f64::max);
         let step = if bend > 0.0 {
-            (1.0 / bend).powf(1.0 / f64::from(ORDER)) * longest.powf(1.0 - 1.0 / f64::from(ORDER))
+            math::powf(1.0 / bend, 1.0 / f64::from(ORDER)) * math::powf(longest, 1.0 - 1.0 / f64::from(ORDER))
         } else {
             longest
         };

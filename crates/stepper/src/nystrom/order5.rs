@@ -98,7 +98,7 @@ impl<N: Storage> Nystrom<N> {
         }
         sum += self.end.as_ref().iter().sum::<f64>();
         let by_difference = largest * largest.sqrt() * largest.sqrt().sqrt();
-        if sum.is_finite() { by_difference.max(missed * missed.sqrt().cbrt()) } else { f64::INFINITY }
+        if sum.is_finite() { by_difference.max(missed * math::cbrt(missed.sqrt())) } else { f64::INFINITY }
     }
 
     /// The dense output.

@@ -70,7 +70,7 @@ impl Bracket {
             }
             let at = if misled { middle } else { aimed(&known, bracket, width).unwrap_or(middle) };
             bracket.runs += 1;
-            let behind = (whole / half).ln() / (2.0 * whole / width).ln();
+            let behind = math::ln(whole / half) / math::ln(2.0 * whole / width);
             match try_at(at, behind.clamp(0.0, 1.0))? {
                 Some(step) => {
                     bracket.steps = at;

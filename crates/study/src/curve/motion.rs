@@ -148,7 +148,7 @@ impl Motion {
                 let leaves = found.step.map(|step| Unstable {
                     step: share * step,
                     error: share * found.bound,
-                    growth: found.radius().powf(share),
+                    growth: math::powf(found.radius(), share),
                 });
                 let motion = waited(job, watcher, leaves)?;
                 Ok(Self { work: motion.work + found.work, ..motion })

@@ -63,7 +63,7 @@ impl Peak {
             if left.may_equal(&right) && left.may_equal(&best) && right.may_equal(&best) {
                 break;
             }
-            let behind = (whole / (high - low)).ln() / (whole / (tolerance * best.at.abs())).ln();
+            let behind = math::ln(whole / (high - low)) / math::ln(whole / (tolerance * best.at.abs()));
             let behind = behind.clamp(0.0, 1.0);
             let next = if left.value >= right.value {
                 (high, right) = (right.at, left);

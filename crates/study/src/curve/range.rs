@@ -58,7 +58,7 @@ impl Range {
         let value = |k: usize| match k as f64 / last as f64 {
             _ if k == 0 => from,
             _ if k == last => to,
-            share if decades => from * (to / from).powf(share),
+            share if decades => from * math::powf(to / from, share),
             share => from + share * (to - from),
         };
         Ok((0..points).map(value).collect())

@@ -140,12 +140,12 @@ impl Unstable {
     fn may_hold(&self, steps: &[f64], (course, mean, spread): (Course, Mean, f64), period: f64) -> bool {
         if course == Course::Steady {
             // What rounding has had so long to grow by, and has not, does not grow.
-            let has_grown = self.growth.ln() * (2 * steps.len()) as f64 > OUTGROWN;
+            let has_grown = math::ln(self.growth) * (2 * steps.len()) as f64 > OUTGROWN;
             return !has_grown && !self.is_other(&mean, 0.0);
         }
         let [before, after] = extents(steps);
         let wider = (after / before - 1.0).abs();
-        let grown = self.growth.powf((steps.len() - steps.len() / 2) as f64) - 1.0;
+        let grown = math::powf(self.growth, (steps.len() - steps.len() / 2) as f64) - 1.0;
         let swings_on = (mean.value - self.step).abs() < spread && wider > LAGS * grown.min(1.0);
         swings_on || wider.is_nan() || wider > WIDER || moved(steps, period).is_some()
     }
@@ -245,7 +245,7 @@ fn judged(
             let Mean { value, error } = mean(period, amplitude);
             // One that goes on growing or fading takes the mean with it, and nobody knows how far. What has left a motion is asked below.
             let [before, after] = extents(half);
-            let drifts = growth.is_some_and(|growth| (growth.ln() * half.len() as f64).abs() > DRIFTS);
+            let drifts = growth.is_some_and(|growth| (math::ln(growth) * half.len() as f64).abs() > DRIFTS);
             let stays = leaves.is_some() || !drifts && (after - before).abs() <= STAYS * before;
             let to_go = moved(half, period).map_or(0.0, |moved| SURE * moved.to_go);
             let error = error.max(if stays { to_go.min(amplitude) } else { amplitude });

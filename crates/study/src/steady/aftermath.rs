@@ -209,7 +209,7 @@ impl Way {
 fn judged(steps: &[f64]) -> Ending {
     match Settling::of(steps, Bounds { least: 0.0, most: f64::INFINITY, error: 0.0 }) {
         Settling::Beats { period, growth: Some(growth), .. }
-            if (growth.ln() * steps.len() as f64).abs() < GROWN =>
+            if (math::ln(growth) * steps.len() as f64).abs() < GROWN =>
         {
             Ending::Beats(period)
         }

@@ -8,7 +8,7 @@
 //! they part by the root of δA, and κ is as large as its inverse.
 
 use super::map::Gradient;
-use nalgebra::{Complex, DMatrix, SVD, Schur};
+use nalgebra::{Complex, ComplexField, DMatrix, SVD, Schur};
 use std::f64::consts::TAU;
 
 /// To which share of its neighbours the eigenvalue iteration lets an entry go.
@@ -56,7 +56,7 @@ impl Multiplier {
     /// |λ|.
     #[must_use]
     pub fn modulus(&self) -> f64 {
-        self.re.hypot(self.im)
+        math::hypot(self.re, self.im)
     }
 
     /// How far it may be off, where that is more than its six digits.
@@ -79,7 +79,7 @@ impl Multiplier {
     /// Periods of a beat, more than 2; none where a disturbance does not turn, or changes sides every period.
     #[must_use]
     pub fn beat(&self) -> Option<f64> {
-        let angle = self.im.atan2(self.re).abs();
+        let angle = math::atan2(self.im, self.re).abs();
         let least = ANGLE.max(self.error / self.modulus());
         (angle > least && angle < 0.5 * TAU - least).then(|| TAU / angle)
     }
@@ -94,7 +94,7 @@ impl Multiplier {
     #[must_use]
     pub fn periods(&self) -> Option<f64> {
         match self.kind() {
-            Kind::Fades | Kind::Grows => Some(1.0 / self.modulus().ln().abs()),
+            Kind::Fades | Kind::Grows => Some(1.0 / math::ln(self.modulus()).abs()),
             Kind::Forgotten | Kind::Stays => None,
         }
     }
@@ -132,7 +132,7 @@ fn digits(x: f64) -> String {
     }
     // Rounded first: 0.09996 has the places of 0.1.
     let x: f64 = format!("{x:.2e}").parse().unwrap_or(x);
-    let places = (2 - x.abs().log10().floor() as i32).clamp(0, 12);
+    let places = (2 - math::log10(x.abs()).floor() as i32).clamp(0, 12);
     format!("{x:.*}", usize::try_from(places).unwrap_or(0))
 }
 
@@ -172,7 +172,7 @@ fn moved(matrix: &DMatrix<f64>, value: Complex<f64>, entries: f64) -> f64 {
         // Those of the least singular value, which is 0 but for rounding.
         let (y, x) = (left.column(count - 1), right.row(count - 1));
         let product: Complex<f64> = y.iter().zip(x.iter()).map(|(y, x)| y * x).sum();
-        (entries / product.norm()).min(double)
+        (entries / product.modulus()).min(double)
     })
 }
 

@@ -215,7 +215,7 @@ impl Search {
 
     /// How many more periods it takes where each leaves so much of a defect; a gradient made anew takes one for each number.
     fn lasts(&self, rate: f64, size: f64) -> f64 {
-        (size / self.goal).ln().max(0.0) / -rate.ln()
+        math::ln(size / self.goal).max(0.0) / -math::ln(rate)
     }
 
     /// Tries a part of a step; taken if the defect gets smaller by a part of that.

@@ -47,7 +47,7 @@ impl Column {
     /// Where it stands in the picture.
     pub(super) fn place(self) -> f64 {
         match self {
-            Self::Event(tolerance) => -tolerance.log10().round(),
+            Self::Event(tolerance) => -math::log10(tolerance).round(),
             Self::Plain("verlet") => -4.0,
             Self::Plain("rk4") => -2.0,
             Self::Plain(_) => 0.0,

@@ -24,11 +24,11 @@ impl Family {
     /// Where a value stands in a picture: at its power of ten, hairs at the power of their distance from 1.
     pub(super) fn place(&self, value: f64) -> f64 {
         if self.is_fine() {
-            let distance = (value - 1.0).abs().log10().max(-10.0);
+            let distance = math::log10((value - 1.0).abs()).max(-10.0);
             return (10.0 + distance).round() * (value - 1.0).signum();
         }
         // Nothing at all stands beside the smallest.
-        if value > 0.0 { value.log10() } else { self.values[1].log10() - 1.0 }
+        if value > 0.0 { math::log10(value) } else { math::log10(self.values[1]) - 1.0 }
     }
 
     /// What its places n are.
@@ -70,7 +70,7 @@ const PLAIN: Plain = Plain {
 impl Plain {
     /// Indentation of Hertz, F = (4/3)E\*√R d^{3/2}, m.
     fn depth(&self) -> f64 {
-        (0.75 * self.force / (NORMAL * self.modulus * self.radius.sqrt())).powf(2.0 / 3.0)
+        math::powf(0.75 * self.force / (NORMAL * self.modulus * self.radius.sqrt()), 2.0 / 3.0)
     }
 
     /// u_c = μ(E\*/G\*)d, m.
@@ -113,7 +113,7 @@ impl Plain {
 /// Evenly in the logarithm, from one power of ten to another.
 fn decades(from: i32, to: i32, count: usize) -> Vec<f64> {
     let step = f64::from(to - from) / (count - 1) as f64;
-    (0..count).map(|i| 10_f64.powf(f64::from(from) + step * i as f64)).collect()
+    (0..count).map(|i| math::powf(10.0, f64::from(from) + step * i as f64)).collect()
 }
 
 /// 1 ± 10^-k, ascending.

@@ -95,7 +95,7 @@ impl Sketch {
         }
         if self.gravity.is_none() && hold > 0.0 && self.draw.chance(0.2) {
             // Up to a wall that it cannot climb.
-            let most = (0.7 * hold / (mass * GRAVITY)).min(1.0).asin();
+            let most = math::asin((0.7 * hold / (mass * GRAVITY)).min(1.0));
             self.gravity = Some(json!({ "incline": self.draw.between(-1.0, 1.0) * most }));
         }
         if self.draw.chance(0.25) {

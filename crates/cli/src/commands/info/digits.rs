@@ -23,13 +23,14 @@ pub(super) fn two_digits(value: f64) -> String {
     if value < 10.0 {
         return format!("{value:.1}").trim_end_matches(".0").to_owned();
     }
-    let unit = 10_f64.powf(value.log10().floor() - 1.0);
+    let unit = math::powf(10.0, math::log10(value).floor() - 1.0);
     whole((value / unit).round() * unit)
 }
 
 /// Three digits of a number without unit.
 pub(crate) fn digits(value: f64) -> String {
-    let places = if value == 0.0 { 0 } else { (2.0 - value.abs().log10().floor()).clamp(0.0, 9.0) as usize };
+    let places =
+        if value == 0.0 { 0 } else { (2.0 - math::log10(value.abs()).floor()).clamp(0.0, 9.0) as usize };
     let text = format!("{value:.places$}");
     if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_owned() } else { text }
 }

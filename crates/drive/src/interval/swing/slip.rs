@@ -265,7 +265,7 @@ fn root<const N: usize>(x: f64) -> f64 {
     match N {
         1 => x,
         2 => x.sqrt(),
-        3 => x.cbrt(),
+        3 => math::cbrt(x),
         _ => x.sqrt().sqrt(),
     }
 }

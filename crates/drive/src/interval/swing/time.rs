@@ -82,6 +82,6 @@ impl Swing<'_> {
 
     /// The angle at q, 0 to π.
     pub(super) fn angle(&self, q: f64) -> f64 {
-        2.0 * (q - self.low).max(0.0).sqrt().atan2((self.high - q).max(0.0).sqrt())
+        2.0 * math::atan2((q - self.low).max(0.0).sqrt(), (self.high - q).max(0.0).sqrt())
     }
 }

@@ -205,7 +205,8 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         for _ in 0..2 {
             let (force, slope) =
                 (contact.interface.normal_force(depth), contact.interface.normal_stiffness(depth));
-            depth *= (speed * speed / (gain * force * depth)).powf((1.0 + slope * depth / force).recip());
+            depth *=
+                math::powf(speed * speed / (gain * force * depth), (1.0 + slope * depth / force).recip());
         }
         let rate = speed / depth;
         if rate.is_finite() { rate } else { 0.0 }
@@ -289,7 +290,7 @@ pub(super) fn reach(tolerance: f64) -> f64 {
 /// half a radian and passes through 0 where p is nearly 2: by it alone steps of 0.7 to 1.2 rad were accepted at 1e-3 to 1e-5 that
 /// missed up to 7e-4. All touches miss to one side, so that places are off by the square of their number.
 pub(super) fn start(tolerance: f64) -> f64 {
-    (0.1 * tolerance / 8e-4).powf(6.5_f64.recip())
+    math::powf(0.1 * tolerance / 8e-4, 6.5_f64.recip())
 }
 
 /// End of the next step: the corner exactly, or so that no sliver is left before it.

@@ -74,7 +74,7 @@ impl<A> Motion<A> {
             reach: reach(tolerance),
             start: start(tolerance),
             closeness: closeness(model, tolerance),
-            resolved: tolerance.powf(2.0 / 3.0),
+            resolved: math::powf(tolerance, 2.0 / 3.0),
             gait: Gait::FRESH,
         };
         let allowance = Allowance::new(model, tolerance, scale);
@@ -303,7 +303,7 @@ fn scene_time(model: &Model) -> f64 {
 /// asked for.
 fn closeness(model: &Model, tolerance: f64) -> f64 {
     let damped = model.contacts.iter().any(|contact| contact.interface.damping() > 0.0);
-    0.1 * tolerance.powf(if damped { 2.0 / 3.0 } else { 0.4 })
+    0.1 * math::powf(tolerance, if damped { 2.0 / 3.0 } else { 0.4 })
 }
 
 /// What the estimate of a method of few stages tells of a swing of the natural amplitude, error · θ^-power after a step of θ rad, and
@@ -334,5 +334,5 @@ fn short(method: Method, model: &Model, tolerance: f64) -> f64 {
     if model.fastest == 0.0 {
         return 0.0;
     }
-    (tolerance / error).powf(power.recip()).min(1.0) * stable / model.fastest
+    math::powf(tolerance / error, power.recip()).min(1.0) * stable / model.fastest
 }

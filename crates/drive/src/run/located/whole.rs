@@ -120,7 +120,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
             state.counts.missed += u64::from(error > 1.0);
             // What a block has cut adds nothing to the wish, and takes nothing from it.
             if fall.is_none() {
-                detour.step = h * (SAFETY * error.max(1e-6).powf(-1.0 / 3.0)).clamp(1.0, 4.0);
+                detour.step = h * (SAFETY * math::powf(error.max(1e-6), -1.0 / 3.0)).clamp(1.0, 4.0);
             }
             self.take_halves(&mut halves, state, (times, fall), record)
         } else {
@@ -251,7 +251,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         (error, end): (f64, &[f64]),
     ) -> Result<(), RunError> {
         state.counts.rejected += 1;
-        let factor = SAFETY * error.powf(-1.0 / 3.0);
+        let factor = SAFETY * math::powf(error, -1.0 / 3.0);
         detour.step = h * if factor > 0.1 { factor } else { 0.1 };
         if detour.step < SHORTEST * detour.length {
             if !error.is_finite() {

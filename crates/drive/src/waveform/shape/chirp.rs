@@ -34,7 +34,7 @@ impl Sweep {
     pub(super) fn at(&self, s: f64) -> Sample {
         let turns = self.turns(s);
         // Whole turns are taken off before the multiplication by 2π, whose rounding they would magnify.
-        let (sin, cos) = (TAU * (turns - turns.floor()) + self.phase).sin_cos();
+        let (sin, cos) = math::sin_cos(TAU * (turns - turns.floor()) + self.phase);
         let omega = TAU * (self.from + (self.to - self.from) * (s / self.duration));
         let growth = TAU * ((self.to - self.from) / self.duration);
         Sample {

@@ -34,7 +34,7 @@ impl Cycloid {
         let (time, rise) = (self.to.0 - self.from.0, self.to.1 - self.from.1);
         let part = (t - self.from.0) / time;
         // Half angles: 1 - cos 2πτ = 2 sin² πτ loses nothing where the motion starts.
-        let (sin, cos) = (PI * part).sin_cos();
+        let (sin, cos) = math::sin_cos(PI * part);
         let mean = rise / time;
         Sample {
             value: self.from.1 + rise * (part - sin * cos / PI),

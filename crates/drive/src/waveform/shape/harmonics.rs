@@ -79,7 +79,7 @@ fn range(terms: &[Harmonic]) -> (f64, f64) {
     let (low, high) = (0..points).fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), i| {
         let angle = spacing * f64::from(i);
         let value: f64 =
-            terms.iter().map(|term| term.amplitude * (term.order * angle + term.phase).sin()).sum();
+            terms.iter().map(|term| term.amplitude * math::sin(term.order * angle + term.phase)).sum();
         (low.min(value), high.max(value))
     });
     ((low - margin).max(-sum), (high + margin).min(sum))

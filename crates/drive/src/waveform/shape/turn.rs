@@ -94,7 +94,7 @@ fn sin_cos(angle: f64) -> [f64; 2] {
 #[cold]
 #[inline(never)]
 fn far(angle: f64) -> [f64; 2] {
-    angle.sin_cos().into()
+    math::sin_cos(angle).into()
 }
 
 /// From the middle of the nearest cell on by the theorem of addition, what is left of the angle being π/64 at most: sine and cosine of

@@ -11,7 +11,7 @@ use super::corrector::matrix;
 use super::happened::Change;
 use super::standing::{Measure, Standing};
 use crate::steady::Multiplier;
-use nalgebra::Complex;
+use nalgebra::{Complex, ComplexField};
 
 /// How near a multiplier is to where it must be, at a place that is closed in on.
 const THERE: f64 = 1e-2;
@@ -123,9 +123,9 @@ impl Test {
     pub(super) fn is_met(self, standing: &Standing) -> bool {
         let values = eigenvalues(&standing.point.multipliers);
         match self {
-            Self::Fold | Self::Branching => values.iter().any(|value| (value - 1.0).norm() < THERE),
-            Self::PeriodDoubling => values.iter().any(|value| (value + 1.0).norm() < THERE),
-            Self::NeimarkSacker => pairs(&values).any(|[a, b]| (a * b - 1.0).norm() < THERE),
+            Self::Fold | Self::Branching => values.iter().any(|value| (value - 1.0).modulus() < THERE),
+            Self::PeriodDoubling => values.iter().any(|value| (value + 1.0).modulus() < THERE),
+            Self::NeimarkSacker => pairs(&values).any(|[a, b]| (a * b - 1.0).modulus() < THERE),
         }
     }
 
@@ -145,7 +145,7 @@ impl Test {
             Self::Branching => Some(Bifurcation::Branching),
             Self::NeimarkSacker => {
                 let values = eigenvalues(&standing.point.multipliers);
-                let off = |pair: &[Complex<f64>; 2]| (pair[0] * pair[1] - 1.0).norm();
+                let off = |pair: &[Complex<f64>; 2]| (pair[0] * pair[1] - 1.0).modulus();
                 let [one, other] = pairs(&values).min_by(|a, b| off(a).total_cmp(&off(b)))?;
                 let is_pair = one.im != 0.0 && one.im == -other.im;
                 let beat =
