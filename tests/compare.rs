@@ -126,13 +126,13 @@ fn the_same_run_is_the_same_to_the_bit() {
     let again = tempdir().unwrap();
     let b = run_example("quickstart", again.path(), &["plots=[]", "run.duration=21 ms"]);
     let (code, found) = compare(&pair.a, &b, &["--tolerance", "0", "--time-tolerance", "0"]);
-    assert_eq!((code, &found["same"], &found["notes"]), (0, &json!(true), &json!([])));
+    assert_eq!((code, &found["verdict"], &found["notes"]), (0, &json!("identical"), &json!([])));
     assert_eq!(found["rows"], json!({ "a": 2101, "b": 2101, "common": 2101 }));
     assert_eq!(found["coverage"], json!({ "time": 1.0, "rows": 1.0 }));
     assert_eq!(found["channels"].as_array().unwrap().len(), 19);
     assert!(found["figures"]["compared"].as_u64().unwrap() > 25);
     let text = pair.text(&[]);
-    assert!(text.contains("  ball.fx_N ") && text.ends_with("\nno difference\n"), "{text}");
+    assert!(text.contains("  ball.fx_N ") && text.ends_with("\nidentical\n"), "{text}");
     assert_eq!(pair.text(&["-q"]), "");
 }
 
@@ -157,7 +157,48 @@ fn a_change_of_1e_9_is_found_in_every_channel() {
         }
         assert_eq!((code, differing(&found)), (1, vec![name.as_str()]));
         assert_eq!(found["first"], json!({ "time_s": time, "what": name }));
-        assert!(pair.text(&[]).ends_with(&format!(" s: {name}\n")));
+        assert!(pair.text(&[]).ends_with(&format!(" s: {name}\ndiffers\n")));
+    }
+}
+
+/// The benchmark drive with a mass that is 1e-13 heavier differed in one state, at a corner of its waveform, and in how many steps count as
+/// steady.
+#[test]
+fn rounding_is_equal_and_not_identical() {
+    let pair = Pair::new("p1", &[]);
+    let other = |mass: f64| {
+        let out = tempdir().unwrap();
+        let b = run_example("p1", out.path(), &["plots=[]", &format!("bodies.slider.mass={mass:?}")]);
+        (b, out)
+    };
+    let (b, _out) = other(0.02 * (1.0 + 1e-13));
+    let (code, found) = compare(&pair.a, &b, &[]);
+    assert_eq!((code, &found["verdict"]), (0, &json!("equal")));
+    let text = stdout(&call(&pair.a, &b, &[]));
+    assert!(text.contains("\n  farthest apart: ") && text.ends_with(" s\nequal\n"), "{text}");
+    let (code, found) = compare(&pair.a, &b, &["--exact"]);
+    assert_eq!((code, &found["verdict"]), (1, &json!("differs")));
+    let (b, _out) = other(0.02 * (1.0 + 1e-9));
+    assert_eq!(compare(&pair.a, &b, &[]).0, 1);
+    // Another time taken is no other bit.
+    let (b, _out) = other(0.02);
+    assert_eq!(compare(&pair.a, &b, &["--exact"]).0, 0);
+}
+
+#[test]
+fn a_state_on_an_event_may_be_that_before_it_or_after_it() {
+    let pair = Pair::new("p1", &[]);
+    // At 15 ms the waveform has a corner, and gross slip ends.
+    for (time, code) in [(0.015, 0), (0.0151, 1)] {
+        let was = pair.edit("trace.csv", |lines| {
+            let (state, row) = (
+                place(lines, "ball.state"),
+                lines.iter().skip(1).position(|line| line[0].parse::<f64>().unwrap() >= time).unwrap() + 1,
+            );
+            std::mem::replace(&mut lines[row][state], "stick".to_owned())
+        });
+        assert!(was != "stick");
+        assert_eq!(pair.compare(&[]).0, code, "{time}");
     }
 }
 
@@ -239,7 +280,7 @@ fn figures_are_compared_each_by_its_name() {
         let (code, found) = pair.compare(&[]);
         assert_eq!((code, found["figures"]["differ"].as_array().unwrap().len()), (1, 1), "{name}");
         assert_eq!(found["figures"]["differ"][0]["name"], name);
-        assert!(pair.text(&[]).ends_with("a difference, in what has no time\n"));
+        assert!(pair.text(&[]).ends_with("a difference, in what has no time\ndiffers\n"));
         pair.edit_summary(pointer, |_| original);
     }
     // Sentences say in words what figures are, to four digits.
@@ -341,7 +382,7 @@ fn a_run_that_stopped_itself_agrees_as_far_as_it_came() {
     assert_eq!(code(&output), 3);
     let (code, found) = compare(&pair.a, &out.path().join("quickstart"), &[]);
     assert_eq!((code, differing(&found).len(), events(&found)), (1, 0, [0, 0, 0]));
-    assert!(pair.text(&[]).ends_with("no difference\n"));
+    assert!(pair.text(&[]).ends_with("\nidentical\n"));
 }
 
 #[test]
@@ -428,12 +469,13 @@ fn the_picture_ends_with_the_shorter_run() {
     };
     let (long, short) = (run("long", 6), run("short", 1));
     let file = out.path().join("difference.svg");
-    // Names and ticks, without what names the runs.
+    // Names and ticks, without what names the runs and says how far they agree.
     let texts = |a: &Path, b: &Path| -> Vec<String> {
         assert!(code(&call(a, b, &["--plot", file.to_str().unwrap()])) < 2);
         let svg = std::fs::read_to_string(&file).unwrap();
         let texts = svg.lines().filter(|line| !line.starts_with('<') && !line.contains("/p1"));
-        texts.filter(|line| !line.contains("SHA-256")).map(str::to_owned).collect()
+        let said = ["SHA-256", "the files differ", "the same bytes"];
+        texts.filter(|line| !said.iter().any(|said| line.contains(said))).map(str::to_owned).collect()
     };
     let one = texts(&short, &short);
     assert!(one.contains(&"time t (ms)".to_owned()), "{one:?}");

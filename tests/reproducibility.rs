@@ -1,6 +1,6 @@
 //! Same scenario, same bytes; output never changes the trajectory.
 
-use crate::program::{Table, code, run, run_example, scenario, stderr, stdout, stickslip};
+use crate::program::{Table, code, listing, run, run_example, scenario, sha256, stderr, stdout, stickslip};
 use std::path::Path;
 use tempfile::tempdir;
 
@@ -90,4 +90,62 @@ fn runs_side_by_side_give_the_same_and_speak_in_order() {
     for name in names {
         assert_same(&one.path().join(name), &two.path().join(name), &["trace.csv", "events.csv", "loop.png"]);
     }
+}
+
+/// What the page says of every example, and what they give; without pictures, in an environment.
+fn examples(environment: &[(&str, &str)]) -> String {
+    let out = tempdir().unwrap();
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenarios");
+    let files: Vec<String> = listing(&folder).into_iter().filter(|name| name.ends_with(".json")).collect();
+    let mut command = stickslip();
+    command.arg("run").args(files.iter().map(|name| folder.join(name)));
+    command.args(["--set", "plots=[]", "--quiet", "--out"]).arg(out.path()).envs(environment.iter().copied());
+    let output = command.output().unwrap();
+    assert_eq!(code(&output), 0, "{}", stderr(&output));
+    let line = |name: &String| {
+        let name = name.strip_suffix(".json").unwrap();
+        let [trace, events] = ["trace.csv", "events.csv"]
+            .map(|table| sha256(&std::fs::read(out.path().join(name).join(table)).unwrap())[..16].to_owned());
+        format!("| {name} | `{trace}` | `{events}` |\n")
+    };
+    files.iter().map(line).collect()
+}
+
+#[test]
+fn the_examples_give_the_bytes_on_the_page_with_and_without_fma() {
+    const HEAD: &str = "| scenario | trace.csv | events.csv |\n| --- | --- | --- |\n";
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs/reproducibility.md");
+    let page = std::fs::read_to_string(&path).unwrap();
+    let (before, table) = page.split_once(HEAD).unwrap();
+    let found = examples(&[]);
+    if std::env::var_os("STICKSLIP_WRITE").is_some() {
+        std::fs::write(&path, [before, HEAD, &found].concat()).unwrap();
+    } else {
+        assert_eq!(table, found, "what a run gives has changed; to write it down: STICKSLIP_WRITE=1");
+    }
+    // The C library of GNU then uses other code for exponentials and angles; others do not know the variable.
+    assert_eq!(found, examples(&[("GLIBC_TUNABLES", "glibc.cpu.hwcaps=-FMA,-FMA4,-AVX2,-AVX512F")]));
+}
+
+#[test]
+#[cfg(target_os = "linux")]
+fn no_function_of_the_c_library_that_rounds_its_own_way_is_called() {
+    let Ok(listed) = std::process::Command::new("nm").args(["-D", env!("CARGO_BIN_EXE_stickslip")]).output()
+    else {
+        return println!("no nm here: imported functions are not looked at");
+    };
+    let listed = stdout(&listed);
+    assert!(listed.contains(" U "), "{listed}");
+    // `fmod` is exact.
+    const NAMES: &str = "acos acosh asin asinh atan atan2 atanh cbrt cos cosh exp exp10 exp2 expm1 fma hypot lgamma log log10 log1p \
+                         log2 pow sin sincos sinh tan tanh tgamma";
+    let imported = listed.lines().filter_map(|line| line.split_once(" U ")?.1.split('@').next());
+    let called: Vec<&str> = imported
+        .filter(|name| {
+            NAMES
+                .split_whitespace()
+                .any(|known| known == *name || name.strip_suffix(['f', 'l']) == Some(known))
+        })
+        .collect();
+    assert!(called.is_empty(), "{called:?}");
 }

@@ -4,6 +4,7 @@ pub(crate) mod bench;
 pub(crate) mod characterise;
 pub(crate) mod compare;
 pub(crate) mod contact;
+pub(crate) mod golden;
 pub(crate) mod look;
 pub(crate) mod loops;
 mod pictures;
@@ -165,6 +166,9 @@ pub(crate) enum Command {
     /// Compare two folders of results: channels, events, figures
     #[command(long_about = compare::ABOUT, after_long_help = compare::EXAMPLES)]
     Compare(CompareArguments),
+    /// Keep what scenarios come to, and find out when that changes
+    #[command(long_about = golden::ABOUT, after_long_help = golden::EXAMPLES, subcommand)]
+    Golden(golden::GoldenCommand),
     /// Run a drive in real time: a frame after each tick of a clock, inputs from outside, outputs to it
     #[command(long_about = realtime::ABOUT, after_long_help = realtime::EXAMPLES)]
     Realtime(Box<RealtimeArguments>),

@@ -8,6 +8,7 @@ pub(crate) mod completions;
 pub(crate) mod contact;
 pub(crate) mod explain;
 pub(crate) mod gallery;
+pub(crate) mod golden;
 pub(crate) mod info;
 pub(crate) mod loops;
 pub(crate) mod materials;

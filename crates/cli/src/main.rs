@@ -10,7 +10,7 @@ mod console;
 use arguments::{Arguments, Command};
 use clap::Parser;
 use commands::{
-    bench, characterise, check, compare, completions, contact, explain, gallery, info, loops,
+    bench, characterise, check, compare, completions, contact, explain, gallery, golden, info, loops,
     materials, new, plot, realtime, repro, resume, run, schema, sensitivity, soak, steady, validate,
 };
 use std::process::ExitCode;
@@ -37,6 +37,7 @@ fn main() -> ExitCode {
         Command::Materials => materials::list(),
         Command::Completions { shell } => completions::print(shell),
         Command::Compare(arguments) => compare::run(&arguments),
+        Command::Golden(command) => golden::golden(&command),
         Command::Plot(arguments) => plot::plot(&arguments),
         Command::Repro(arguments) => repro::repro(&arguments),
         Command::Realtime(arguments) => realtime::realtime(&arguments),

@@ -67,7 +67,7 @@ pub fn draw(
         })
         .collect();
     let names = (legend(a), legend(b));
-    let mut figure = compare_figure(&comparison.verdict(), (&names.0, &names.1), &channels);
+    let mut figure = compare_figure(&comparison.finding(), (&names.0, &names.1), &channels);
     figure.provenance = provenance(comparison);
     let bytes = form.draw(&figure)?;
     Ok((bytes, curves.iter().map(|curve| curve.channel.name.clone()).collect()))
@@ -107,7 +107,7 @@ fn legend(results: &Results) -> String {
 fn provenance(comparison: &Comparison) -> Vec<(String, String)> {
     let (a, b) = (&comparison.a, &comparison.b);
     let entries = [
-        ("Title", comparison.verdict()),
+        ("Title", comparison.finding()),
         ("Software", this_program()),
         ("Scenario SHA-256 of A", a.scenario_sha256.clone()),
         ("Scenario SHA-256 of B", b.scenario_sha256.clone()),

@@ -21,11 +21,12 @@ mod soundness;
 mod terms;
 
 pub use channels::{ChannelDifference, CommonRows};
-pub use comparison::{Comparison, First, Rows, Side, Tolerance, time};
+pub use comparison::{Comparison, First, Rows, Side, Tolerance, Verdict, time};
 pub use coverage::Coverage;
 pub use error::CompareError;
 pub use events::{EventDifferences, Lone, Moved};
 pub use figures::{FigureDifference, FigureDifferences};
 pub use names::unit;
+pub(crate) use results::LENGTHS;
 pub use results::{Results, ResultsError};
 pub use terms::Terms;

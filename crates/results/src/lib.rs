@@ -43,6 +43,7 @@ pub mod fingerprint;
 pub mod folder;
 mod foot;
 pub mod frame;
+pub mod golden;
 mod guard;
 pub mod info;
 mod insides;

@@ -6,12 +6,11 @@ use crate::arguments::CompareArguments;
 use crate::console::answer::{complain, say, say_json};
 use crate::console::verdict::Verdict;
 use std::io;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use stickslip_figures::comparison::{self, Form};
 use stickslip_plot::PlotError;
-use stickslip_results::compare::{CompareError, Comparison, Results};
+use stickslip_results::compare::{CompareError, Comparison, Results, Verdict as Outcome};
 use stickslip_results::complaint::words;
-use stickslip_results::folder::sweep_left;
 use thiserror::Error;
 
 /// Why two folders are not compared, or not drawn.
@@ -42,7 +41,7 @@ pub(crate) fn run(arguments: &CompareArguments) -> Verdict {
                 CompareArguments { quiet: true, .. } => {}
                 _ => say(format_args!("{}", account::text(&comparison))),
             }
-            if comparison.same { Verdict::Done } else { Verdict::Differs }
+            if comparison.verdict == Outcome::Differs { Verdict::Differs } else { Verdict::Done }
         }
         Err(error) => {
             complain(format_args!("{error}"));
@@ -67,12 +66,6 @@ fn compare(arguments: &CompareArguments) -> Result<Comparison, CompareFailure> {
     let (mut comparison, rows) = Comparison::new(&a, &b, &arguments.terms())?;
     if let (Some(file), Some(form)) = (&arguments.plot, form) {
         let (bytes, names) = comparison::draw((&a, &b), &comparison, &rows, form)?;
-        // A command that was killed has left its draft.
-        let (folder, name) = (file.parent().unwrap_or(Path::new("")), file.file_name().unwrap_or_default());
-        sweep_left(
-            if folder.as_os_str().is_empty() { Path::new(".") } else { folder },
-            &[name.to_string_lossy()],
-        );
         stickslip_results::folder::write(file, &bytes)
             .map_err(|source| CompareFailure::NotWritten { path: file.clone(), source })?;
         comparison.notes.push(format!("drawn in {}: {}", file.display(), names.join(", ")));

@@ -9,15 +9,14 @@ use crate::console::interrupt::Interrupt;
 use crate::console::progress::Progress;
 use crate::console::verdict::Verdict;
 use rayon::prelude::*;
-use report::Report;
-use scenario::Conduct;
 use std::collections::HashMap;
 use std::fmt::Display;
 use std::path::PathBuf;
 use std::sync::{Mutex, PoisonError};
 use stickslip_results::{Job, Refusal};
 
-pub(crate) use scenario::{Beginning, write};
+pub(crate) use report::Report;
+pub(crate) use scenario::{Beginning, Conduct, run as run_job, write};
 
 /// A job and how it begins.
 pub(crate) type Task = (Job, Beginning);

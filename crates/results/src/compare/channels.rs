@@ -6,6 +6,7 @@ use super::results::Results;
 use crate::frame::{Column, Values, Words};
 use crate::real::Real;
 use serde::Serialize;
+use std::collections::HashSet;
 
 /// Times that differ by no more units in their last place are one: k·10 µs and 2k·5 µs are rounded apart.
 const SAME_TIME: f64 = 4.0 * f64::EPSILON;
@@ -15,6 +16,8 @@ const SAME_TIME: f64 = 4.0 * f64::EPSILON;
 pub struct CommonRows {
     /// Place in either trace.
     pub pairs: Vec<(usize, usize)>,
+    /// Those of them on which an event falls: a state may be that before it in one run and that after it in the other.
+    pub on_events: HashSet<usize>,
     /// Rows left out because an event falls on them.
     pub at_events: usize,
 }
@@ -60,13 +63,13 @@ impl CommonRows {
                 j += 1;
             }
         }
-        Self { pairs, at_events: 0 }
+        Self { pairs, ..Self::default() }
     }
 
     /// Leaves out the rows within `tolerance` of an event, at which one run may show the moment before it and the other
     /// the moment after, unless their two times make it sure that they do not. `a` and `b` are the times of the traces,
     /// `events` those of all events.
-    pub fn without_events(
+    pub fn told_from_events(
         mut self,
         (a, b): (&[f64], &[f64]),
         mut events: Vec<f64>,
@@ -82,6 +85,7 @@ impl CommonRows {
         let before = self.pairs.len();
         self.pairs.retain(|&(i, j)| is_sure(a[i], b[j]) || is_clear(a[i]));
         self.at_events = before - self.pairs.len();
+        self.on_events = self.pairs.iter().map(|(i, _)| *i).filter(|&i| !is_clear(a[i])).collect();
         self
     }
 
@@ -167,7 +171,7 @@ pub(super) fn distance(x: f64, y: f64) -> f64 {
 }
 
 fn words(name: &str, time: &[f64], (a, b): (&Words, &Words), rows: &CommonRows) -> ChannelDifference {
-    let differ = rows.pairs.iter().filter(|(i, j)| a.get(*i) != b.get(*j));
+    let differ = rows.pairs.iter().filter(|(i, j)| a.get(*i) != b.get(*j) && !rows.on_events.contains(i));
     let first = differ.clone().next().and_then(|(i, _)| time.get(*i)).map(|t| Real(*t));
     ChannelDifference {
         name: name.to_owned(),
@@ -200,10 +204,10 @@ mod tests {
         let time = [0.0, 1.0, 2.0, 3.0];
         let events = vec![2.001, 0.99, 1.5];
         let rows = CommonRows::new(&time, &time, 3.0);
-        let cleared = rows.clone().without_events((&time, &time), events.clone(), 0.01, |_, _| false);
+        let cleared = rows.clone().told_from_events((&time, &time), events.clone(), 0.01, |_, _| false);
         assert_eq!((cleared.pairs, cleared.at_events), (vec![(0, 0), (3, 3)], 2));
         let rounded = [0.0, 1.0_f64.next_up(), 2.0, 3.0_f64.next_up()];
-        let cleared = rows.without_events((&time, &rounded), events, 0.01, |s, t| s == t);
+        let cleared = rows.told_from_events((&time, &rounded), events, 0.01, |s, t| s == t);
         assert_eq!((cleared.pairs, cleared.at_events), (vec![(0, 0), (2, 2), (3, 3)], 1));
     }
 

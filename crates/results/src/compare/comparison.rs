@@ -14,8 +14,8 @@ use serde::Serialize;
 /// A comparison, as `--json` prints it.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Comparison {
-    /// Whether no difference is larger than allowed.
-    pub same: bool,
+    /// How far they agree.
+    pub verdict: Verdict,
     /// The reference.
     pub a: Side,
     /// The run that is judged.
@@ -44,6 +44,30 @@ pub struct Comparison {
     pub first: Option<First>,
     /// What was not compared, and why.
     pub notes: Vec<String>,
+}
+
+/// How far two runs agree.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Verdict {
+    /// The rows and the events have the same bytes, and no figure differs.
+    Identical,
+    /// No difference is larger than allowed.
+    Equal,
+    /// One is.
+    Differs,
+}
+
+impl Verdict {
+    /// In a word.
+    #[must_use]
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::Identical => "identical",
+            Self::Equal => "equal",
+            Self::Differs => "differs",
+        }
+    }
 }
 
 /// One of the runs.
@@ -125,7 +149,7 @@ impl Comparison {
         let channels = channels::compare(a, b, &rows, &allowance);
         let wanted = |names: Vec<String>| names.into_iter().filter(|name| !allowance.ignores(name)).collect();
         let mut comparison = Self {
-            same: false,
+            verdict: Verdict::Differs,
             a: Side::of(a),
             b: Side::of(b),
             tolerance: Tolerance {
@@ -149,33 +173,60 @@ impl Comparison {
             first: None,
             notes: Vec::new(),
         };
-        comparison.conclude((a, b), &rows, &allowance);
+        comparison.conclude((a, b), &rows, (&allowance, terms.exact));
         Ok((comparison, rows))
     }
 
-    fn conclude(&mut self, (a, b): (&Results, &Results), rows: &CommonRows, allowance: &Allowance) {
+    fn conclude(
+        &mut self,
+        (a, b): (&Results, &Results),
+        rows: &CommonRows,
+        (allowance, exact): (&Allowance, bool),
+    ) {
         let has_same_values =
             self.channels.iter().all(ChannelDifference::is_same) && self.channels_missing.is_empty();
         let has_same_figures = self.figures.differ.is_empty() && self.figures.missing.is_empty();
         let has_same_rows = self.rows.missing == 0;
-        self.same = has_same_values
+        let is_same = has_same_values
             && has_same_rows
             && self.events.is_same()
             && has_same_figures
             && !self.one_stopped();
+        self.verdict = match (is_same, a.has_tables_of(b)) {
+            (true, true) => Verdict::Identical,
+            (true, false) if !exact => Verdict::Equal,
+            _ => Verdict::Differs,
+        };
         self.first = self.first_difference();
         self.notes = extents(a, b);
         self.notes.extend(self.notes(rows, allowance));
     }
 
-    /// The outcome in one line.
-    pub fn verdict(&self) -> String {
-        match (&self.first, self.same) {
-            (_, true) => "no difference".to_owned(),
-            (Some(first), false) => {
+    /// What the verdict rests on, in one line.
+    pub fn finding(&self) -> String {
+        match (&self.first, self.verdict) {
+            (_, Verdict::Identical) => "the rows and the events have the same bytes".to_owned(),
+            (_, Verdict::Equal) => self.farthest(),
+            (Some(first), Verdict::Differs) => {
                 format!("first difference at t = {} s: {}", time(first.time.0), first.what)
             }
-            (None, false) => "a difference, in what has no time".to_owned(),
+            (None, Verdict::Differs) => "a difference, in what has no time".to_owned(),
+        }
+    }
+
+    /// How far runs are apart that are equal: the channel that comes nearest to what is allowed.
+    fn farthest(&self) -> String {
+        let farthest = self.channels.iter().max_by(|p, q| p.excess().total_cmp(&q.excess()));
+        match farthest.and_then(|channel| Some((channel, channel.worst?, channel.allowed?, channel.at?))) {
+            Some((channel, worst, allowed, at)) => format!(
+                "farthest apart: {} by {:.1e} of {:.1e} {} allowed, at t = {} s",
+                channel.name,
+                worst.0,
+                allowed.0,
+                channel.unit,
+                time(at.0)
+            ),
+            None => "no channel is apart; the files differ in what is not compared".to_owned(),
         }
     }
 
@@ -250,8 +301,8 @@ impl Comparison {
         let has_same_words = self.channels.iter().all(|c| c.worst.is_some() || c.is_same());
         (is_small && has_same_words && self.channels_missing.is_empty()).then(|| {
             format!(
-                "the channels agree within what the stepper promises: other rounding alone, as by another machine's \
-                 mathematical library, can make such differences; --tolerance {promised:e} allows them"
+                "the channels agree within what the stepper promises: other rounding alone, as of sums in another \
+                 order, can make such differences; --tolerance {promised:e} allows them"
             )
         })
     }
@@ -277,7 +328,7 @@ fn common_rows(a: &Results, b: &Results, until: f64, allowance: &Allowance) -> C
     let rows = CommonRows::new(a.time(), b.time(), until);
     let goes_on = |t: f64| t < until || a.end == b.end;
     let is_sure = |s: f64, t: f64| allowance.is_same_run && s == t && goes_on(t);
-    rows.without_events((a.time(), b.time()), events, allowance.time, is_sure)
+    rows.told_from_events((a.time(), b.time()), events, allowance.time, is_sure)
 }
 
 /// Everything that has a name.

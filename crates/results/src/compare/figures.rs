@@ -55,10 +55,12 @@ pub(super) fn compare(a: &Results, b: &Results, allowance: &Allowance) -> Figure
     // Whoever has sent one of them may have left out the table of the steps.
     let lists = |results: &Results| results.summary.pointer("/steps/lengths_m").is_some();
     let both_list = lists(a) && lists(b);
+    // Rounding alone may lengthen the stretch in which steps count as steady.
+    let is_identical = a.has_tables_of(b);
     let is_comparable = |name: &str| {
         let is_length = name.starts_with("steps.lengths_m[");
         let is_of_part = is_length || is_of_start(name);
-        let is_told = allowance.is_same_run || !is_judgement(name);
+        let is_told = is_identical || !is_judgement(name, allowance.is_same_run);
         let is_written = has_same_rows || !hangs_on_rows(name);
         !allowance.ignores(name)
             && !is_sentence(name)
@@ -109,10 +111,10 @@ fn hangs_on_rows(name: &str) -> bool {
     name.contains(".largest_error_") || ENDS.iter().any(|end| name.ends_with(end))
 }
 
-/// Figures that tell how sure others are: by steps of another kind they are others.
-fn is_judgement(name: &str) -> bool {
+/// Figures that tell how sure others are: by other rounding they are others, by steps of another kind even whether a motion has settled.
+fn is_judgement(name: &str, is_same_run: bool) -> bool {
     const OF_STEADY: [&str; 4] = ["from_period", "periods", "error_m", "repeatability_m"];
-    name.starts_with("steps.settling.")
+    (name.starts_with("steps.settling.") && !(is_same_run && name == "steps.settling.state"))
         || name.strip_prefix("steps.steady.").is_some_and(|rest| OF_STEADY.contains(&rest))
 }
 

@@ -14,7 +14,7 @@ use std::path::{Path, PathBuf};
 use thiserror::Error;
 
 /// Name of the lengths of the steps among the figures, and their place in [`STEP_HEAD`].
-pub(super) const LENGTHS: &str = "lengths_m";
+pub(crate) const LENGTHS: &str = "lengths_m";
 const LENGTH: usize = 3;
 
 /// What a run left behind.
@@ -26,6 +26,8 @@ pub struct Results {
     /// What the run came to.
     pub summary: Value,
     events: Frame,
+    /// SHA-256 of the tables of rows and of events.
+    hashes: [Option<String>; 2],
     /// Time reached, s.
     pub end: f64,
     /// The stepper that ran.
@@ -113,7 +115,13 @@ impl Results {
         let end = synopsis.number("/simulated_s").ok_or_else(|| synopsis.lacks("simulated_s"))?;
         let stepper = Stepper::of(&synopsis.summary).ok_or_else(|| synopsis.lacks("stepper"))?;
         let extent = Extent::of(&synopsis);
-        let (trace, events) = (Frame::read(&synopsis.table(TRACE)?)?, Frame::read(&synopsis.table(EVENTS)?)?);
+        let tables = [synopsis.table(TRACE)?, synopsis.table(EVENTS)?];
+        let (trace, events) = (Frame::read(&tables[0])?, Frame::read(&tables[1])?);
+        // An excerpt has the bytes of the run that it is of, as far as that can be told.
+        let hashes = match synopsis.summary.get("excerpt_of") {
+            Some(of) => [TRACE, EVENTS].map(|name| Some(of.get(name)?.as_str()?.to_owned())),
+            None => tables.map(|table| table.seal.map(|seal| seal.sha256)),
+        };
         let soundness = Soundness { folder: folder.to_owned(), synopsis: &synopsis, extent, end };
         soundness.check(&trace, &events)?;
         let others = synopsis.tables().filter(|name| ![TRACE, EVENTS].contains(name));
@@ -142,6 +150,7 @@ impl Results {
             trace,
             summary,
             events,
+            hashes,
             end,
             stepper,
             extent,
@@ -169,6 +178,16 @@ impl Results {
     /// Whether the tables are some rows of a run, kept to be compared with.
     pub fn is_excerpt(&self) -> bool {
         self.extent == Extent::Excerpt
+    }
+
+    /// SHA-256 of the rows and of the events.
+    pub fn hashes(&self) -> &[Option<String>; 2] {
+        &self.hashes
+    }
+
+    /// The same rows and events as those of other results, to the byte.
+    pub fn has_tables_of(&self, other: &Self) -> bool {
+        self.hashes == other.hashes && self.hashes.iter().all(Option::is_some)
     }
 
     /// Whether the tables end before the run did.

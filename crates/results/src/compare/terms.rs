@@ -3,6 +3,8 @@
 /// What may differ, where not what the steppers of both runs promise.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Terms {
+    /// Whether the tables of rows and of events must have the same bytes.
+    pub exact: bool,
     /// Relative tolerance of all channels and figures, 0 or more; 0 asks for the same bits. None: the steppers decide.
     pub tolerance: Option<f64>,
     /// Absolute tolerances by channel or figure, with their units, such as "1 nm"; of several for one the last counts.

@@ -17,7 +17,7 @@ pub(crate) fn text(comparison: &Comparison) -> String {
         lines.push(format!("  status: {} in A, {} in B", comparison.a.status, comparison.b.status));
     }
     lines.extend(comparison.notes.iter().map(|note| format!("  {note}")));
-    lines.push(comparison.verdict());
+    lines.extend([format!("  {}", comparison.finding()), comparison.verdict.word().to_owned()]);
     lines.join("\n")
 }
 
