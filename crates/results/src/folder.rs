@@ -7,7 +7,7 @@
 mod drafts;
 
 pub(crate) use drafts::has_drafts;
-pub use drafts::{claim, draft, sweep, sweep_left};
+pub use drafts::{draft, sweep};
 
 use crate::checkpoint;
 use crate::disk::{Disk, System};
@@ -15,7 +15,7 @@ use crate::files::{
     BRANCH, CURVE, PARTIAL_BRANCH, PARTIAL_CURVE, PARTIAL_SENSITIVITY, SENSITIVITY, STEADY, SUMMARY,
 };
 use crate::theory::CONTACT;
-use std::fs::{self, File};
+use std::fs::{self, File, TryLockError};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use tempfile::NamedTempFile;
@@ -48,14 +48,16 @@ pub struct Folder {
     stale_checkpoint: bool,
     /// Room on the disk that is given back when there is no other.
     reserve: Option<File>,
+    /// The folder itself, locked: two commands that write into it would mix their files. None where folders are not locked.
+    lock: Option<File>,
     disk: Box<dyn Disk>,
 }
 
 impl Folder {
-    /// Makes the folder if it is not there.
+    /// Makes the folder if it is not there, and keeps other commands from writing into it.
     ///
     /// # Errors
-    /// What the system says.
+    /// `ResourceBusy` where another command is writing into it; what the system says.
     pub fn make(path: &Path) -> io::Result<Self> {
         Self::on(path, Box::new(System))
     }
@@ -75,8 +77,27 @@ impl Folder {
         let is_there = |folder: &&Path| folder.as_os_str().is_empty() || folder.exists();
         let made = path.ancestors().take_while(|folder| !is_there(folder)).map(Path::to_owned).collect();
         fs::create_dir_all(path)?;
+        let lock = lock(path)?;
         let (staged, stale) = (Vec::new(), Vec::new());
-        Ok(Self { path: path.to_owned(), made, staged, stale, stale_checkpoint: false, reserve: None, disk })
+        let (path, stale_checkpoint, reserve) = (path.to_owned(), false, None);
+        Ok(Self { path, made, staged, stale, stale_checkpoint, reserve, lock, disk })
+    }
+
+    /// Where the files go.
+    #[must_use]
+    pub fn path(&self) -> &Path {
+        &self.path
+    }
+
+    /// From now on everything goes to another folder, what is staged as well; this one stays as it is.
+    ///
+    /// # Errors
+    /// As of [`Self::make`].
+    pub fn divert(&mut self, path: &Path) -> io::Result<()> {
+        let mut other = Self::make(path)?;
+        (self.path, self.made) = (path.to_owned(), std::mem::take(&mut other.made));
+        self.lock = other.lock.take();
+        Ok(())
     }
 
     /// Keeps so many bytes of the disk for the files that come last. The file that holds them has no name: nothing is left
@@ -200,6 +221,25 @@ impl Drop for Folder {
     }
 }
 
+/// Locks a folder for as long as it is open; none where the system locks none.
+fn lock(path: &Path) -> io::Result<Option<File>> {
+    let Ok(folder) = File::open(path) else { return Ok(None) };
+    match folder.try_lock() {
+        Ok(()) => Ok(Some(folder)),
+        Err(TryLockError::WouldBlock) => {
+            Err(io::Error::new(io::ErrorKind::ResourceBusy, "another command is writing into it"))
+        }
+        Err(TryLockError::Error(_)) => Ok(None),
+    }
+}
+
+/// Whether a folder has the results of a run that came to its end.
+#[must_use]
+pub fn is_complete(path: &Path) -> bool {
+    let summary = crate::guard::json(&path.join(SUMMARY));
+    summary.is_ok_and(|summary| summary.get("status").and_then(serde_json::Value::as_str) == Some("done"))
+}
+
 /// Writes one whole file.
 ///
 /// # Errors
@@ -238,6 +278,21 @@ mod tests {
         folder.publish().unwrap();
         assert_eq!(listing(&path), ["mine.txt", "trace.csv"]);
         assert_eq!(fs::read(path.join("trace.csv")).unwrap(), b"t\n");
+    }
+
+    #[test]
+    fn two_do_not_write_into_one_folder() {
+        let root = tempfile::tempdir().unwrap();
+        let mut first = Folder::make(root.path()).unwrap();
+        let busy = Folder::make(root.path()).unwrap_err();
+        assert_eq!(busy.kind(), io::ErrorKind::ResourceBusy);
+        first.divert(&root.path().join("aside")).unwrap();
+        let second = Folder::make(root.path()).unwrap();
+        first.write("trace.csv", b"t\n").unwrap();
+        first.publish().unwrap();
+        drop(second);
+        assert_eq!(listing(&root.path().join("aside")), ["trace.csv"]);
+        assert_eq!(listing(root.path()), ["aside"]);
     }
 
     #[test]

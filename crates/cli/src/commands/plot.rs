@@ -9,7 +9,7 @@ use std::io;
 use std::path::{Path, PathBuf};
 use stickslip_figures::{FigureError, Look, Sources};
 use stickslip_results::complaint::words;
-use stickslip_results::folder::{Folder, sweep_left};
+use stickslip_results::folder::{Folder, sweep};
 use stickslip_results::{Results, ResultsError};
 use stickslip_scenario::PlotName;
 use thiserror::Error;
@@ -89,7 +89,7 @@ fn write(out: &Path, pictures: &[(String, Vec<u8>)]) -> io::Result<Vec<String>> 
     let mut folder = Folder::make(out)?;
     // A command that was killed has left its drafts.
     let written: Vec<String> = pictures.iter().map(|(name, _)| name.clone()).collect();
-    sweep_left(out, &[Look::all_files(), written].concat());
+    sweep(out, &[Look::all_files(), written].concat());
     pictures.iter().try_for_each(|(name, bytes)| folder.write(name, bytes))?;
     let names = folder.names();
     folder.publish()?;

@@ -9,14 +9,16 @@ use tempfile::{Builder, NamedTempFile};
 /// Letters and digits at the end of a draft's name, drawn anew until there is no such file.
 const DRAWN: usize = 6;
 
-/// How long a draft was not touched that is taken for one of a command that was killed.
+/// How long a draft was not touched that is taken for one of a command that was killed, where there are no locks.
 const LEFT: Duration = Duration::from_secs(60);
 
-/// An empty file under a temporary name in a folder, locked as long as it is open: what is not is left of a command that was killed.
+/// An empty file under a temporary name in a folder, locked as long as it is open: what is not is left of a command that was killed, and
+/// goes if it is a draft of the same file.
 ///
 /// # Errors
 /// What the system says.
 pub fn draft(folder: &Path, name: &str) -> io::Result<NamedTempFile> {
+    sweep(folder, &[name]);
     let prefix = format!(".{name}-");
     let mut builder = Builder::new();
     builder.prefix(&prefix).rand_bytes(DRAWN);
@@ -37,31 +39,15 @@ pub fn sweep(folder: &Path, names: &[impl AsRef<str>]) {
     }
 }
 
-/// The same for those who are about to write for long.
-///
-/// # Errors
-/// `ResourceBusy`, with nothing done, where another command is writing one of them.
-pub fn claim(folder: &Path, names: &[impl AsRef<str>]) -> io::Result<()> {
-    if drafts(folder, names).any(|entry| is_written(&entry)) {
-        return Err(io::Error::new(io::ErrorKind::ResourceBusy, "another command is writing into it"));
-    }
-    sweep(folder, names);
-    Ok(())
-}
-
-/// Whether somebody has it open.
+/// Whether somebody has it open; where that cannot be told, whether somebody has touched it within the last minute.
 fn is_written(entry: &DirEntry) -> bool {
-    let file = File::open(entry.path());
-    file.is_ok_and(|file| matches!(file.try_lock(), Err(TryLockError::WouldBlock)))
-}
-
-/// [`sweep`] for those who only add to a folder, whose run may be about to give its drafts their names: what nobody has touched
-/// for a minute.
-pub fn sweep_left(folder: &Path, names: &[impl AsRef<str>]) {
-    for entry in drafts(folder, names).filter(|entry| !is_written(entry)) {
-        let touched = entry.metadata().and_then(|found| found.modified());
-        if touched.is_ok_and(|touched| touched.elapsed().is_ok_and(|age| age >= LEFT)) {
-            let _ = fs::remove_file(entry.path());
+    let Ok(file) = File::open(entry.path()) else { return false };
+    match file.try_lock() {
+        Ok(()) => false,
+        Err(TryLockError::WouldBlock) => true,
+        Err(TryLockError::Error(_)) => {
+            let touched = entry.metadata().and_then(|found| found.modified());
+            touched.is_ok_and(|touched| touched.elapsed().is_ok_and(|age| age < LEFT))
         }
     }
 }
@@ -116,14 +102,16 @@ mod tests {
         let root = tempfile::tempdir().unwrap();
         let left = draft(root.path(), "events.csv").unwrap().keep().unwrap().1;
         let own = draft(root.path(), "trace.csv").unwrap();
-        let names = ["events.csv", "trace.csv"];
-        let busy = claim(root.path(), &names).unwrap_err();
-        assert_eq!(busy.kind(), io::ErrorKind::ResourceBusy);
-        assert!(left.exists() && own.path().exists());
-        // Who has something to write all the same takes away what is left alone.
-        sweep(root.path(), &names);
+        assert!(left.exists());
+        sweep(root.path(), &["events.csv", "trace.csv"]);
         assert!(!left.exists() && own.path().exists());
-        drop(own);
-        claim(root.path(), &names).unwrap();
+    }
+
+    #[test]
+    fn whoever_writes_a_file_again_takes_away_what_is_left_of_it() {
+        let root = tempfile::tempdir().unwrap();
+        let left = draft(root.path(), "loop.png").unwrap().keep().unwrap().1;
+        super::super::write(&root.path().join("loop.png"), b"new").unwrap();
+        assert!(!left.exists());
     }
 }

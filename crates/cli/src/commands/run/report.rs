@@ -3,6 +3,7 @@
 use crate::console::verdict::Verdict;
 use std::fmt::Display;
 use std::io;
+use std::path::Path;
 use stickslip_drive::RunError;
 use stickslip_results::Job;
 use stickslip_results::Outcome;
@@ -103,12 +104,22 @@ impl Report {
     }
 
     /// A run that has written its results.
-    pub(crate) fn ended(job: &Job, outcome: &Outcome, summary: &Summary) -> io::Result<Self> {
-        let folder = job.folder.display();
+    pub(crate) fn ended(
+        job: &Job,
+        (outcome, summary): (&Outcome, &Summary),
+        place: &Path,
+    ) -> io::Result<Self> {
+        let folder = place.display();
+        let beside = if place == job.folder {
+            String::new()
+        } else {
+            format!("; those in {} are complete, and stay", job.folder.display())
+        };
         let (verdict, error) = match (summary.stop(), summary.status) {
-            (Some((error, _)), Status::Interrupted) => {
-                (Verdict::Interrupted, format!("{}: {error}; the results so far are in {folder}", job.name))
-            }
+            (Some((error, _)), Status::Interrupted) => (
+                Verdict::Interrupted,
+                format!("{}: {error}; the results so far are in {folder}{beside}", job.name),
+            ),
             (Some((error, help)), _) => {
                 let message = format!("{}: stopped: {error}\n   help: {help}", job.name);
                 (Verdict::Stopped, format!("{message}\n   the results so far are in {folder}"))

@@ -6,12 +6,13 @@ use crate::console::pace::Paced;
 use crate::console::progress::Progress;
 use std::cell::Cell;
 use std::io;
+use std::path::Path;
 use std::time::Instant;
 use stickslip_figures::{Look, Sources};
 use stickslip_results::checkpoint::{CheckpointError, Keeper, Resumption};
 use stickslip_results::complaint::words;
 use stickslip_results::files::{CYCLES, EVENTS, INSIDES, InsideTables, SCENARIO, STEPS, SUMMARY, TRACE};
-use stickslip_results::folder::{Folder, claim};
+use stickslip_results::folder::{Folder, is_complete, sweep};
 use stickslip_results::outlook::Outlook;
 use stickslip_results::summary::Status;
 use stickslip_results::{Draft, Job, Outcome, Recorder, Summary, Watcher};
@@ -63,9 +64,7 @@ pub(crate) fn run(
     // A run that was killed has left its drafts.
     let names =
         [TRACE, EVENTS, CYCLES, STEPS, SCENARIO, SUMMARY].into_iter().chain(INSIDES).map(str::to_owned);
-    if let Err(error) = claim(&job.folder, &names.chain(Look::all_files()).collect::<Vec<_>>()) {
-        return Report::not_written(job, &error);
-    }
+    sweep(&job.folder, &names.chain(Look::all_files()).collect::<Vec<_>>());
     let from = if let Beginning::Resumed(resumption, _) = &beginning { resumption.reached() } else { 0.0 };
     let bar = progress.start(&job.name, [from, job.scenario.plan.duration], interrupt);
     let paced = realtime.then(|| Paced::new(&bar, from));
@@ -121,6 +120,12 @@ pub(crate) fn write(
     }
     summary.set_tables(drafts.iter().map(|draft| (draft.name.to_owned(), draft.seal.clone())).collect());
     drafts.into_iter().try_for_each(|draft| folder.stage(draft.name, draft.file))?;
+    if summary.status == Status::Interrupted && is_complete(&job.folder) {
+        let mut name = job.folder.clone().into_os_string();
+        name.push(".interrupted");
+        folder.divert(Path::new(&name))?;
+    }
+    let place = folder.path().to_owned();
     if outcome.failure.is_some() {
         folder.release();
     }
@@ -138,7 +143,7 @@ pub(crate) fn write(
     summary.set_files(names);
     folder.write(SUMMARY, summary.pretty()?.as_bytes())?;
     folder.publish()?;
-    let report = Report::ended(job, outcome, &summary)?.without_pictures(job, undrawn);
+    let report = Report::ended(job, (outcome, &summary), &place)?.without_pictures(job, undrawn);
     Ok(if gave_up { report.without_outlook(job) } else { report })
 }
 
@@ -171,7 +176,6 @@ fn draw(
 mod tests {
     use super::*;
     use crate::console::verdict::Verdict;
-    use std::path::Path;
 
     #[test]
     fn a_steady_motion_that_nobody_waits_for_is_told() {
