@@ -63,10 +63,13 @@ pub fn draw(
             unit: curve.channel.unit,
             a: curve.a,
             b: curve.b,
+            is_excerpt: a.is_excerpt(),
             difference: (&curve.time, &curve.difference),
         })
         .collect();
-    let names = (legend(a), legend(b));
+    // Of an excerpt nobody needs to know where it lies.
+    let names =
+        if a.is_excerpt() { ("recorded".to_owned(), "now".to_owned()) } else { (legend(a), legend(b)) };
     let mut figure = compare_figure(&comparison.finding(), (&names.0, &names.1), &channels);
     figure.provenance = provenance(comparison);
     let bytes = form.draw(&figure)?;

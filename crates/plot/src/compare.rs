@@ -16,6 +16,8 @@ pub struct ComparedChannel<'a> {
     pub a: (&'a [f64], &'a [f64]),
     /// The second run.
     pub b: (&'a [f64], &'a [f64]),
+    /// Whether the first run is an excerpt: some points, between which nothing is known.
+    pub is_excerpt: bool,
     /// The second less the first, where both are known.
     pub difference: (&'a [f64], &'a [f64]),
 }
@@ -42,12 +44,20 @@ fn pair<'a>((a, b): (&str, &str), channel: &ComparedChannel<'a>) -> [Panel<'a>; 
         style: Style { ink: Some(ink), dash: Some(dash), width: 1.0 },
         ..Series::new(name, xs, ys)
     };
+    let points = |mut curve: Series<'a>| {
+        if channel.is_excerpt {
+            // Gaps keep lines from joining them.
+            let apart = |values: &[f64]| values.iter().flat_map(|value| [*value, f64::NAN]).collect();
+            (curve.xs, curve.ys, curve.marked) = (apart(&curve.xs), apart(&curve.ys), true);
+        }
+        curve
+    };
     let both = Panel {
         heading: Label::plain(channel.name),
         x: time.clone(),
         y: Axis::new(Label::plain("value"), channel.unit),
         series: vec![
-            curve(&format!("A: {a}"), channel.a, Ink::Palette(0), Dash::Solid),
+            points(curve(&format!("A: {a}"), channel.a, Ink::Palette(0), Dash::Solid)),
             curve(&format!("B: {b}"), channel.b, Ink::Palette(1), Dash::Dashed),
         ],
         share: 1.6,
@@ -57,7 +67,7 @@ fn pair<'a>((a, b): (&str, &str), channel: &ComparedChannel<'a>) -> [Panel<'a>; 
         heading: Label::plain(&format!("{}, B − A", channel.name)),
         x: time,
         y: Axis::new(Label::default(), channel.unit),
-        series: vec![curve("", channel.difference, Ink::Foreground, Dash::Solid)],
+        series: vec![points(curve("", channel.difference, Ink::Foreground, Dash::Solid))],
         references: vec![Reference::Horizontal { y: 0.0, label: Label::default() }],
         absence: Label::plain("no common times"),
         share: 1.0,

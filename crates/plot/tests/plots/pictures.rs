@@ -318,6 +318,7 @@ fn comparisons() {
             unit,
             a: (&time, &a),
             b: (&time, &b),
+            is_excerpt: false,
             difference: (&time, &difference),
         })
         .collect();
@@ -402,7 +403,7 @@ proptest! {
         assert_no_panic(&memory_figure(&name, &[moment(0), moment(3), moment(5)]));
         let track = |times: &[f64]| EventTrack { source: &name, kind: "touch", times: times.to_vec() };
         assert_no_panic(&events_figure(&name, (at(0), at(1)), &[track(&a), track(&b)]));
-        let channel = ComparedChannel { name: &name, unit: "m", a: (&a, &a), b: (&b, &b), difference: (&c, &c) };
+        let channel = ComparedChannel { name: &name, unit: "m", a: (&a, &a), b: (&b, &b), is_excerpt: false, difference: (&c, &c) };
         assert_no_panic(&compare_figure(&name, (&name, "b"), &[channel]));
     }
 }
