@@ -100,6 +100,6 @@ fn every_key_of_every_golden_summary_is_defined() {
     assert!(found.len() > 100, "{}", found.len());
     // What golden results leave out of a summary, or add to it, is theirs.
     let lacking: Vec<_> =
-        found.iter().filter(|name| *name != "excerpt" && !defined("summary.json", name)).collect();
+        found.iter().filter(|name| !name.starts_with("excerpt") && !defined("summary.json", name)).collect();
     assert!(lacking.is_empty(), "{lacking:?}");
 }
