@@ -2,8 +2,6 @@
 #![allow(clippy::unwrap_used, reason = "helpers of tests fail by panicking, as the tests do")]
 
 mod back_step;
-mod bench;
-mod bench_frames;
 mod broken_files;
 mod characterise;
 mod check;
@@ -15,7 +13,6 @@ mod contact;
 mod damaged_results;
 mod definitions;
 mod endings;
-mod gallery;
 mod golden;
 mod guide;
 mod info;
@@ -36,8 +33,6 @@ mod reproducibility;
 mod results;
 mod scenarios;
 mod sensitivity;
-mod soak;
 mod steady;
 mod strangers;
-mod validation;
 mod warnings;

@@ -5,9 +5,19 @@ use sha2::Digest;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
-/// A call of the program.
+const LAB: Option<&str> = option_env!("CARGO_BIN_EXE_stickslip-lab");
+
+/// A call of the program; among the tests of the lab of the one that is built beside it.
 pub(crate) fn stickslip() -> Command {
-    Command::new(env!("CARGO_BIN_EXE_stickslip"))
+    let beside =
+        || Path::new(LAB.unwrap()).with_file_name(format!("stickslip{}", std::env::consts::EXE_SUFFIX));
+    Command::new(option_env!("CARGO_BIN_EXE_stickslip").map_or_else(beside, PathBuf::from))
+}
+
+/// A call of the program that measures and checks.
+#[allow(dead_code, reason = "only the lab's tests call it")]
+pub(crate) fn lab() -> Command {
+    Command::new(LAB.unwrap())
 }
 
 /// Path of an example.

@@ -8,11 +8,11 @@ mod scenes;
 
 use crate::clock::{Stopwatch, Times};
 use crate::error::BenchError;
-use crate::samples::Nothing;
 use kinds::Kind;
 use std::path::Path;
 use stickslip_drive::{Counts, Model, Plan, RunError, State};
 use stickslip_plot::{Figure, GrowthCurve, PlotError, Theme, draw_png, draw_svg, growth_figure};
+use stickslip_results::Unrecorded;
 use stickslip_results::Watcher;
 use stickslip_results::folder::Folder;
 use stickslip_results::program::this_program;
@@ -97,7 +97,7 @@ impl Point {
         let mut states = vec![self.start.clone(); self.times as usize];
         let watch = Stopwatch::start();
         for state in &mut states {
-            stickslip_drive::run(&self.model, &self.plan, state, &mut Nothing(watcher))?;
+            stickslip_drive::run(&self.model, &self.plan, state, &mut Unrecorded(watcher))?;
         }
         self.cost = self.cost.shorter(watch.each(self.times));
         if let (0, Some(end)) = (turn, states.last()) {

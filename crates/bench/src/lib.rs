@@ -1,7 +1,7 @@
 //! What accuracy costs: every stepper on both engines and what others would do, errors over time and evaluations; and whether
 //! every sensible scene runs to its end and to its tolerance: [`soak`].
 //!
-//! Nothing depends on this crate but the commands `stickslip bench` and `stickslip soak`: it brings a second simulator, an outside integrator and
+//! Nothing depends on this crate but the commands `stickslip-lab bench` and `stickslip-lab soak`: it brings a second simulator, an outside integrator and
 //! a processor's clock, which no library of the others should carry.
 //!
 //! [`measure`] measures one scenario and writes its table and pictures, [`growth::measure`] what more of something costs,

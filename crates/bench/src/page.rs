@@ -287,7 +287,7 @@ constant loads, and none of them springs, stacks or damped contacts.";
 
 /// The command that writes the page.
 fn command(request: &Request) -> String {
-    let mut command = "stickslip bench".to_owned();
+    let mut command = "stickslip-lab bench".to_owned();
     request.files.iter().for_each(|file| command += &format!(" {}", word(file)));
     request.set.iter().for_each(|(path, value)| command += &format!(" --set {path}=\"{value}\""));
     for (name, known) in &request.known {

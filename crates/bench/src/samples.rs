@@ -108,20 +108,3 @@ impl Record for Sampler<'_> {
         false
     }
 }
-
-/// A record that wants nothing.
-pub(crate) struct Nothing<'a>(pub(crate) &'a dyn Watcher);
-
-impl Record for Nothing<'_> {
-    fn row(&mut self, _: &[f64]) {}
-
-    fn event(&mut self, _: &Event, _: &[f64]) {}
-
-    fn goes_on(&mut self, _: f64) -> bool {
-        self.0.goes_on()
-    }
-
-    fn wants_events(&self) -> bool {
-        false
-    }
-}

@@ -1,6 +1,5 @@
 //! The command line.
 
-pub(crate) mod bench;
 pub(crate) mod characterise;
 pub(crate) mod compare;
 pub(crate) mod contact;
@@ -11,27 +10,22 @@ mod pictures;
 pub(crate) mod realtime;
 pub(crate) mod run;
 pub(crate) mod sensitivity;
-pub(crate) mod soak;
 pub(crate) mod steady;
-pub(crate) mod validate;
 
 use crate::commands::new;
 use clap::builder::PossibleValuesParser;
 use clap::{Args, Parser, Subcommand};
 use std::path::PathBuf;
 
-pub(crate) use bench::BenchArguments;
 pub(crate) use characterise::CharacteriseArguments;
 pub(crate) use compare::CompareArguments;
 pub(crate) use contact::ContactArguments;
 pub(crate) use loops::LoopArguments;
-pub(crate) use pictures::{GalleryArguments, PlotArguments, ReproArguments};
+pub(crate) use pictures::{PlotArguments, ReproArguments};
 pub(crate) use realtime::RealtimeArguments;
 pub(crate) use run::{ConductArguments, ResumeArguments, RunArguments};
 pub(crate) use sensitivity::SensitivityArguments;
-pub(crate) use soak::SoakArguments;
 pub(crate) use steady::SteadyArguments;
-pub(crate) use validate::ValidateArguments;
 
 /// Exit codes, as every command keeps them.
 const EXIT_CODES: &str = "\
@@ -156,13 +150,6 @@ pub(crate) enum Command {
     /// picture, 3 the results cannot be written or --wall was reached, 130 interrupted.
     #[command(after_long_help = pictures::REPRO_EXAMPLES)]
     Repro(ReproArguments),
-    /// Run all scenarios of a folder and draw all their pictures, with a page that shows them
-    ///
-    /// Pictures are PNG, light and dark, and SVG where that is small; tables are not kept. The page, README.md, names the
-    /// scenario and the command of each. Exit codes: 0 done, 2 a scenario is refused, 3 a run stopped itself or something
-    /// cannot be drawn or written, 130 interrupted; the page is written only when everything was done.
-    #[command(after_long_help = pictures::GALLERY_EXAMPLES)]
-    Gallery(GalleryArguments),
     /// Compare two folders of results: channels, events, figures
     #[command(long_about = compare::ABOUT, after_long_help = compare::EXAMPLES)]
     Compare(CompareArguments),
@@ -172,15 +159,6 @@ pub(crate) enum Command {
     /// Run a drive in real time: a frame after each tick of a clock, inputs from outside, outputs to it
     #[command(long_about = realtime::ABOUT, after_long_help = realtime::EXAMPLES)]
     Realtime(Box<RealtimeArguments>),
-    /// Measure what accuracy costs: every stepper on both engines, errors over time and evaluations
-    #[command(long_about = bench::ABOUT, after_long_help = bench::EXAMPLES)]
-    Bench(BenchArguments),
-    /// Draw scenes, run them all, and judge them: do they end, and are they right?
-    #[command(long_about = soak::ABOUT, after_long_help = soak::EXAMPLES)]
-    Soak(SoakArguments),
-    /// Compute what is known from elsewhere, and write pages that show both
-    #[command(long_about = validate::ABOUT, after_long_help = validate::EXAMPLES)]
-    Validate(ValidateArguments),
 }
 
 const CHECK_EXAMPLES: &str = "\

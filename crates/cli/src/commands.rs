@@ -1,13 +1,11 @@
 //! The commands, one room each: what they do with the libraries, and what they say.
 
-pub(crate) mod bench;
 pub(crate) mod characterise;
 pub(crate) mod check;
 pub(crate) mod compare;
 pub(crate) mod completions;
 pub(crate) mod contact;
 pub(crate) mod explain;
-pub(crate) mod gallery;
 pub(crate) mod golden;
 pub(crate) mod info;
 pub(crate) mod loops;
@@ -20,6 +18,4 @@ pub(crate) mod resume;
 pub(crate) mod run;
 pub(crate) mod schema;
 pub(crate) mod sensitivity;
-pub(crate) mod soak;
 pub(crate) mod steady;
-pub(crate) mod validate;

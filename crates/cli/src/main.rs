@@ -1,25 +1,24 @@
 //! The program `stickslip`: reads scenarios, runs them, writes tables, a summary and pictures.
 //!
 //! Arguments, words and exit codes; what is computed, written and drawn is the libraries'. In reading order: [`arguments`]
-//! (what may be asked), [`commands`] (one room each), [`console`] (what is printed, and how it ended).
+//! (what may be asked), [`commands`] (one room each).
 
 mod arguments;
 mod commands;
-mod console;
 
 use arguments::{Arguments, Command};
 use clap::Parser;
 use commands::{
-    bench, characterise, check, compare, completions, contact, explain, gallery, golden, info, loops,
-    materials, new, plot, realtime, repro, resume, run, schema, sensitivity, soak, steady, validate,
+    characterise, check, compare, completions, contact, explain, golden, info, loops, materials, new, plot,
+    realtime, repro, resume, run, schema, sensitivity, steady,
 };
 use std::process::ExitCode;
 
 fn main() -> ExitCode {
-    console::interrupt::outlive_file_limits();
+    stickslip_console::interrupt::outlive_file_limits();
     let arguments = match Arguments::try_parse() {
         Ok(arguments) => arguments,
-        Err(said) => return ExitCode::from(console::answer::told(&said)),
+        Err(said) => return ExitCode::from(stickslip_console::answer::told(&said)),
     };
     let verdict = match arguments.command {
         Command::Run(arguments) => run::run(&arguments),
@@ -41,12 +40,8 @@ fn main() -> ExitCode {
         Command::Plot(arguments) => plot::plot(&arguments),
         Command::Repro(arguments) => repro::repro(&arguments),
         Command::Realtime(arguments) => realtime::realtime(&arguments),
-        Command::Bench(arguments) => bench::bench(&arguments),
-        Command::Soak(arguments) => soak::soak(&arguments),
-        Command::Gallery(arguments) => gallery::gallery(&arguments),
-        Command::Validate(arguments) => validate::validate(&arguments),
     };
-    ExitCode::from(verdict.max(console::answer::verdict()).code())
+    ExitCode::from(verdict.max(stickslip_console::answer::verdict()).code())
 }
 
 /// x^y for what the program is made of: dependencies (the progress bar's estimate, the benchmarks' other solver) ask for it by this

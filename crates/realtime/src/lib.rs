@@ -8,7 +8,7 @@
 //! In the loop nothing is allocated, locked or logged, and nothing asked of the system but the sleep and, over UDP, packets.
 //!
 //! In reading order: [`plant`], [`pace`], [`histogram`], [`worst`]; [`wire`] (a packet), [`intake`], [`source`], [`sink`],
-//! [`region`] (shared memory) with `seqlock` and [`memory`]; [`tape`] with `ring`, [`film`]; [`observer`], [`session`], [`probe`],
+//! [`region`] (shared memory) with `seqlock` and [`memory`]; [`tape`] with `ring`, [`film`]; [`session`], [`probe`],
 //! [`report`]; [`system`].
 //!
 //! This crate alone of the workspace has unsafe code: in [`memory`] and [`system`], each use with its reason.
@@ -17,7 +17,7 @@ pub mod film;
 pub mod histogram;
 pub mod intake;
 pub mod memory;
-pub mod observer;
+
 pub mod pace;
 pub mod plant;
 pub mod probe;
@@ -37,7 +37,7 @@ pub mod worst;
 pub use film::Film;
 pub use histogram::Histogram;
 pub use intake::Intake;
-pub use observer::Observer;
+
 pub use pace::{Overrun, Pace, Timing};
 pub use plant::{Drive, Plant};
 pub use report::Report;

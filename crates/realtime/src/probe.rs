@@ -1,9 +1,9 @@
 //! What a plant takes on this machine, before anything depends on it.
 
-use crate::observer::Observer;
 use crate::pace::{self, Cycle, Pace, Stop, Timing};
 use crate::plant::{Drive, Input, Output, Plant, Work};
 use crate::system::now;
+use stickslip_drive::Watcher;
 use stickslip_drive::scene::{EngineChoice, Scene};
 use stickslip_drive::{Model, Plan, State, Stepper};
 
@@ -37,7 +37,7 @@ struct Steady<'a, P> {
     inputs: &'a [f64],
     outputs: Vec<f64>,
     end: u64,
-    observer: &'a dyn Observer,
+    observer: &'a (dyn Watcher + Sync),
 }
 
 impl<P: Plant> Cycle for Steady<'_, P> {
@@ -56,7 +56,7 @@ pub fn probe<P: Plant>(
     inputs: &[f64],
     outputs: usize,
     frames: u64,
-    observer: &dyn Observer,
+    observer: &(dyn Watcher + Sync),
 ) -> Option<Probe> {
     let pace = Pace { period: 1.0, overrun: None, spin: 0.0 };
     let mut cycle = Steady { plant, inputs, outputs: vec![0.0; outputs], end: u64::MAX, observer };
@@ -94,7 +94,7 @@ pub fn rows(
     period: f64,
     (inputs, outputs): (&[Input], &[Output]),
     frames: u64,
-    observer: &dyn Observer,
+    observer: &(dyn Watcher + Sync),
 ) -> Option<RowsProbe> {
     if scene.contacts.is_empty() {
         return None;

@@ -2,7 +2,6 @@
 
 use crate::film::Film;
 use crate::intake::{Client, Intake};
-use crate::observer::Observer;
 use crate::pace::{self, Cycle, Overrun, Pace, Stop, Timing};
 use crate::plant::{Empty, Plant, Work};
 use crate::sink::Sink;
@@ -13,6 +12,7 @@ use crate::wire::Stamp;
 use crate::worst::Slow;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::thread;
+use stickslip_drive::Watcher;
 
 /// How often the outputs of the start are sent until an input comes, ns.
 const HELLO: u64 = 10_000_000;
@@ -95,7 +95,7 @@ struct Live<'a, P> {
     period: f64,
     unsent: u64,
     frame: &'a AtomicU64,
-    observer: &'a dyn Observer,
+    observer: &'a (dyn Watcher + Sync),
 }
 
 impl<P: Plant> Cycle for Live<'_, P> {
@@ -134,7 +134,7 @@ impl<P: Plant> Cycle for Live<'_, P> {
 }
 
 /// The empty loop.
-struct Idle<'a>(&'a dyn Observer);
+struct Idle<'a>(&'a (dyn Watcher + Sync));
 
 impl Cycle for Idle<'_> {
     fn act(&mut self, _: u64) -> Result<Work, Stop> {
@@ -158,7 +158,7 @@ pub fn run<P: Plant + Send>(
     start: &[f64],
     order: &Order,
     reels: &mut [Reel<'_>],
-    observer: &dyn Observer,
+    observer: &(dyn Watcher + Sync),
 ) -> Ended {
     if order.pace.overrun.is_none() {
         wiring.wait();

@@ -83,7 +83,6 @@ pub mod theory;
 mod tracks;
 mod trail;
 mod warning;
-mod watcher;
 
 pub use account::Extreme;
 pub use columns::Columns;
@@ -103,9 +102,9 @@ pub use results::{Results, ResultsError};
 pub use seal::{Seal, SealedTable, hash};
 pub use selection::TakenEvents;
 pub use series::{ENERGY, Series};
+pub use stickslip_drive::{Unrecorded, Watcher};
 pub use summary::Summary;
 pub use synopsis::{NO_RESULTS, SynopsisError, check_published};
 pub use tracks::{Track, Tracks};
 pub use trail::Trail;
 pub use warning::Warning;
-pub use watcher::Watcher;

@@ -1,5 +1,6 @@
 //! What came of a run.
 
+use crate::Watcher;
 use crate::books::Books;
 use crate::cycles::{ContactCycles, JudgedCycle};
 use crate::excess::Excess;
@@ -8,7 +9,6 @@ use crate::kept::Kept;
 use crate::record::{Draft, Recorded, Recorder};
 use crate::selection::TakenEvents;
 use crate::tally::Tally;
-use crate::watcher::Watcher;
 use std::io;
 use std::time::Instant;
 use stickslip_analysis::Strides;

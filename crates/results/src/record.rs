@@ -4,6 +4,7 @@ mod tables;
 
 pub use tables::Draft;
 
+use crate::Watcher;
 use crate::books::Books;
 use crate::cycles::{ContactCycles, CycleFigures};
 use crate::excess::Excess;
@@ -13,7 +14,6 @@ use crate::kept::Kept;
 use crate::marks::Marks;
 use crate::selection::{Selection, TakenEvents};
 use crate::tally::Tally;
-use crate::watcher::Watcher;
 use std::io;
 use stickslip_contact::{Memory, Segment};
 use stickslip_drive::{Event, EventKind, Extent, Record, Source};

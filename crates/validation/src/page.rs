@@ -81,7 +81,7 @@ impl Page {
         let [setup, command, reference, shows, limits] =
             [setup, command, reference, shows, limits].map(|text| wrapped(text));
         let mut text = format!(
-            "# {title}\n\n[All pages](README.md); this one is written by `stickslip validate {name}`.\n\n\
+            "# {title}\n\n[All pages](README.md); this one is written by `stickslip-lab validate {name}`.\n\n\
              ## Set-up\n\n{setup}\n\n{command}\n\n## Reference: {}\n\n{reference}\n\n## Asked and found\n\n\
              | deviation | asked: at most | found | |\n| --- | ---: | ---: | --- |\n",
             self.kinds()
@@ -121,7 +121,7 @@ its reference and of what kind that is, what is asked, what came out, and what t
 pictures are written by
 
 ```sh
-stickslip validate
+stickslip-lab validate
 ```
 
 which computes everything anew and ends with exit code 1 where something asked is not kept. A test of the project holds the pages \

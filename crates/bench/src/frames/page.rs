@@ -191,7 +191,7 @@ fn works(work: &Work) -> String {
 /// The command that writes the page.
 fn command(findings: &Findings<'_>) -> String {
     let request = findings.request;
-    let mut command = "stickslip bench --realtime".to_owned();
+    let mut command = "stickslip-lab bench --realtime".to_owned();
     request.files.iter().for_each(|file| command += &format!(" {}", word(file)));
     request.set.iter().for_each(|(path, value)| command += &format!(" --set {path}=\"{value}\""));
     let periods: Vec<String> =

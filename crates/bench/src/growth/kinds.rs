@@ -2,10 +2,10 @@
 
 use super::Point;
 use super::scenes::{PERIOD, drive, remembering};
-use crate::samples::Nothing;
 use stickslip_contact::Memory;
 use stickslip_drive::scene::EngineChoice;
 use stickslip_drive::{Limits, Model, Plan, Scene, Stepper};
+use stickslip_results::Unrecorded;
 
 /// Something that there can be more of.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -98,7 +98,7 @@ fn swung(swings: u32) -> Result<Point, String> {
     let model = Model::new(&scene).map_err(|error| error.to_string())?;
     let before = Plan { duration: from, ..plan(0.0, EVENT, None) };
     let mut state = model.start(&before).map_err(|error| error.to_string())?;
-    stickslip_drive::run(&model, &before, &mut state, &mut Nothing(&()))
+    stickslip_drive::run(&model, &before, &mut state, &mut Unrecorded(&()))
         .map_err(|error| error.to_string())?;
     let depth = match state.memories().first() {
         Some(Memory::Curve(curve)) => curve.knot_count(),

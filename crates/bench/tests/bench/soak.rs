@@ -1,4 +1,4 @@
-//! A sample of the soak: scenes drawn from seeds run to their end, and are right. The rest is `stickslip soak`.
+//! A sample of the soak: scenes drawn from seeds run to their end, and are right. The rest is `stickslip-lab soak`.
 
 use std::collections::BTreeSet;
 use stickslip_bench::soak::{Kind, Seeds, Verdict, hostile, scenario, soak};

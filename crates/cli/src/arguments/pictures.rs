@@ -20,11 +20,6 @@ Examples:
   stickslip repro loop.png --out here      leaves the results, scenario.json among them, in the folder here
   stickslip repro loop.png --wall \"1 min\"  runs it for a minute at most";
 
-pub(super) const GALLERY_EXAMPLES: &str = "\
-Examples:
-  stickslip gallery                                     all of scenarios/ into plots/
-  stickslip gallery --scenarios mine --out mine/plots   of another folder";
-
 #[derive(Debug, Args)]
 pub(crate) struct PlotArguments {
     /// Folders of results
@@ -63,19 +58,6 @@ pub(crate) struct ReproArguments {
     pub(crate) quiet: bool,
     #[command(flatten)]
     pub(crate) look: LookArguments,
-}
-
-#[derive(Debug, Args)]
-pub(crate) struct GalleryArguments {
-    /// Folder of the scenarios
-    #[arg(long, value_name = "DIR", default_value = "scenarios")]
-    pub(crate) scenarios: PathBuf,
-    /// Folder of the gallery: pictures go to OUT/NAME/, the page is OUT/README.md
-    #[arg(long, value_name = "OUT", default_value = "plots")]
-    pub(crate) out: PathBuf,
-    /// No progress, no result; errors only
-    #[arg(short, long)]
-    pub(crate) quiet: bool,
 }
 
 /// Reads the name of a picture.

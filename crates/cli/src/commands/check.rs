@@ -1,11 +1,11 @@
 //! `stickslip check`: everything that a run would refuse, and no run.
 
 use crate::arguments::CheckArguments;
-use crate::console::answer::warn;
-use crate::console::answer::{complain, say, say_json};
-use crate::console::verdict::Verdict;
 use serde::Serialize;
 use std::path::Path;
+use stickslip_console::answer::warn;
+use stickslip_console::answer::{complain, say, say_json};
+use stickslip_console::verdict::Verdict;
 use stickslip_results::{Job, Refusal};
 use stickslip_scenario::Report;
 

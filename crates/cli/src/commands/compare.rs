@@ -3,10 +3,10 @@
 mod account;
 
 use crate::arguments::CompareArguments;
-use crate::console::answer::{complain, say, say_json};
-use crate::console::verdict::Verdict;
 use std::io;
 use std::path::PathBuf;
+use stickslip_console::answer::{complain, say, say_json};
+use stickslip_console::verdict::Verdict;
 use stickslip_figures::comparison::{self, Form};
 use stickslip_plot::PlotError;
 use stickslip_results::compare::{CompareError, Comparison, Results, Verdict as Outcome};

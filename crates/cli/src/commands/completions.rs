@@ -1,10 +1,10 @@
 //! `stickslip completions SHELL`: what a shell completes a command line by.
 
 use crate::arguments::Arguments;
-use crate::console::answer::say;
-use crate::console::verdict::Verdict;
 use clap::CommandFactory;
 use clap_complete::Shell;
+use stickslip_console::answer::say;
+use stickslip_console::verdict::Verdict;
 
 /// Prints the script.
 pub(crate) fn print(shell: Shell) -> Verdict {

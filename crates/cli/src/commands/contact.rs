@@ -3,9 +3,9 @@
 mod page;
 
 use crate::arguments::ContactArguments;
-use crate::console::answer::{complain, say, say_json};
-use crate::console::verdict::Verdict;
 use std::path::Path;
+use stickslip_console::answer::{complain, say, say_json};
+use stickslip_console::verdict::Verdict;
 use stickslip_contact::TangentialGiven;
 use stickslip_figures::FigureError;
 use stickslip_figures::theory;

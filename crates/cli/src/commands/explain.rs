@@ -1,7 +1,7 @@
 //! `stickslip explain NAME`: keys of scenarios from the schema, columns, figures and their symbols from the table of definitions.
 
-use crate::console::answer::{complain, say};
-use crate::console::verdict::Verdict;
+use stickslip_console::answer::{complain, say};
+use stickslip_console::verdict::Verdict;
 use stickslip_results::definitions;
 use stickslip_scenario::{explained, suggestion};
 

@@ -4,14 +4,14 @@ mod junit;
 
 use crate::arguments::golden::{AcceptArguments, CheckArguments, GoldenCommand, RecordArguments};
 use crate::commands::run::{Beginning, Conduct, run_job};
-use crate::console::answer::{complain, say};
-use crate::console::interrupt::Interrupt;
-use crate::console::progress::Progress;
-use crate::console::verdict::Verdict;
 use rayon::prelude::*;
 use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
+use stickslip_console::answer::{complain, say};
+use stickslip_console::interrupt::Interrupt;
+use stickslip_console::progress::Progress;
+use stickslip_console::verdict::Verdict;
 use stickslip_figures::Look;
 use stickslip_figures::comparison::{Form, draw};
 use stickslip_results::compare::{CompareError, Comparison, Results, Terms, Verdict as Outcome};

@@ -5,11 +5,11 @@ pub(super) mod digits;
 pub(super) mod tables;
 
 use crate::arguments::InfoArguments;
-use crate::console::answer::{complain, say, say_json, warn};
-use crate::console::verdict::Verdict;
 use serde::Serialize;
 use std::path::Path;
 use std::time::Instant;
+use stickslip_console::answer::{complain, say, say_json, warn};
+use stickslip_console::verdict::Verdict;
 use stickslip_results::Job;
 use stickslip_results::Parts;
 use stickslip_results::Warning;

@@ -1,12 +1,12 @@
 //! `stickslip loop`: measured loops, and a simulated one beside them.
 
 use crate::arguments::LoopArguments;
-use crate::console::answer::{complain, say};
-use crate::console::table;
-use crate::console::verdict::Verdict;
 use std::io;
 use std::path::{Path, PathBuf};
 use stickslip_analysis::Cycle;
+use stickslip_console::answer::{complain, say};
+use stickslip_console::table;
+use stickslip_console::verdict::Verdict;
 use stickslip_figures::FigureError;
 use stickslip_figures::measured::{self as picture, Curve, Loops};
 use stickslip_results::complaint::words;

@@ -1,7 +1,7 @@
 //! `stickslip materials`: the table of named materials.
 
-use crate::console::answer::say;
-use crate::console::verdict::Verdict;
+use stickslip_console::answer::say;
+use stickslip_console::verdict::Verdict;
 use stickslip_scenario::MATERIALS;
 
 /// Prints the table, a line each.

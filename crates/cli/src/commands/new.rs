@@ -1,10 +1,10 @@
 //! `stickslip new`: a scenario that runs at once, and a schema by which an editor completes it.
 
 use crate::arguments::NewArguments;
-use crate::console::answer::{complain, say};
-use crate::console::verdict::Verdict;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
+use stickslip_console::answer::{complain, say};
+use stickslip_console::verdict::Verdict;
 use stickslip_results::complaint::words;
 use stickslip_results::folder;
 use stickslip_results::markdown::word;

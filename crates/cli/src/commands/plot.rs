@@ -3,10 +3,10 @@
 mod over;
 
 use crate::arguments::PlotArguments;
-use crate::console::answer::{complain, say};
-use crate::console::verdict::Verdict;
 use std::io;
 use std::path::{Path, PathBuf};
+use stickslip_console::answer::{complain, say};
+use stickslip_console::verdict::Verdict;
 use stickslip_figures::{FigureError, Look, Sources};
 use stickslip_results::complaint::words;
 use stickslip_results::folder::{Folder, sweep};

@@ -8,17 +8,17 @@ mod wires;
 
 use crate::arguments::RealtimeArguments;
 use crate::arguments::realtime::Inputs;
-use crate::console::answer::{complain, say, say_json, warn};
-use crate::console::interrupt::{Interrupt, Interrupted};
-use crate::console::progress::{Bar, Progress};
-use crate::console::verdict::Verdict;
 use failure::Failure;
 use files::Drafts;
 use stage::Stage;
+use stickslip_console::answer::{complain, say, say_json, warn};
+use stickslip_console::interrupt::{Interrupt, Interrupted};
+use stickslip_console::progress::{Bar, Progress};
+use stickslip_console::verdict::Verdict;
+use stickslip_realtime::Report;
 use stickslip_realtime::pace::Stop;
 use stickslip_realtime::report::{Subject, text};
 use stickslip_realtime::session::{self, Ended};
-use stickslip_realtime::{Observer, Report};
 use stickslip_results::Job;
 use wires::Wires;
 
@@ -118,23 +118,5 @@ fn verdict(ended: &Ended) -> Verdict {
         Ok(()) => Verdict::Done,
         Err(Stop::Interrupted) => Verdict::Interrupted,
         Err(Stop::Overrun | Stop::Silence | Stop::Cut(_) | Stop::Plant(_)) => Verdict::Stopped,
-    }
-}
-
-impl Observer for Interrupted<'_> {
-    fn reached(&self, _: f64) {}
-
-    fn goes_on(&self) -> bool {
-        stickslip_results::Watcher::goes_on(self)
-    }
-}
-
-impl Observer for Bar<'_> {
-    fn reached(&self, t: f64) {
-        stickslip_results::Watcher::reached(self, t);
-    }
-
-    fn goes_on(&self) -> bool {
-        stickslip_results::Watcher::goes_on(self)
     }
 }

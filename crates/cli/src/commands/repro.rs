@@ -2,12 +2,12 @@
 
 use crate::arguments::ReproArguments;
 use crate::commands::run;
-use crate::console::answer::{complain, say};
-use crate::console::interrupt::Interrupt;
-use crate::console::progress::Progress;
-use crate::console::verdict::Verdict;
 use std::io;
 use std::path::{Path, PathBuf};
+use stickslip_console::answer::{complain, say};
+use stickslip_console::interrupt::Interrupt;
+use stickslip_console::progress::Progress;
+use stickslip_console::verdict::Verdict;
 use stickslip_drive::RunError;
 use stickslip_figures::{Origin, OriginError};
 use stickslip_results::complaint::words;

@@ -2,9 +2,9 @@
 
 use crate::arguments::ResumeArguments;
 use crate::commands::run::{Beginning, Task, conduct};
-use crate::console::verdict::Verdict;
 use std::collections::HashSet;
 use std::path::PathBuf;
+use stickslip_console::verdict::Verdict;
 use stickslip_results::checkpoint::{CheckpointError, Resumption};
 
 /// Goes on with all runs; the worst ending counts. A folder that is refused does not keep the others from going on.

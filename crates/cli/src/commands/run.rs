@@ -1,18 +1,19 @@
 //! `stickslip run`: scenarios, one after the other or side by side.
 
+mod pace;
 mod report;
 mod scenario;
 
 use crate::arguments::{ConductArguments, RunArguments};
-use crate::console::answer::{complain, say, say_json, warn};
-use crate::console::interrupt::Interrupt;
-use crate::console::progress::Progress;
-use crate::console::verdict::Verdict;
 use rayon::prelude::*;
 use std::collections::HashMap;
 use std::fmt::Display;
 use std::path::PathBuf;
 use std::sync::{Mutex, PoisonError};
+use stickslip_console::answer::{complain, say, say_json, warn};
+use stickslip_console::interrupt::Interrupt;
+use stickslip_console::progress::Progress;
+use stickslip_console::verdict::Verdict;
 use stickslip_results::{Job, Refusal};
 
 pub(crate) use report::Report;

@@ -1,7 +1,7 @@
 //! `stickslip schema`: the JSON Schema of the scenario file.
 
-use crate::console::answer::say;
-use crate::console::verdict::Verdict;
+use stickslip_console::answer::say;
+use stickslip_console::verdict::Verdict;
 
 /// Prints the schema.
 pub(crate) fn print() -> Verdict {

@@ -2,14 +2,14 @@
 
 use super::steady;
 use crate::arguments::SensitivityArguments;
-use crate::console::answer::{complain, say, say_json, warn};
-use crate::console::interrupt::{Interrupt, Interrupted};
-use crate::console::place::{self, Unwritable};
-use crate::console::progress::Progress;
-use crate::console::table;
-use crate::console::verdict::Verdict;
 use std::io;
 use std::path::{Path, PathBuf};
+use stickslip_console::answer::{complain, say, say_json, warn};
+use stickslip_console::interrupt::{Interrupt, Interrupted};
+use stickslip_console::place::{self, Unwritable};
+use stickslip_console::progress::Progress;
+use stickslip_console::table;
+use stickslip_console::verdict::Verdict;
 use stickslip_figures::{FigureError, sensitivity as picture};
 use stickslip_results::complaint::words;
 use stickslip_results::folder::{Folder, sweep};

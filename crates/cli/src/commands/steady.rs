@@ -4,13 +4,13 @@ mod branch;
 mod page;
 
 use crate::arguments::SteadyArguments;
-use crate::console::answer::{complain, say, say_json, warn};
-use crate::console::interrupt::Interrupt;
-use crate::console::place::{self, Unwritable};
-use crate::console::progress::Progress;
-use crate::console::verdict::Verdict;
 use std::io;
 use std::path::{Path, PathBuf};
+use stickslip_console::answer::{complain, say, say_json, warn};
+use stickslip_console::interrupt::Interrupt;
+use stickslip_console::place::{self, Unwritable};
+use stickslip_console::progress::Progress;
+use stickslip_console::verdict::Verdict;
 use stickslip_figures::{FigureError, steady as picture};
 use stickslip_results::checkpoint::{self, Keeper};
 use stickslip_results::complaint::words;

@@ -37,7 +37,7 @@ impl Exhibit {
 /// # Errors
 /// A scenario whose place cannot be told from that of the page.
 pub fn page(exhibits: &[Exhibit], scenarios: &Path, out: &Path) -> io::Result<String> {
-    let mut command = "stickslip gallery".to_owned();
+    let mut command = "stickslip-lab gallery".to_owned();
     for (option, path, usual) in [("--scenarios", scenarios, "scenarios"), ("--out", out, "plots")] {
         if path != Path::new(usual) {
             command += &format!(" {option} {}", word(path));

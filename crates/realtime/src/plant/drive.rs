@@ -3,8 +3,8 @@
 use super::channels::{Feed, Reading};
 use super::commanded::Commanded;
 use super::{Input, Output, Plant, PlantError, Work, between, done};
-use crate::observer::{Heeding, Observer};
 use stickslip_drive::{Limits, Model, Plan, Run, RunError, State};
+use stickslip_drive::{Unrecorded, Watcher};
 
 /// A drive: a run that goes on from one multiple of the frame to the next.
 pub struct Drive<'m> {
@@ -20,7 +20,7 @@ pub struct Drive<'m> {
     row: Vec<f64>,
     model: &'m Model,
     /// Who may end it within a frame.
-    observer: &'m dyn Observer,
+    observer: &'m (dyn Watcher + Sync),
 }
 
 impl<'m> Drive<'m> {
@@ -73,7 +73,7 @@ impl<'m> Drive<'m> {
 
     /// The same, ended within a frame that takes long as soon as an observer wants it.
     #[must_use]
-    pub fn heeding(self, observer: &'m dyn Observer) -> Self {
+    pub fn heeding(self, observer: &'m (dyn Watcher + Sync)) -> Self {
         Self { observer, ..self }
     }
 
@@ -147,7 +147,7 @@ impl Plant for Drive<'_> {
                 generator.command(&mut self.run)?;
             }
         }
-        self.run.advance(until, &mut Heeding(self.observer))?;
+        self.run.advance(until, &mut Unrecorded(self.observer))?;
         self.tell(outputs);
         Ok(between(&before, &done(&self.run)))
     }

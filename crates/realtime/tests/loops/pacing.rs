@@ -241,7 +241,7 @@ fn without_a_clock_the_loop_waits_for_what_is_written_down() {
 /// Says once that it was enough.
 struct Once(std::sync::atomic::AtomicU64);
 
-impl stickslip_realtime::Observer for Once {
+impl stickslip_drive::Watcher for Once {
     fn reached(&self, _: f64) {}
 
     fn goes_on(&self) -> bool {

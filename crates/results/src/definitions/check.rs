@@ -1,4 +1,4 @@
-//! What `stickslip check --json` says, and what the pages of `stickslip validate` are headed by.
+//! What `stickslip check --json` says, and what the pages of `stickslip-lab validate` are headed by.
 
 use super::Definition;
 

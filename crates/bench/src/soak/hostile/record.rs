@@ -41,8 +41,8 @@ fn text(findings: &[Finding], page: &Path, out: &Path) -> io::Result<String> {
     let at = |name: &str| link(&folder.join(name));
     let mut text = format!(
         "# Stability\n\nWhat happens to a plain drive whose parts go to their extremes, one at a time, by every stepper and \
-         tolerance: {} hostile scenes.\nThis page, its picture and its table are written by\n\n```sh\nstickslip soak --hostile \
-         --out {} --page {}\n```\n\nby {}. One cell is written as a scenario by `stickslip soak --hostile NUMBER --write \
+         tolerance: {} hostile scenes.\nThis page, its picture and its table are written by\n\n```sh\nstickslip-lab soak --hostile \
+         --out {} --page {}\n```\n\nby {}. One cell is written as a scenario by `stickslip-lab soak --hostile NUMBER --write \
          DIR`.\n\n",
         findings.len(),
         word(out),

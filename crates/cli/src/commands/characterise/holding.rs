@@ -2,11 +2,11 @@
 
 use super::{CurveFailure, complain_of_warnings, cores, ends, of, place, said, shown, shows_rows};
 use crate::arguments::CharacteriseArguments;
-use crate::console::answer::{complain, say, say_json, warn};
-use crate::console::interrupt::Interrupt;
-use crate::console::progress::Progress;
-use crate::console::table;
-use crate::console::verdict::Verdict;
+use stickslip_console::answer::{complain, say, say_json, warn};
+use stickslip_console::interrupt::Interrupt;
+use stickslip_console::progress::Progress;
+use stickslip_console::table;
+use stickslip_console::verdict::Verdict;
 use stickslip_figures::curve::{self as pictures, holding as picture};
 use stickslip_results::folder::sweep;
 use stickslip_study::curve::all_files;

@@ -1,7 +1,7 @@
 //! What a comparison tells people.
 
-use crate::console::table;
 use serde_json::Value;
+use stickslip_console::table;
 use stickslip_results::compare::{ChannelDifference, Comparison, FigureDifference, Lone, time};
 
 /// Events and figures shown of each sort; `--json` has all.

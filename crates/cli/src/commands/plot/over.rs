@@ -2,9 +2,9 @@
 
 use super::{PlotFailure, write};
 use crate::arguments::PlotArguments;
-use crate::console::answer::{complain, say};
-use crate::console::verdict::Verdict;
 use std::path::{Path, PathBuf};
+use stickslip_console::answer::{complain, say};
+use stickslip_console::verdict::Verdict;
 use stickslip_figures::Sources;
 use stickslip_figures::overlay::{self, OVERLAID};
 use stickslip_results::Results;

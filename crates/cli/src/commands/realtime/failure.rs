@@ -1,9 +1,9 @@
 //! Why a loop does not begin, or what it cannot write.
 
-use crate::console::verdict::Verdict;
 use std::io;
 use std::net::SocketAddr;
 use std::path::PathBuf;
+use stickslip_console::verdict::Verdict;
 use stickslip_drive::RunError;
 use stickslip_figures::FigureError;
 use stickslip_realtime::memory::MemoryError;

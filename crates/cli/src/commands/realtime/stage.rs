@@ -3,14 +3,14 @@
 use super::failure::Failure;
 use super::stepper::chosen;
 use crate::arguments::RealtimeArguments;
-use crate::console::answer::complain;
+use stickslip_console::answer::complain;
 use stickslip_drive::{Accuracy, Model, Plan, State, Stepper};
-use stickslip_realtime::observer::Observer;
 use stickslip_realtime::plant::{ChannelError, Input, Output, inputs, outputs};
 use stickslip_realtime::probe::{Probe, RowsProbe, probe, rows};
 use stickslip_realtime::session::Order;
 use stickslip_realtime::wire::MOST_VALUES;
 use stickslip_realtime::{Drive, Pace};
+use stickslip_results::Watcher;
 use stickslip_results::checkpoint::model_key;
 use stickslip_results::{Job, Real, quantity};
 use stickslip_scenario::Warning;
@@ -155,7 +155,7 @@ impl<'a> Stage<'a> {
     }
 
     /// The drive at t = 0, which an observer may end within a frame.
-    pub(super) fn drive<'d>(&'d self, observer: &'d dyn Observer) -> Result<Drive<'d>, Failure> {
+    pub(super) fn drive<'d>(&'d self, observer: &'d (dyn Watcher + Sync)) -> Result<Drive<'d>, Failure> {
         let channels = (&self.inputs[..], &self.outputs[..]);
         let start = (self.start.clone(), 0);
         let drive = Drive::new(&self.job.model, &self.plan, start, self.arguments.period, channels)?;
@@ -166,7 +166,7 @@ impl<'a> Stage<'a> {
     pub(super) fn measure(
         &self,
         tells: bool,
-        observer: &dyn Observer,
+        observer: &(dyn Watcher + Sync),
     ) -> Result<(Option<Probe>, Option<RowsProbe>), Failure> {
         let initial: Vec<f64> = self.inputs.iter().map(|input| input.initial).collect();
         let found = probe(&mut self.drive(observer)?, &initial, self.outputs.len(), PROBED, observer);

@@ -1,9 +1,9 @@
 //! What a run tells people, and how it ended.
 
-use crate::console::verdict::Verdict;
 use std::fmt::Display;
 use std::io;
 use std::path::Path;
+use stickslip_console::verdict::Verdict;
 use stickslip_drive::RunError;
 use stickslip_results::Job;
 use stickslip_results::Outcome;

@@ -1,13 +1,13 @@
 //! One job from start to files.
 
+use super::pace::Paced;
 use super::report::Report;
-use crate::console::interrupt::Interrupt;
-use crate::console::pace::Paced;
-use crate::console::progress::Progress;
 use std::cell::Cell;
 use std::io;
 use std::path::Path;
 use std::time::Instant;
+use stickslip_console::interrupt::Interrupt;
+use stickslip_console::progress::Progress;
 use stickslip_figures::{Look, Sources};
 use stickslip_results::checkpoint::{CheckpointError, Keeper, Resumption};
 use stickslip_results::complaint::words;
@@ -175,7 +175,7 @@ fn draw(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::console::verdict::Verdict;
+    use stickslip_console::verdict::Verdict;
 
     #[test]
     fn a_steady_motion_that_nobody_waits_for_is_told() {

@@ -1,14 +1,14 @@
 //! `stickslip steady --continue`: steady motions one after another, as a number of the scenario changes.
 
 use crate::arguments::SteadyArguments;
-use crate::console::answer::{complain, say, say_json, warn};
-use crate::console::interrupt::Interrupt;
-use crate::console::place::{self, Unwritable};
-use crate::console::progress::Progress;
-use crate::console::table;
-use crate::console::verdict::Verdict;
 use std::io;
 use std::path::{Path, PathBuf};
+use stickslip_console::answer::{complain, say, say_json, warn};
+use stickslip_console::interrupt::Interrupt;
+use stickslip_console::place::{self, Unwritable};
+use stickslip_console::progress::Progress;
+use stickslip_console::table;
+use stickslip_console::verdict::Verdict;
 use stickslip_figures::{FigureError, branch as picture};
 use stickslip_results::complaint::words;
 use stickslip_results::folder::{Folder, sweep};

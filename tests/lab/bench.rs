@@ -1,6 +1,6 @@
-//! `stickslip bench`: what accuracy costs.
+//! `stickslip-lab bench`: what accuracy costs.
 
-use crate::program::{Table, code, listing, scenario, stderr, stdout, stickslip};
+use crate::program::{Table, code, lab, listing, scenario, stderr, stdout};
 use std::path::Path;
 use tempfile::tempdir;
 
@@ -42,7 +42,7 @@ impl Runs {
 #[test]
 fn p1_is_measured_by_every_stepper_and_engine() {
     let out = tempdir().unwrap();
-    let mut command = stickslip();
+    let mut command = lab();
     command.arg("bench").arg(scenario("p1")).args(["--budget", "8 s", "--known", &known()]);
     command.arg("--page").arg(out.path().join("page.md"));
     let output = command.arg("--out").arg(out.path()).output().unwrap();
@@ -94,7 +94,7 @@ fn p1_is_measured_by_every_stepper_and_engine() {
 
 /// The page names its command, its links lead somewhere, and its tables are whole.
 fn assert_page(page: &str, folder: &Path) {
-    assert!(page.contains("stickslip bench ") && page.contains("--known p1:slider.x_m=1.00842862803207"));
+    assert!(page.contains("stickslip-lab bench ") && page.contains("--known p1:slider.x_m=1.00842862803207"));
     // What is faster comes before all tables, and nothing is told that was not measured.
     let [faster, first] =
         ["**Where simpler code is faster**", "| ---"].map(|words| page.find(words).unwrap());
@@ -114,7 +114,7 @@ fn assert_page(page: &str, folder: &Path) {
 #[test]
 fn growth_is_measured_where_nothing_else_changes() {
     let out = tempdir().unwrap();
-    let mut command = stickslip();
+    let mut command = lab();
     command
         .args(["bench", "--growth", "--out"])
         .arg(out.path())
@@ -153,7 +153,7 @@ fn growth_is_measured_where_nothing_else_changes() {
 #[test]
 fn the_loop_knows_loads_that_vary_and_bodies_that_turn() {
     let out = tempdir().unwrap();
-    let mut command = stickslip();
+    let mut command = lab();
     command.arg("bench").args([scenario("sine_drive"), scenario("oblique_impact")]);
     let output = command.args(["--budget", "4 s", "--quiet", "--out"]).arg(out.path()).output().unwrap();
     assert_eq!((code(&output), stdout(&output), stderr(&output)), (0, String::new(), String::new()));
@@ -173,13 +173,13 @@ fn the_loop_knows_loads_that_vary_and_bodies_that_turn() {
 fn what_is_counted_runs_alone() {
     for what in ["1e-3", "floor:4", "floor:16"] {
         let output =
-            stickslip().args(["bench", "--quiet", "--counted", what]).arg(scenario("p1")).output().unwrap();
+            lab().args(["bench", "--quiet", "--counted", what]).arg(scenario("p1")).output().unwrap();
         assert!(
             output.status.success() && output.stdout.is_empty() && output.stderr.is_empty(),
             "{output:?}"
         );
     }
-    let output = stickslip().args(["bench", "--counted", "floor"]).arg(scenario("p1")).output().unwrap();
+    let output = lab().args(["bench", "--counted", "floor"]).arg(scenario("p1")).output().unwrap();
     assert_eq!(output.status.code(), Some(2));
 }
 
@@ -187,7 +187,7 @@ fn what_is_counted_runs_alone() {
 fn what_cannot_be_measured_is_refused() {
     let out = tempdir().unwrap();
     let bench = |name: &str, more: &[&str]| {
-        let mut command = stickslip();
+        let mut command = lab();
         command.arg("bench").arg(scenario(name)).args(more).arg("--out").arg(out.path().join("out"));
         let output = command.output().unwrap();
         (code(&output), stderr(&output))

@@ -1,13 +1,13 @@
 //! Known results and the pages that show them.
 
-use crate::program::{code, listing, stderr, stdout, stickslip};
+use crate::program::{code, lab, listing, stderr, stdout};
 use std::path::{Path, PathBuf};
 use std::process::Output;
 use tempfile::tempdir;
 
-/// `stickslip validate` into a folder.
+/// `stickslip-lab validate` into a folder.
 fn validate(pages: &[&str], out: &Path) -> Output {
-    stickslip().arg("validate").args(pages).arg("--out").arg(out).output().unwrap()
+    lab().arg("validate").args(pages).arg("--out").arg(out).output().unwrap()
 }
 
 /// The pages of the project.
@@ -33,7 +33,7 @@ fn the_pages_of_the_project_say_what_the_program_computes() {
         assert!(a == b, "{name} differs from one time to the next");
         if name.ends_with(".md") {
             let there = std::fs::read_to_string(project().join(name)).unwrap();
-            assert_eq!(String::from_utf8(a).unwrap(), there, "run stickslip validate: {name}");
+            assert_eq!(String::from_utf8(a).unwrap(), there, "run stickslip-lab validate: {name}");
         }
     }
 }

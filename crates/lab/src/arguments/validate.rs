@@ -21,8 +21,8 @@ written, 130 interrupted.";
 
 pub(super) const EXAMPLES: &str = "\
 Examples:
-  stickslip validate                           all pages into docs/validation/
-  stickslip validate contact --out pages       one of them into pages/";
+  stickslip-lab validate                           all pages into docs/validation/
+  stickslip-lab validate contact --out pages       one of them into pages/";
 
 #[derive(Debug, Args)]
 pub(crate) struct ValidateArguments {

@@ -12,7 +12,7 @@ const RESERVE: usize = 1 << 18;
 /// A place that nothing can be written into.
 #[derive(Debug, Error)]
 #[error("{}: cannot be written into: {}\n   help: choose another place with --out", .path.display(), words(.source))]
-pub(crate) struct Unwritable {
+pub struct Unwritable {
     path: PathBuf,
     source: io::Error,
 }
@@ -21,6 +21,6 @@ pub(crate) struct Unwritable {
 ///
 /// # Errors
 /// One that nothing can be written into.
-pub(crate) fn ready(path: &Path) -> Result<Folder, Unwritable> {
+pub fn ready(path: &Path) -> Result<Folder, Unwritable> {
     Folder::ready(path, RESERVE).map_err(|source| Unwritable { path: path.to_owned(), source })
 }

@@ -1,6 +1,6 @@
-//! `stickslip bench --realtime`: frames of drives, how long they take and what they lose.
+//! `stickslip-lab bench --realtime`: frames of drives, how long they take and what they lose.
 
-use crate::program::{Table, code, listing, scenario, stderr, stdout, stickslip};
+use crate::program::{Table, code, lab, listing, scenario, stderr, stdout};
 use std::path::{Path, PathBuf};
 use tempfile::tempdir;
 
@@ -16,7 +16,7 @@ fn numbers(table: &Table, name: &str) -> Vec<f64> {
 
 /// Measures both scenes quickly into a folder.
 fn measure(out: &Path) {
-    let mut command = stickslip();
+    let mut command = lab();
     command.args(["bench", "--realtime"]).arg(scenario("p1")).arg(fed());
     command.args(["--period", "20 us,50 us", "--frames", "3e3", "--paced", "10 ms"]);
     command.arg("--page").arg(out.join("page.md")).arg("--out").arg(out.join("made"));
@@ -109,7 +109,7 @@ fn assert_page(page: &str, folder: &Path) {
 #[test]
 fn without_a_clock_nothing_is_told_of_waking() {
     let out = tempdir().unwrap();
-    let mut command = stickslip();
+    let mut command = lab();
     command.args(["bench", "--realtime"]).arg(scenario("commanded"));
     command.args(["--frames", "500", "--paced", "0", "--quiet", "--out"]).arg(out.path());
     let output = command.output().unwrap();
@@ -125,7 +125,7 @@ fn without_a_clock_nothing_is_told_of_waking() {
 fn what_frames_cannot_be_measured_of_is_refused() {
     let out = tempdir().unwrap();
     let bench = |file: &Path, more: &[&str]| {
-        let mut command = stickslip();
+        let mut command = lab();
         command.args(["bench", "--realtime"]).arg(file).args(more).arg("--out").arg(out.path().join("out"));
         let output = command.output().unwrap();
         (code(&output), stderr(&output))

@@ -1,5 +1,7 @@
 //! Who looks on while a run goes on.
 
+use crate::{Event, Record};
+
 /// Somebody who is told how far a run has come and may end it: a progress bar, a signal, a window.
 ///
 /// Told at every row and asked every so many steps, by the thread that runs: an answer should take nanoseconds.
@@ -19,5 +21,22 @@ impl Watcher for () {
     #[inline]
     fn goes_on(&self) -> bool {
         true
+    }
+}
+
+/// A record that keeps nothing, and through which somebody ends a run.
+pub struct Unrecorded<'a>(pub &'a dyn Watcher);
+
+impl Record for Unrecorded<'_> {
+    fn row(&mut self, _: &[f64]) {}
+
+    fn event(&mut self, _: &Event, _: &[f64]) {}
+
+    fn goes_on(&mut self, _: f64) -> bool {
+        self.0.goes_on()
+    }
+
+    fn wants_events(&self) -> bool {
+        false
     }
 }

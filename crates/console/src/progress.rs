@@ -1,8 +1,8 @@
 //! Progress of the runs: bars on a terminal, else a line where something begins and ends.
 
-use crate::console::answer::complain;
-use crate::console::interrupt::Interrupt;
-use crate::console::visible::{Spelling, visible};
+use crate::answer::complain;
+use crate::interrupt::Interrupt;
+use crate::visible::{Spelling, visible};
 use indicatif::{MultiProgress, ProgressBar, ProgressDrawTarget, ProgressState, ProgressStyle};
 use std::fmt::{Arguments, Write};
 use std::io::IsTerminal;
@@ -12,14 +12,14 @@ use stickslip_results::Watcher;
 const TICKS: u64 = 10_000;
 
 /// The bars of all runs.
-pub(crate) struct Progress {
+pub struct Progress {
     bars: MultiProgress,
     /// Whether there is somebody to be told who sees no bars.
     by_lines: bool,
 }
 
 /// The bar of one run, and the signal that ends it.
-pub(crate) struct Bar<'a> {
+pub struct Bar<'a> {
     bar: ProgressBar,
     /// Before which time the bar does not move, s, and its length, s.
     from: f64,
@@ -28,7 +28,7 @@ pub(crate) struct Bar<'a> {
 }
 
 /// A line that counts what has been done, and the signal that ends it.
-pub(crate) struct Counter<'a> {
+pub struct Counter<'a> {
     bar: ProgressBar,
     interrupt: &'a Interrupt,
 }
@@ -51,26 +51,21 @@ impl Drop for Counter<'_> {
 
 impl Progress {
     /// Shows bars on stderr if that is a terminal and they are wanted.
-    pub(crate) fn new(wanted: bool) -> Self {
+    pub fn new(wanted: bool) -> Self {
         let shown = wanted && std::io::stderr().is_terminal();
         let target = if shown { ProgressDrawTarget::stderr() } else { ProgressDrawTarget::hidden() };
         Self { bars: MultiProgress::with_draw_target(target), by_lines: wanted && !shown }
     }
 
     /// Says a line where no bar is seen.
-    pub(crate) fn tell(&self, line: Arguments<'_>) {
+    pub fn tell(&self, line: Arguments<'_>) {
         if self.by_lines {
             complain(line);
         }
     }
 
     /// A bar for a run from one time to another, s, of a bar from 0 on.
-    pub(crate) fn start<'a>(
-        &self,
-        name: &str,
-        [from, duration]: [f64; 2],
-        interrupt: &'a Interrupt,
-    ) -> Bar<'a> {
+    pub fn start<'a>(&self, name: &str, [from, duration]: [f64; 2], interrupt: &'a Interrupt) -> Bar<'a> {
         let bar = self.bars.add(ProgressBar::new(TICKS));
         bar.set_position(ticks(from, duration));
         bar.reset_eta();
@@ -84,7 +79,7 @@ impl Progress {
     }
 
     /// A bar for work that has a budget of `wall` s of wall time.
-    pub(crate) fn budget<'a>(&self, name: &str, wall: f64, interrupt: &'a Interrupt) -> Bar<'a> {
+    pub fn budget<'a>(&self, name: &str, wall: f64, interrupt: &'a Interrupt) -> Bar<'a> {
         let bar = self.bars.add(ProgressBar::new(TICKS));
         bar.set_style(style("{prefix} {percent:>3} % {bar:30} {eta} left"));
         bar.set_prefix(visible(name, Spelling::Text).into_owned());
@@ -92,7 +87,7 @@ impl Progress {
     }
 
     /// A line for work whose end nobody knows: how many of these have been done.
-    pub(crate) fn count<'a>(&self, name: &str, of: &'static str, interrupt: &'a Interrupt) -> Counter<'a> {
+    pub fn count<'a>(&self, name: &str, of: &'static str, interrupt: &'a Interrupt) -> Counter<'a> {
         let bar = self.bars.add(ProgressBar::no_length());
         bar.set_style(style("{prefix} {pos} {msg}"));
         bar.set_prefix(visible(name, Spelling::Text).into_owned());
@@ -101,7 +96,7 @@ impl Progress {
     }
 
     /// Does something with the bars out of the way.
-    pub(crate) fn aside<T>(&self, act: impl FnOnce() -> T) -> T {
+    pub fn aside<T>(&self, act: impl FnOnce() -> T) -> T {
         self.bars.suspend(act)
     }
 }

@@ -1,13 +1,13 @@
 //! The gallery and its page.
 
-use crate::program::{code, listing, run_example, scenario, stderr, stdout, stickslip};
+use crate::program::{code, lab, listing, run_example, scenario, stderr, stdout};
 use std::path::Path;
 use std::process::Output;
 use tempfile::tempdir;
 
-/// `stickslip gallery` of a folder's scenarios.
+/// `stickslip-lab gallery` of a folder's scenarios.
 fn gallery(folder: &Path, out: &Path) -> Output {
-    stickslip().arg("gallery").arg("--scenarios").arg(folder).arg("--out").arg(out).output().unwrap()
+    lab().arg("gallery").arg("--scenarios").arg(folder).arg("--out").arg(out).output().unwrap()
 }
 
 /// Puts an example, changed, into a folder.
@@ -98,7 +98,7 @@ fn the_gallery_of_the_project_is_whole() {
         let name = file.strip_suffix(".json").unwrap();
         assert!(
             page.contains(&format!("[`{name}`](../scenarios/{file})")),
-            "run stickslip gallery: no {name}"
+            "run stickslip-lab gallery: no {name}"
         );
         let text = std::fs::read_to_string(scenarios.join(file)).unwrap();
         let scenario: serde_json::Value = serde_json::from_str(&text).unwrap();
@@ -106,7 +106,7 @@ fn the_gallery_of_the_project_is_whole() {
             let plot = plot.as_str().unwrap().to_owned();
             assert!(
                 page.contains(&format!("`stickslip plot results/{name} --plots {plot}`")),
-                "run stickslip gallery"
+                "run stickslip-lab gallery"
             );
             pictures += 1;
             kinds.push(plot);
@@ -120,7 +120,7 @@ fn the_gallery_of_the_project_is_whole() {
     );
     assert!(pictures >= 10);
     for link in page.split(['"', '(', ')']).filter(|link| link.ends_with(".png") || link.ends_with(".svg")) {
-        assert!(plots.join(link).is_file(), "run stickslip gallery: no {link}");
+        assert!(plots.join(link).is_file(), "run stickslip-lab gallery: no {link}");
     }
 }
 

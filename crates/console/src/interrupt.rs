@@ -1,6 +1,6 @@
 //! Signals: Ctrl-C, and a limit on the size of files.
 
-use crate::console::answer::complain;
+use crate::answer::complain;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
@@ -11,11 +11,11 @@ const ONE_WISH: Duration = Duration::from_secs(1);
 
 /// Tells whether somebody asked the program to stop.
 #[derive(Debug, Clone, Default)]
-pub(crate) struct Interrupt(Arc<AtomicBool>);
+pub struct Interrupt(Arc<AtomicBool>);
 
 impl Interrupt {
     /// Listens from now on. The first signal asks for a tidy end with the results so far; another one, a second later or more, ends at once.
-    pub(crate) fn install() -> Self {
+    pub fn install() -> Self {
         let interrupt = Self::default();
         let flag = Arc::clone(&interrupt.0);
         // Without a handler a signal ends the program at once: worse, but no reason not to run.
@@ -24,7 +24,7 @@ impl Interrupt {
             flag.store(true, Ordering::Relaxed);
             if first.get_or_insert_with(Instant::now).elapsed() > ONE_WISH {
                 complain(format_args!("ended at once, by a second signal: what was not written is lost"));
-                std::process::exit(i32::from(crate::console::verdict::Verdict::Interrupted.code()));
+                std::process::exit(i32::from(crate::verdict::Verdict::Interrupted.code()));
             }
         });
         interrupt.raise_where_signals_arrive();
@@ -41,21 +41,21 @@ impl Interrupt {
     }
 
     /// Whether to stop.
-    pub(crate) fn is_raised(&self) -> bool {
+    pub fn is_raised(&self) -> bool {
         self.0.load(Ordering::Relaxed)
     }
 }
 
 /// Takes the system's answer to a write beyond a limit on the size of files (`ulimit -f`) as one that a full disk gives: without this
 /// the program would end in the middle of its work, its drafts left behind.
-pub(crate) fn outlive_file_limits() {
+pub fn outlive_file_limits() {
     #[cfg(unix)]
     // Without it such a limit ends the program: worse, but no reason not to run.
     let _ = signal_hook::flag::register(signal_hook::consts::SIGXFSZ, Arc::default());
 }
 
 /// Whoever may end work that no bar is shown of.
-pub(crate) struct Interrupted<'a>(pub(crate) &'a Interrupt);
+pub struct Interrupted<'a>(pub &'a Interrupt);
 
 impl Watcher for Interrupted<'_> {
     fn reached(&self, _: f64) {}

@@ -1,7 +1,7 @@
 //! The answer of a command, on stdout.
 
-use crate::console::verdict::Verdict;
-use crate::console::visible::{Spelling, visible};
+use crate::verdict::Verdict;
+use crate::visible::{Spelling, visible};
 use std::fmt::Arguments;
 use std::io::{self, ErrorKind, Write};
 use std::sync::OnceLock;
@@ -12,22 +12,22 @@ use stickslip_results::complaint::words;
 static LOST: OnceLock<io::Error> = OnceLock::new();
 
 /// Prints a line.
-pub(crate) fn say(line: Arguments<'_>) {
+pub fn say(line: Arguments<'_>) {
     keep(writeln!(io::stdout(), "{}", visible(&line.to_string(), Spelling::Text)));
 }
 
 /// Prints a line of JSON.
-pub(crate) fn say_json(line: &str) {
+pub fn say_json(line: &str) {
     keep(writeln!(io::stdout(), "{}", visible(line, Spelling::Json)));
 }
 
 /// Says a line on stderr. Nobody listening is no reason to stop.
-pub(crate) fn complain(line: Arguments<'_>) {
+pub fn complain(line: Arguments<'_>) {
     let _ = writeln!(io::stderr(), "{}", visible(&line.to_string(), Spelling::Text));
 }
 
 /// Says what is allowed in a scenario and probably not meant. Nobody listening is no reason to stop.
-pub(crate) fn warn(job: &Job) {
+pub fn warn(job: &Job) {
     for warning in job.warnings() {
         complain(format_args!("warning: {warning}"));
     }
@@ -35,7 +35,7 @@ pub(crate) fn warn(job: &Job) {
 
 /// What all that was said has come to. A reader that has seen enough and closes its pipe is no fault; a full disk is
 /// told, or a file would hold half an answer and the exit code call it whole.
-pub(crate) fn verdict() -> Verdict {
+pub fn verdict() -> Verdict {
     keep(io::stdout().flush());
     LOST.get().map_or(Verdict::Done, |error| {
         complain(format_args!("the output cannot be written: {}", words(error)));
@@ -44,7 +44,7 @@ pub(crate) fn verdict() -> Verdict {
 }
 
 /// Prints help, or what is wrong with the arguments; gives the exit code.
-pub(crate) fn told(said: &clap::Error) -> u8 {
+pub fn told(said: &clap::Error) -> u8 {
     let printed = said.print();
     if !said.use_stderr() {
         keep(printed);

@@ -41,11 +41,11 @@ reference cannot be computed or something cannot be written, 130 interrupted.";
 /// Examples under the long help.
 pub(crate) const EXAMPLES: &str = "\
 Examples:
-  stickslip bench drive.json
-  stickslip bench scenarios/p1.json scenarios/ruby_drive.json --budget \"5 min\"
-  stickslip bench scenarios/p1.json --out docs/performance --instructions --growth --page docs/performance.md
-  stickslip bench --realtime scenarios/p1.json scenarios/commanded.json --period \"20 us,50 us\" --frames 1e6
-  stickslip bench scenarios/p1.json --known p1:slider.x_m=1.00842862803207490e-5";
+  stickslip-lab bench drive.json
+  stickslip-lab bench scenarios/p1.json scenarios/ruby_drive.json --budget \"5 min\"
+  stickslip-lab bench scenarios/p1.json --out docs/performance --instructions --growth --page docs/performance.md
+  stickslip-lab bench --realtime scenarios/p1.json scenarios/commanded.json --period \"20 us,50 us\" --frames 1e6
+  stickslip-lab bench scenarios/p1.json --known p1:slider.x_m=1.00842862803207490e-5";
 
 /// Most frames of a loop: days of computing.
 const MOST_FRAMES: f64 = 1e12;

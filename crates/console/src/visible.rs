@@ -5,7 +5,7 @@ use std::fmt::Write;
 
 /// How a character is spelled that is not sent as it is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Spelling {
+pub enum Spelling {
     /// As in an error: `\u{1b}`.
     Text,
     /// As in a string of JSON: `\u009b`.
@@ -14,7 +14,7 @@ pub(crate) enum Spelling {
 
 /// A text without control characters but line ends, and without such as turn the direction of writing or are not seen: names
 /// and words of files may have them, names of files as well, and a terminal would obey them.
-pub(crate) fn visible(text: &str, spelling: Spelling) -> Cow<'_, str> {
+pub fn visible(text: &str, spelling: Spelling) -> Cow<'_, str> {
     if !text.contains(is_obeyed) {
         return Cow::Borrowed(text);
     }

@@ -2,7 +2,7 @@
 
 /// How a command ended; of several the largest counts.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub(crate) enum Verdict {
+pub enum Verdict {
     /// Everything was done.
     Done,
     /// A comparison found a difference.
@@ -17,7 +17,7 @@ pub(crate) enum Verdict {
 
 impl Verdict {
     /// The exit code.
-    pub(crate) fn code(self) -> u8 {
+    pub fn code(self) -> u8 {
         match self {
             Self::Done => 0,
             Self::Differs => 1,

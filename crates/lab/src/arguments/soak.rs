@@ -28,12 +28,12 @@ wrong, stopped, hung (20 s), panicked. Exit codes: 0 none of the last five, 1 so
 /// Examples under the long help.
 pub(crate) const EXAMPLES: &str = "\
 Examples:
-  stickslip soak                           the seeds 0 to 499
-  stickslip soak --seeds 5000 --rows 200   all that is asked of a release
-  stickslip soak 258 1041                  two of them
-  stickslip soak 258 --write scenes        scenes/seed-258.json, for `stickslip run`
-  stickslip soak --hostile --out docs/stability --page docs/stability.md
-  stickslip soak --hostile 17 --write scenes   scenes/cell-17.json";
+  stickslip-lab soak                           the seeds 0 to 499
+  stickslip-lab soak --seeds 5000 --rows 200   all that is asked of a release
+  stickslip-lab soak 258 1041                  two of them
+  stickslip-lab soak 258 --write scenes        scenes/seed-258.json, for `stickslip run`
+  stickslip-lab soak --hostile --out docs/stability --page docs/stability.md
+  stickslip-lab soak --hostile 17 --write scenes   scenes/cell-17.json";
 
 #[derive(Debug, Args)]
 pub(crate) struct SoakArguments {

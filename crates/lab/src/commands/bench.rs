@@ -1,11 +1,11 @@
-//! `stickslip bench`: what accuracy costs.
+//! `stickslip-lab bench`: what accuracy costs.
 
 use crate::arguments::BenchArguments;
-use crate::console::answer::{complain, say};
-use crate::console::interrupt::Interrupt;
-use crate::console::progress::Progress;
-use crate::console::verdict::Verdict;
 use stickslip_bench::{BenchError, Known, ProblemError, TABLE, frames, growth, instructions, picture};
+use stickslip_console::answer::{complain, say};
+use stickslip_console::interrupt::Interrupt;
+use stickslip_console::progress::Progress;
+use stickslip_console::verdict::Verdict;
 use stickslip_drive::RunError;
 use stickslip_results::{Job, Refusal};
 use thiserror::Error;

@@ -1,12 +1,12 @@
-//! `stickslip validate`: known results, and what the program makes of them.
+//! `stickslip-lab validate`: known results, and what the program makes of them.
 
 use crate::arguments::ValidateArguments;
-use crate::console::answer::{complain, say};
-use crate::console::interrupt::Interrupt;
-use crate::console::progress::Progress;
-use crate::console::verdict::Verdict;
 use std::io;
 use std::path::PathBuf;
+use stickslip_console::answer::{complain, say};
+use stickslip_console::interrupt::Interrupt;
+use stickslip_console::progress::Progress;
+use stickslip_console::verdict::Verdict;
 use stickslip_drive::RunError;
 use stickslip_plot::PlotError;
 use stickslip_results::Watcher;

@@ -1,16 +1,16 @@
-//! `stickslip soak`: scenes drawn from seeds, run and judged.
+//! `stickslip-lab soak`: scenes drawn from seeds, run and judged.
 
 use crate::arguments::SoakArguments;
-use crate::console::answer::{complain, say};
-use crate::console::interrupt::Interrupt;
-use crate::console::progress::Progress;
-use crate::console::table;
-use crate::console::verdict::Verdict;
 use comfy_table::Table;
 use std::io;
 use std::path::{Path, PathBuf};
 use stickslip_bench::BenchError;
 use stickslip_bench::soak::{self, Finding, Seeds, hostile};
+use stickslip_console::answer::{complain, say};
+use stickslip_console::interrupt::Interrupt;
+use stickslip_console::progress::Progress;
+use stickslip_console::table;
+use stickslip_console::verdict::Verdict;
 use stickslip_results::complaint::words;
 use stickslip_results::folder::Folder;
 use thiserror::Error;

@@ -1,8 +1,8 @@
 //! A run that keeps step with the clock on the wall.
 
-use crate::console::progress::Bar;
 use std::cell::Cell;
 use std::time::{Duration, Instant};
+use stickslip_console::progress::Bar;
 use stickslip_results::Watcher;
 
 /// Longest sleep before somebody who wants it to end is heard, s.

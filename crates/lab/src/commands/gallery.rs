@@ -1,13 +1,13 @@
-//! `stickslip gallery`: all pictures of all scenarios of a folder, and the page that shows them.
+//! `stickslip-lab gallery`: all pictures of all scenarios of a folder, and the page that shows them.
 
 use crate::arguments::GalleryArguments;
-use crate::console::answer::{complain, say};
-use crate::console::interrupt::Interrupt;
-use crate::console::progress::Progress;
-use crate::console::verdict::Verdict;
 use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
+use stickslip_console::answer::{complain, say};
+use stickslip_console::interrupt::Interrupt;
+use stickslip_console::progress::Progress;
+use stickslip_console::verdict::Verdict;
 use stickslip_drive::RunError;
 use stickslip_figures::gallery::{self, Exhibit, GalleryError};
 use stickslip_results::complaint::words;

@@ -1,12 +1,12 @@
-//! `stickslip soak`: scenes drawn from seeds.
+//! `stickslip-lab soak`: scenes drawn from seeds.
 
-use crate::program::{Table, code, listing, run, stderr, stdout, stickslip};
+use crate::program::{Table, code, lab, listing, run, stderr, stdout};
 use tempfile::tempdir;
 
 #[test]
 fn seeds_are_judged_and_told_of() {
     let out = tempdir().unwrap();
-    let output = stickslip()
+    let output = lab()
         .args(["soak", "--from", "1011", "--seeds", "8", "--threads", "2", "--out"])
         .arg(out.path())
         .output()
@@ -27,7 +27,7 @@ fn seeds_are_judged_and_told_of() {
 #[test]
 fn a_seed_is_written_as_a_file_that_runs() {
     let out = tempdir().unwrap();
-    let output = stickslip().args(["soak", "1012", "1014", "--write"]).arg(out.path()).output().unwrap();
+    let output = lab().args(["soak", "1012", "1014", "--write"]).arg(out.path()).output().unwrap();
     assert_eq!((code(&output), stdout(&output)), (0, String::new()), "{}", stderr(&output));
     assert_eq!(listing(out.path()), ["seed-1012.json", "seed-1014.json"]);
     let output = run(&out.path().join("seed-1014.json"), &out.path().join("results"), &[]);
@@ -36,16 +36,16 @@ fn a_seed_is_written_as_a_file_that_runs() {
 
 #[test]
 fn seeds_are_named_or_counted() {
-    let output = stickslip().args(["soak", "3", "--seeds", "4"]).output().unwrap();
+    let output = lab().args(["soak", "3", "--seeds", "4"]).output().unwrap();
     assert_eq!(code(&output), 2);
     assert!(stderr(&output).contains("cannot be used with"), "{}", stderr(&output));
-    assert_eq!(code(&stickslip().args(["soak", "--seeds", "0"]).output().unwrap()), 2);
+    assert_eq!(code(&lab().args(["soak", "--seeds", "0"]).output().unwrap()), 2);
 }
 
 #[test]
 fn a_cell_of_the_matrix_is_judged_and_written_by_its_number() {
     let out = tempdir().unwrap();
-    let hostile = |more: &[&str]| stickslip().args(["soak", "--hostile"]).args(more).output().unwrap();
+    let hostile = |more: &[&str]| lab().args(["soak", "--hostile"]).args(more).output().unwrap();
     let output = hostile(&["1207"]);
     assert_eq!(code(&output), 0, "{}{}", stdout(&output), stderr(&output));
     assert!(stdout(&output).contains("right"), "{}", stdout(&output));
