@@ -13,7 +13,7 @@ use files::Drafts;
 use stage::Stage;
 use stickslip_console::answer::{complain, say, say_json, warn};
 use stickslip_console::interrupt::{Interrupt, Interrupted};
-use stickslip_console::progress::{Bar, Progress};
+use stickslip_console::progress::Progress;
 use stickslip_console::verdict::Verdict;
 use stickslip_realtime::Report;
 use stickslip_realtime::pace::Stop;
