@@ -4,7 +4,7 @@ use crate::program::{Table, code, listing, run, scenario, stderr, stdout, sticks
 use serde_json::{Value, json};
 use std::collections::BTreeSet;
 use std::path::Path;
-use stickslip_results::definitions;
+use stickslip_run::definitions;
 use tempfile::tempdir;
 
 fn defined(file: &str, name: &str) -> bool {

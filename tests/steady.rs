@@ -6,7 +6,7 @@ use std::collections::BTreeSet;
 use std::fs;
 use std::path::Path;
 use std::process::Output;
-use stickslip_results::definitions;
+use stickslip_run::definitions;
 use tempfile::tempdir;
 
 /// A drive that never slips grossly: the search goes on for as long as it may.

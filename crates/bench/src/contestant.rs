@@ -5,8 +5,8 @@ use crate::problem::Problem;
 use crate::samples::{Sampler, Samples};
 use stickslip_drive::scene::EngineChoice;
 use stickslip_drive::{Accuracy, Counts, Limits, Model, Plan, RunError, Scene, Stepper};
-use stickslip_results::Unrecorded;
-use stickslip_results::Watcher;
+use stickslip_run::Unrecorded;
+use stickslip_run::Watcher;
 
 /// A method that solves a problem at a tolerance or by a step.
 pub(crate) trait Contestant {

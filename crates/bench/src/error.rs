@@ -5,7 +5,7 @@ use crate::problem::ProblemError;
 use std::io;
 use std::path::PathBuf;
 use stickslip_plot::PlotError;
-use stickslip_results::complaint::words;
+use stickslip_run::complaint::words;
 use thiserror::Error;
 
 /// Why there is no measurement.

@@ -24,8 +24,8 @@ use stickslip_realtime::pace::Stop;
 use stickslip_realtime::plant::{ChannelError, Input, Output, inputs, outputs};
 use stickslip_realtime::system::Favours;
 use stickslip_realtime::{Drive, Timing};
-use stickslip_results::folder::Folder;
-use stickslip_results::{Job, Watcher};
+use stickslip_run::folder::Folder;
+use stickslip_run::{Job, Watcher};
 use turn::Works;
 
 /// Name of the table of all loops.

@@ -12,11 +12,11 @@ use kinds::Kind;
 use std::path::Path;
 use stickslip_drive::{Counts, Model, Plan, RunError, State};
 use stickslip_plot::{Figure, GrowthCurve, PlotError, Theme, draw_png, draw_svg, growth_figure};
-use stickslip_results::Unrecorded;
-use stickslip_results::Watcher;
-use stickslip_results::folder::Folder;
-use stickslip_results::program::this_program;
-use stickslip_results::provenance;
+use stickslip_run::Unrecorded;
+use stickslip_run::Watcher;
+use stickslip_run::folder::Folder;
+use stickslip_run::program::this_program;
+use stickslip_run::provenance;
 
 /// Name of the table.
 pub const TABLE: &str = "growth.csv";

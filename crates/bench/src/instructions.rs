@@ -10,7 +10,7 @@ use std::path::Path;
 use std::process::Command;
 use std::str::FromStr;
 use stickslip_drive::{Plan, RunError, Stepper};
-use stickslip_results::Job;
+use stickslip_run::Job;
 
 /// The words by which the program is asked to run something once.
 pub const ARGUMENT: &str = "--counted";

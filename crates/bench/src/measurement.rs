@@ -7,8 +7,8 @@ use crate::request::Request;
 use crate::work::Work;
 use crate::{family, picture, sheet, turns};
 use std::path::{Path, PathBuf};
-use stickslip_results::folder::Folder;
-use stickslip_results::{Job, Watcher};
+use stickslip_run::folder::Folder;
+use stickslip_run::{Job, Watcher};
 
 /// Name of the table.
 pub const TABLE: &str = "bench.csv";

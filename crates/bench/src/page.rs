@@ -12,9 +12,9 @@ use crate::{growth, machine, picture};
 use std::fmt::Write;
 use std::io;
 use std::path::Path;
-use stickslip_results::markdown::{link, plain, relative, word};
-use stickslip_results::program::this_program;
-use stickslip_results::{Job, folder};
+use stickslip_run::markdown::{link, plain, relative, word};
+use stickslip_run::program::this_program;
+use stickslip_run::{Job, folder};
 
 /// Errors at which methods are compared.
 const ERRORS: [f64; 3] = [1e-3, 1e-6, 1e-9];

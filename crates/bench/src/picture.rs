@@ -4,8 +4,8 @@ use crate::contestant::Stepping;
 use crate::family::{Family, Method};
 use crate::problem::Problem;
 use stickslip_plot::{Figure, PlotError, Theme, WorkCurve, draw_png, draw_svg, work_precision_figure};
-use stickslip_results::Job;
-use stickslip_results::provenance;
+use stickslip_run::Job;
+use stickslip_run::provenance;
 
 /// Name of the picture's files, without ending.
 pub const NAME: &str = "work-precision";

@@ -7,8 +7,8 @@ use crate::samples::{Sampler, Samples};
 use stickslip_contact::Interface;
 use stickslip_drive::scene::Side;
 use stickslip_drive::{Limits, Model, Plan, RunError, Scene, SceneError, Stepper};
-use stickslip_results::Job;
-use stickslip_results::Watcher;
+use stickslip_run::Job;
+use stickslip_run::Watcher;
 use thiserror::Error;
 
 /// Tolerance of the reference: two orders below the finest run …

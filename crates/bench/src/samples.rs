@@ -1,7 +1,7 @@
 //! Where the free coordinates are at the moments at which runs are compared.
 
 use stickslip_drive::{Event, Record};
-use stickslip_results::Watcher;
+use stickslip_run::Watcher;
 
 /// Moments of the common grid after the first; the end of the run is one more.
 const MOMENTS: usize = 1000;

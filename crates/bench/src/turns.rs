@@ -6,7 +6,7 @@ use crate::family::{Family, Measured};
 use crate::problem::Problem;
 use crate::samples::Samples;
 use std::time::Instant;
-use stickslip_results::Watcher;
+use stickslip_run::Watcher;
 
 /// Turns of each run at most.
 const TURNS: u32 = 12;

@@ -5,8 +5,8 @@ use crate::visible::{Spelling, visible};
 use std::fmt::Arguments;
 use std::io::{self, ErrorKind, Write};
 use std::sync::OnceLock;
-use stickslip_results::Job;
-use stickslip_results::complaint::words;
+use stickslip_run::Job;
+use stickslip_run::complaint::words;
 
 /// Why some of the answer was lost.
 static LOST: OnceLock<io::Error> = OnceLock::new();

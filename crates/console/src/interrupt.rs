@@ -4,7 +4,7 @@ use crate::answer::complain;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
-use stickslip_results::Watcher;
+use stickslip_run::Watcher;
 
 /// What comes so soon after a signal is the same wish: a shell, a terminal or a timer may send it to the process and to its group.
 const ONE_WISH: Duration = Duration::from_secs(1);

@@ -2,8 +2,8 @@
 
 use std::io;
 use std::path::{Path, PathBuf};
-use stickslip_results::complaint::words;
-use stickslip_results::folder::Folder;
+use stickslip_run::complaint::words;
+use stickslip_run::folder::Folder;
 use thiserror::Error;
 
 /// Bytes of the disk that are kept for the files from the beginning on: a curve of a few hundred points with its picture.

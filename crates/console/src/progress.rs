@@ -6,7 +6,7 @@ use crate::visible::{Spelling, visible};
 use indicatif::{MultiProgress, ProgressBar, ProgressDrawTarget, ProgressState, ProgressStyle};
 use std::fmt::{Arguments, Write};
 use std::io::IsTerminal;
-use stickslip_results::Watcher;
+use stickslip_run::Watcher;
 
 /// Ticks of a bar: one per 0.01 %.
 const TICKS: u64 = 10_000;

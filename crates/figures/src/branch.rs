@@ -3,8 +3,8 @@
 use crate::look::{Look, Pen, Picture};
 use crate::pictures::FigureError;
 use stickslip_plot::{BranchCourse, Stretch, branch_figure};
-use stickslip_results::provenance::{HASH, PROGRAM, SCENARIO, TITLE};
-use stickslip_results::{Real, quantity};
+use stickslip_run::provenance::{HASH, PROGRAM, SCENARIO, TITLE};
+use stickslip_run::{Real, quantity};
 use stickslip_study::steady::Multiplier;
 use stickslip_study::steady::continuation::{Branch, Continuation, Mark, Point};
 

@@ -1,9 +1,9 @@
 //! The picture of a comparison: the channels that differ most, both runs and the difference.
 
 use std::path::Path;
+use stickslip_compare::{ChannelDifference, CommonRows, Comparison, Results};
 use stickslip_plot::{ComparedChannel, Figure, PlotError, compare_figure, draw_png, draw_svg};
-use stickslip_results::compare::{ChannelDifference, CommonRows, Comparison, Results};
-use stickslip_results::program::this_program;
+use stickslip_run::program::this_program;
 
 /// Channels shown at most.
 const SHOWN: usize = 3;

@@ -5,8 +5,8 @@ pub mod holding;
 use crate::look::{Look, Pen, Picture};
 use crate::pictures::FigureError;
 use stickslip_plot::{MachineCourse, MachineCurve, MachineLine, machine_figure};
-use stickslip_results::provenance::{HASH, PROGRAM, SCENARIO, TITLE};
-use stickslip_results::{Job, Real, Warning, quantity};
+use stickslip_run::provenance::{HASH, PROGRAM, SCENARIO, TITLE};
+use stickslip_run::{Job, Real, Warning, quantity};
 use stickslip_study::curve::{Curve, Motion, Point, Sense, Traced, Way};
 
 /// Name of the picture, and of that of a curve that was interrupted, beside which a finished one stays.

@@ -7,10 +7,10 @@ use crate::pictures::{self, FigureError, Sources};
 use std::io;
 use std::path::{Path, PathBuf};
 use stickslip_drive::RunError;
-use stickslip_results::complaint::words;
-use stickslip_results::files::InsideTables;
-use stickslip_results::folder::Folder;
-use stickslip_results::{Excess, Job, Recorder, Watcher};
+use stickslip_run::complaint::words;
+use stickslip_run::files::InsideTables;
+use stickslip_run::folder::Folder;
+use stickslip_run::{Excess, Job, Recorder, Watcher};
 use thiserror::Error;
 
 pub use page::{Exhibit, page};

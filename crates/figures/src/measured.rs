@@ -3,9 +3,9 @@
 use crate::look::{Look, Pen, Picture};
 use crate::pictures::FigureError;
 use stickslip_plot::{HysteresisLoop, Ink, loop_figure};
-use stickslip_results::measured::middle;
-use stickslip_results::program::this_program;
-use stickslip_results::provenance::{PROGRAM, TITLE};
+use stickslip_run::measured::middle;
+use stickslip_run::program::this_program;
+use stickslip_run::provenance::{PROGRAM, TITLE};
 
 /// Name of the picture.
 pub const NAME: &str = "loop";

@@ -4,10 +4,10 @@ use std::fs::File;
 use std::io::{self, Read};
 use std::path::{Path, PathBuf};
 use stickslip_plot::{PlotError, read_text};
-use stickslip_results::complaint::words;
-use stickslip_results::fingerprint::{Fingerprint, FingerprintError};
-use stickslip_results::provenance::{END, FINGERPRINT, HASH, PROGRAM, SCENARIO, TITLE};
-use stickslip_results::{Job, hash};
+use stickslip_run::complaint::words;
+use stickslip_run::fingerprint::{Fingerprint, FingerprintError};
+use stickslip_run::provenance::{END, FINGERPRINT, HASH, PROGRAM, SCENARIO, TITLE};
+use stickslip_run::{Job, hash};
 use stickslip_scenario::{Scenario, ScenarioError};
 use thiserror::Error;
 

@@ -4,8 +4,8 @@ use crate::look::{Look, Pen, Picture};
 use crate::pictures::{self, FigureError, Sources};
 use std::sync::Mutex;
 use stickslip_plot::{Axis, Figure, Panel, overlaid};
-use stickslip_results::program::this_program;
-use stickslip_results::provenance::{HASH, PROGRAM, TITLE};
+use stickslip_run::program::this_program;
+use stickslip_run::provenance::{HASH, PROGRAM, TITLE};
 use stickslip_scenario::PlotName;
 
 /// Pictures that can be drawn over each other: curves alone.

@@ -10,8 +10,8 @@ use stickslip_plot::{
 use stickslip_realtime::session::Ended;
 use stickslip_realtime::worst::{KINDS, kind};
 use stickslip_realtime::{Histogram, Report, Timing};
-use stickslip_results::Job;
-use stickslip_results::provenance::{HASH, PROGRAM, SCENARIO, TITLE};
+use stickslip_run::Job;
+use stickslip_run::provenance::{HASH, PROGRAM, SCENARIO, TITLE};
 
 /// Names of the pictures.
 pub const NAMES: [&str; 2] = ["realtime", "timeline"];

@@ -3,7 +3,7 @@
 use crate::look::{Look, Pen, Picture};
 use crate::pictures::FigureError;
 use stickslip_plot::{Bar, Tornado, tornado_figure};
-use stickslip_results::provenance::{HASH, PROGRAM, SCENARIO, TITLE};
+use stickslip_run::provenance::{HASH, PROGRAM, SCENARIO, TITLE};
 use stickslip_study::sensitivity::{Sensitivity, Taken};
 
 /// Name of the picture, and of that of derivatives that were interrupted, beside which a finished one stays.

@@ -4,8 +4,8 @@ use crate::look::{Look, Pen, Picture};
 use crate::pictures::{FigureError, alike, trajectory::tracks_of};
 use stickslip_drive::scene::Axis;
 use stickslip_plot::{OrbitCourse, Track, orbit_figure};
-use stickslip_results::provenance::{HASH, PROGRAM, SCENARIO, TITLE};
-use stickslip_results::{Job, Series};
+use stickslip_run::provenance::{HASH, PROGRAM, SCENARIO, TITLE};
+use stickslip_run::{Job, Series};
 use stickslip_study::steady::Steady;
 
 /// Name of the picture.

@@ -12,9 +12,9 @@ use stickslip_plot::{
     Figure, FrictionWork, HysteresisLoop, PlotError, ProfilePair, anchors_figure, fields_figure,
     friction_figure, marked_loop_figure, profile_figure, substitute_figure,
 };
-use stickslip_results::program::this_program;
-use stickslip_results::provenance::{HASH, PROGRAM, SCENARIO, TITLE};
-use stickslip_results::theory::{BEYOND, Sheet, Stop, Subject, Walk};
+use stickslip_run::program::this_program;
+use stickslip_run::provenance::{HASH, PROGRAM, SCENARIO, TITLE};
+use stickslip_run::theory::{BEYOND, Sheet, Stop, Subject, Walk};
 
 /// Names of the pictures.
 pub const NAMES: [&str; 7] = ["substitute", "fields", "loop", "profile", "memory", "friction", "cycle"];

@@ -2,7 +2,7 @@
 
 use crate::panel::Axis;
 use crate::{Label, PlotError};
-use stickslip_analysis::prefix::{Prefix, takes_prefix};
+use stickslip_quantity::{Prefix, takes_prefix};
 
 /// An axis ready to be drawn.
 #[derive(Debug, Clone, PartialEq)]

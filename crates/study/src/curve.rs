@@ -36,7 +36,7 @@ use crate::each::each;
 use std::convert::Infallible;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicUsize, Ordering};
-use stickslip_results::{Job, Warning, Watcher};
+use stickslip_run::{Job, Warning, Watcher};
 use stickslip_scenario::{Scenario, ScenarioError};
 
 /// How exactly the stall is known that a range ends beyond, and how far beyond.

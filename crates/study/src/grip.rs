@@ -2,7 +2,7 @@
 
 use stickslip_drive::scene::Side;
 use stickslip_drive::{Event, Model, Run, Source};
-use stickslip_results::Job;
+use stickslip_run::Job;
 
 /// What a body does that nothing holds.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -3,8 +3,8 @@
 
 use serde::Serialize;
 use std::io;
-use stickslip_results::folder::Folder;
-use stickslip_results::hash;
+use stickslip_run::folder::Folder;
+use stickslip_run::hash;
 
 /// Names of a table and of what is told of all: of a whole study, and of one that was interrupted.
 pub(crate) type Names = [[&'static str; 2]; 2];

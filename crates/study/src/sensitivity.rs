@@ -32,7 +32,7 @@ use ladder::Tried;
 use sample::{Happened, Ran, Sample};
 use std::path::Path;
 use std::sync::atomic::AtomicUsize;
-use stickslip_results::{Job, Watcher};
+use stickslip_run::{Job, Watcher};
 
 /// What derivatives are asked for.
 #[derive(Debug, Clone, PartialEq)]

@@ -42,7 +42,7 @@ use newton::Fixed;
 use stickslip_drive::scene::Axis;
 use stickslip_drive::section::Section;
 use stickslip_drive::{Model, State};
-use stickslip_results::Job;
+use stickslip_run::Job;
 
 /// How steady motion is looked for.
 #[derive(Clone, Copy)]

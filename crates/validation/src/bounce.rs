@@ -3,7 +3,7 @@
 use crate::subject::ValidationError;
 use crate::table::significant;
 use stickslip_drive::scene::Axis;
-use stickslip_results::{Job, Watcher};
+use stickslip_run::{Job, Watcher};
 use stickslip_scenario::Scenario;
 
 /// The example.

@@ -8,7 +8,7 @@ use crate::picture::{axis, curve, points};
 use crate::subject::ValidationError;
 use crate::table::{Table, places};
 use stickslip_plot::{Arrangement, Figure, Ink, Label, Panel};
-use stickslip_results::Watcher;
+use stickslip_run::Watcher;
 
 pub(crate) const NAME: &str = "finite_elements";
 

@@ -8,7 +8,7 @@ use crate::picture::{axis, curve, line, points};
 use crate::subject::ValidationError;
 use crate::table::{Table, places};
 use stickslip_plot::{Arrangement, Dash, Figure, Ink, Label, Panel};
-use stickslip_results::Watcher;
+use stickslip_run::Watcher;
 
 pub(crate) const NAME: &str = "measured_impact";
 

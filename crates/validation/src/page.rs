@@ -4,9 +4,9 @@ use crate::check::Check;
 use crate::table::{Table, wrapped};
 use std::fmt::Write;
 use stickslip_plot::{Figure, PlotError, draw_png};
-use stickslip_results::markdown::plain;
-use stickslip_results::program::this_program;
-use stickslip_results::provenance;
+use stickslip_run::markdown::plain;
+use stickslip_run::program::this_program;
+use stickslip_run::provenance;
 
 /// What a reference is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -4,7 +4,7 @@ use crate::page::Page;
 use crate::{closed_forms, contact_bem, finite_elements, impact_theory, measured_impact, oblique_loading};
 use stickslip_contact::{ContactError, FirstLoadingError, FrictionError, MaterialError, ProfileError};
 use stickslip_drive::RunError;
-use stickslip_results::Watcher;
+use stickslip_run::Watcher;
 use stickslip_scenario::ScenarioError;
 use thiserror::Error;
 

@@ -14,7 +14,7 @@ use crate::contestant::{Contestant, Stop};
 use crate::samples::Samples;
 use std::time::{Duration, Instant};
 use stickslip_drive::Counts;
-use stickslip_results::Watcher;
+use stickslip_run::Watcher;
 use trip::Trip;
 
 /// ode_solvers' Dopri5 with events by hand.

@@ -22,7 +22,7 @@ use driven::{Driven, Table};
 use std::hint::black_box;
 use std::time::Instant;
 use stickslip_drive::Counts;
-use stickslip_results::Watcher;
+use stickslip_run::Watcher;
 use walk::{Contact, Walk, Walker};
 
 /// Most free coordinates; each number of them has its own loop.
@@ -153,7 +153,7 @@ mod tests {
     use crate::family::{Method, families};
     use crate::problem::Problem;
     use std::path::Path;
-    use stickslip_results::Job;
+    use stickslip_run::Job;
 
     fn problem(name: &str) -> Problem {
         let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..").join(name);

@@ -7,7 +7,7 @@ use crate::samples::Samples;
 use std::hint::black_box;
 use stickslip_drive::scene::{Freedom, Normal, Varying};
 use stickslip_drive::{Counts, Model, Scene, Shape};
-use stickslip_results::Watcher;
+use stickslip_run::Watcher;
 
 /// Periods closer to a whole number are one.
 const WHOLE: f64 = 1e-9;

@@ -7,7 +7,7 @@ use crate::norm::{self, Norm};
 use crate::samples::Samples;
 use stickslip_drive::Stepper;
 use stickslip_realtime::Plant;
-use stickslip_results::Watcher;
+use stickslip_run::Watcher;
 
 /// Lengths of frames, s: each divides the longest.
 pub(super) const LENGTHS: [f64; 10] = [1e-6, 2e-6, 5e-6, 10e-6, 20e-6, 50e-6, 100e-6, 200e-6, 500e-6, 1e-3];

@@ -10,9 +10,9 @@ use std::io;
 use std::path::Path;
 use stickslip_realtime::plant::{Work, counted};
 use stickslip_realtime::{Histogram, Timing};
-use stickslip_results::folder;
-use stickslip_results::markdown::{link, plain, relative, word};
-use stickslip_results::program::this_program;
+use stickslip_run::folder;
+use stickslip_run::markdown::{link, plain, relative, word};
+use stickslip_run::program::this_program;
 
 const CHOICE: &str = "\
 **Loops.** Each computes its frames one after the other, nothing waits; then some seconds of frames after a clock. `frames` has an

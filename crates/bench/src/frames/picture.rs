@@ -6,8 +6,8 @@ use stickslip_plot::{
 };
 use stickslip_realtime::worst::{KINDS, Slow, kind};
 use stickslip_realtime::{Histogram, Timing};
-use stickslip_results::program::this_program;
-use stickslip_results::provenance;
+use stickslip_run::program::this_program;
+use stickslip_run::provenance;
 
 /// How many of the slowest frames of a loop are marked.
 const MARKED: usize = 10;

@@ -5,7 +5,7 @@ use stickslip_realtime::pace::{self, Cycle, Stop};
 use stickslip_realtime::plant::{Empty, Input, Output, Work, counted};
 use stickslip_realtime::worst::Slow;
 use stickslip_realtime::{Drive, Overrun, Pace, Plant, Timing};
-use stickslip_results::Watcher;
+use stickslip_run::Watcher;
 
 /// Share of half its range by which an input goes in a frame, at most.
 const SHARE: f64 = 0.02;

@@ -67,7 +67,7 @@ mod tests {
     use super::Walk;
     use std::path::Path;
     use stickslip_realtime::plant::inputs;
-    use stickslip_results::Job;
+    use stickslip_run::Job;
 
     #[test]
     fn a_walk_moves_in_every_frame_and_stays_in_its_range() {

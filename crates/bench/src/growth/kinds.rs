@@ -5,7 +5,7 @@ use super::scenes::{PERIOD, drive, remembering};
 use stickslip_contact::Memory;
 use stickslip_drive::scene::EngineChoice;
 use stickslip_drive::{Limits, Model, Plan, Scene, Stepper};
-use stickslip_results::Unrecorded;
+use stickslip_run::Unrecorded;
 
 /// Something that there can be more of.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -10,7 +10,7 @@ use std::sync::mpsc::{self, RecvTimeoutError, Sender};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::thread;
 use std::time::{Duration, Instant};
-use stickslip_results::Watcher;
+use stickslip_run::Watcher;
 
 /// Between two looks at who has not come back.
 const PAUSE: Duration = Duration::from_millis(200);

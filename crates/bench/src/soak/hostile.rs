@@ -15,7 +15,7 @@ mod verify;
 use super::crew::{Work, conduct};
 use super::finding::Finding;
 use std::time::Duration;
-use stickslip_results::Watcher;
+use stickslip_run::Watcher;
 
 pub use record::write_record;
 

@@ -3,7 +3,7 @@
 use crate::arguments::assignment;
 use clap::Args;
 use std::path::PathBuf;
-use stickslip_results::compare::Terms;
+use stickslip_compare::Terms;
 use stickslip_scenario::quantity;
 
 /// Long help; paragraphs are broken where the terminal ends.

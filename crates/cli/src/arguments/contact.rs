@@ -5,7 +5,7 @@ use super::look::LookArguments;
 use clap::Args;
 use std::path::PathBuf;
 use stickslip_contact::{NormalGiven, TangentialGiven};
-use stickslip_results::theory::asked;
+use stickslip_run::theory::asked;
 
 /// Long help; paragraphs are broken where the terminal ends.
 pub(crate) const ABOUT: &str = "\

@@ -14,9 +14,9 @@ use stickslip_console::progress::Progress;
 use stickslip_console::table;
 use stickslip_console::verdict::Verdict;
 use stickslip_figures::{FigureError, curve as picture};
-use stickslip_results::complaint::words;
-use stickslip_results::folder::{Folder, sweep};
-use stickslip_results::{Job, Real, Warning, quantity};
+use stickslip_run::complaint::words;
+use stickslip_run::folder::{Folder, sweep};
+use stickslip_run::{Job, Real, Warning, quantity};
 use stickslip_study::curve::{self, Curve, CurveError, Kind, Point, Range, Traced, Way};
 use thiserror::Error;
 

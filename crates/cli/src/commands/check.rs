@@ -6,7 +6,7 @@ use std::path::Path;
 use stickslip_console::answer::warn;
 use stickslip_console::answer::{complain, say, say_json};
 use stickslip_console::verdict::Verdict;
-use stickslip_results::{Job, Refusal};
+use stickslip_run::{Job, Refusal};
 use stickslip_scenario::Report;
 
 /// What is found of a file, for machines.

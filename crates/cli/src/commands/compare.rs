@@ -5,12 +5,12 @@ mod account;
 use crate::arguments::CompareArguments;
 use std::io;
 use std::path::PathBuf;
+use stickslip_compare::{CompareError, Comparison, Results, Verdict as Outcome};
 use stickslip_console::answer::{complain, say, say_json};
 use stickslip_console::verdict::Verdict;
 use stickslip_figures::comparison::{self, Form};
 use stickslip_plot::PlotError;
-use stickslip_results::compare::{CompareError, Comparison, Results, Verdict as Outcome};
-use stickslip_results::complaint::words;
+use stickslip_run::complaint::words;
 use thiserror::Error;
 
 /// Why two folders are not compared, or not drawn.
@@ -66,7 +66,7 @@ fn compare(arguments: &CompareArguments) -> Result<Comparison, CompareFailure> {
     let (mut comparison, rows) = Comparison::new(&a, &b, &arguments.terms())?;
     if let (Some(file), Some(form)) = (&arguments.plot, form) {
         let (bytes, names) = comparison::draw((&a, &b), &comparison, &rows, form)?;
-        stickslip_results::folder::write(file, &bytes)
+        stickslip_run::folder::write(file, &bytes)
             .map_err(|source| CompareFailure::NotWritten { path: file.clone(), source })?;
         comparison.notes.push(format!("drawn in {}: {}", file.display(), names.join(", ")));
     }

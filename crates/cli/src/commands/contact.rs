@@ -9,12 +9,12 @@ use stickslip_console::verdict::Verdict;
 use stickslip_contact::TangentialGiven;
 use stickslip_figures::FigureError;
 use stickslip_figures::theory;
-use stickslip_results::complaint::words;
-use stickslip_results::folder::{Folder, sweep};
-use stickslip_results::theory::{
+use stickslip_run::complaint::words;
+use stickslip_run::folder::{Folder, sweep};
+use stickslip_run::theory::{
     Beside, CONTACT, Corner, History, Sheet, Subject, TABLES, Tangential, TheoryError, Walk, json, write,
 };
-use stickslip_results::{Job, Refusal};
+use stickslip_run::{Job, Refusal};
 use thiserror::Error;
 
 /// Points of the tables that are printed, and of those that are written.

@@ -2,7 +2,7 @@
 
 use stickslip_console::answer::{complain, say};
 use stickslip_console::verdict::Verdict;
-use stickslip_results::definitions;
+use stickslip_run::definitions;
 use stickslip_scenario::{explained, suggestion};
 
 /// Explains every name, or says that nothing has it.

@@ -10,13 +10,13 @@ use std::path::Path;
 use std::time::Instant;
 use stickslip_console::answer::{complain, say, say_json, warn};
 use stickslip_console::verdict::Verdict;
-use stickslip_results::Job;
-use stickslip_results::Parts;
-use stickslip_results::Warning;
-use stickslip_results::info::{
+use stickslip_run::Job;
+use stickslip_run::Parts;
+use stickslip_run::Warning;
+use stickslip_run::info::{
     self, BodyInfo, ContactInfo, Expectation, ModeInfo, PiezoInfo, Stepping, Usage, WaveformInfo,
 };
-use stickslip_results::outlook::Outlook;
+use stickslip_run::outlook::Outlook;
 use stickslip_study::steady::outlook;
 
 /// Derived numbers of a scenario, in SI.

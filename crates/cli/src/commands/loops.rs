@@ -3,16 +3,16 @@
 use crate::arguments::LoopArguments;
 use std::io;
 use std::path::{Path, PathBuf};
-use stickslip_analysis::Cycle;
 use stickslip_console::answer::{complain, say};
 use stickslip_console::table;
 use stickslip_console::verdict::Verdict;
 use stickslip_figures::FigureError;
 use stickslip_figures::measured::{self as picture, Curve, Loops};
-use stickslip_results::complaint::words;
-use stickslip_results::folder::{Folder, sweep};
-use stickslip_results::measured::{Measured, MeasuredCycle, MeasuredError, Named, simulated, table};
-use stickslip_results::{Real, Results, ResultsError, quantity};
+use stickslip_measure::Cycle;
+use stickslip_run::complaint::words;
+use stickslip_run::folder::{Folder, sweep};
+use stickslip_run::measured::{Measured, MeasuredCycle, MeasuredError, Named, simulated, table};
+use stickslip_run::{Real, Results, ResultsError, quantity};
 use stickslip_scenario::PlotName;
 use thiserror::Error;
 

@@ -5,9 +5,9 @@ use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use stickslip_console::answer::{complain, say};
 use stickslip_console::verdict::Verdict;
-use stickslip_results::complaint::words;
-use stickslip_results::folder;
-use stickslip_results::markdown::word;
+use stickslip_run::complaint::words;
+use stickslip_run::folder;
+use stickslip_run::markdown::word;
 use stickslip_scenario::{Scenario, schema};
 use thiserror::Error;
 

@@ -8,9 +8,9 @@ use std::path::{Path, PathBuf};
 use stickslip_console::answer::{complain, say};
 use stickslip_console::verdict::Verdict;
 use stickslip_figures::{FigureError, Look, Sources};
-use stickslip_results::complaint::words;
-use stickslip_results::folder::{Folder, sweep};
-use stickslip_results::{Results, ResultsError};
+use stickslip_run::complaint::words;
+use stickslip_run::folder::{Folder, sweep};
+use stickslip_run::{Results, ResultsError};
 use stickslip_scenario::PlotName;
 use thiserror::Error;
 

@@ -19,7 +19,7 @@ use stickslip_realtime::Report;
 use stickslip_realtime::pace::Stop;
 use stickslip_realtime::report::{Subject, text};
 use stickslip_realtime::session::{self, Ended};
-use stickslip_results::Job;
+use stickslip_run::Job;
 use wires::Wires;
 
 /// Runs a drive in real time.

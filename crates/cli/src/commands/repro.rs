@@ -10,11 +10,11 @@ use stickslip_console::progress::Progress;
 use stickslip_console::verdict::Verdict;
 use stickslip_drive::RunError;
 use stickslip_figures::{Origin, OriginError};
-use stickslip_results::complaint::words;
-use stickslip_results::fingerprint::{Difference, Differing, Fingerprint};
-use stickslip_results::folder::Folder;
-use stickslip_results::program::this_program;
-use stickslip_results::{Recorder, SynopsisError, check_published};
+use stickslip_run::complaint::words;
+use stickslip_run::fingerprint::{Difference, Differing, Fingerprint};
+use stickslip_run::folder::Folder;
+use stickslip_run::program::this_program;
+use stickslip_run::{Recorder, SynopsisError, check_published};
 use thiserror::Error;
 
 /// Most differences of a table that are shown.

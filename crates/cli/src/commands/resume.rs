@@ -5,7 +5,7 @@ use crate::commands::run::{Beginning, Task, conduct};
 use std::collections::HashSet;
 use std::path::PathBuf;
 use stickslip_console::verdict::Verdict;
-use stickslip_results::checkpoint::{CheckpointError, Resumption};
+use stickslip_run::checkpoint::{CheckpointError, Resumption};
 
 /// Goes on with all runs; the worst ending counts. A folder that is refused does not keep the others from going on.
 pub(crate) fn resume(arguments: &ResumeArguments) -> Verdict {

@@ -14,7 +14,7 @@ use stickslip_console::answer::{complain, say, say_json, warn};
 use stickslip_console::interrupt::Interrupt;
 use stickslip_console::progress::Progress;
 use stickslip_console::verdict::Verdict;
-use stickslip_results::{Job, Refusal};
+use stickslip_run::{Job, Refusal};
 
 pub(crate) use report::Report;
 pub(crate) use scenario::{Beginning, Conduct, run as run_job, write};

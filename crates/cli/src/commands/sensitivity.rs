@@ -11,9 +11,9 @@ use stickslip_console::progress::Progress;
 use stickslip_console::table;
 use stickslip_console::verdict::Verdict;
 use stickslip_figures::{FigureError, sensitivity as picture};
-use stickslip_results::complaint::words;
-use stickslip_results::folder::{Folder, sweep};
-use stickslip_results::{Real, quantity};
+use stickslip_run::complaint::words;
+use stickslip_run::folder::{Folder, sweep};
+use stickslip_run::{Real, quantity};
 use stickslip_study::sensitivity::{self, Asked, Sensitivity, SensitivityError, Taken};
 use thiserror::Error;
 

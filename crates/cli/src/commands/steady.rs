@@ -12,11 +12,11 @@ use stickslip_console::place::{self, Unwritable};
 use stickslip_console::progress::Progress;
 use stickslip_console::verdict::Verdict;
 use stickslip_figures::{FigureError, steady as picture};
-use stickslip_results::checkpoint::{self, Keeper};
-use stickslip_results::complaint::words;
-use stickslip_results::files::STEADY;
-use stickslip_results::folder::{Folder, sweep};
-use stickslip_results::{Job, Refusal, Watcher};
+use stickslip_run::checkpoint::{self, Keeper};
+use stickslip_run::complaint::words;
+use stickslip_run::files::STEADY;
+use stickslip_run::folder::{Folder, sweep};
+use stickslip_run::{Job, Refusal, Watcher};
 use stickslip_study::steady::{Aftermath, Options, Orbit, Report, Steady, SteadyError, find};
 use thiserror::Error;
 

@@ -66,7 +66,7 @@ pub enum BytesError {
 impl State {
     /// The state as bytes, under a key that tells its model from all others.
     ///
-    /// `key` is the caller's: a hash of whatever the model was made from, such as the crate `stickslip-results` makes of a
+    /// `key` is the caller's: a hash of whatever the model was made from, such as the crate `stickslip-run` makes of a
     /// scenario. What inputs have been supplied is inside, and what
     /// generators have been commanded. Bytes are read on any machine; to the same bits goes on whatever
     /// computes alike, which one build does.

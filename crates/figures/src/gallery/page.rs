@@ -5,8 +5,8 @@ use crate::pictures::shows;
 use std::fmt::Write;
 use std::io;
 use std::path::{Path, PathBuf};
-use stickslip_results::Job;
-use stickslip_results::markdown::{link, plain, relative, word};
+use stickslip_run::Job;
+use stickslip_run::markdown::{link, plain, relative, word};
 use stickslip_scenario::PlotName;
 
 /// The pictures of a scenario.

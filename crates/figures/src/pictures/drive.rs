@@ -6,7 +6,7 @@ use super::{Kind, Sources, Undrawn, alike};
 use crate::look::{Pen, Picture};
 use stickslip_drive::scene::{Axis, Varying};
 use stickslip_plot::{DriveCourse, Supply, Track, drive_figure};
-use stickslip_results::{Job, Kept, Periods, Series};
+use stickslip_run::{Job, Kept, Periods, Series};
 use stickslip_scenario::{Piezo, PlotName};
 
 pub(super) const KIND: Kind = Kind {

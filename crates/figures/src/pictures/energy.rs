@@ -4,7 +4,7 @@ use super::period::LastPeriod;
 use super::{Kind, Sources, Undrawn};
 use crate::look::{Pen, Picture};
 use stickslip_plot::{EnergyBook, energy_figure, enlarged_beside};
-use stickslip_results::{ENERGY, Series};
+use stickslip_run::{ENERGY, Series};
 use stickslip_scenario::PlotName;
 
 pub(super) const KIND: Kind = Kind {

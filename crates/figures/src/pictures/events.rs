@@ -5,7 +5,7 @@ use super::{Kind, Sources, Undrawn, whole_title};
 use crate::look::{Pen, Picture};
 use std::collections::HashMap;
 use stickslip_plot::{EventTrack, enlarged_below, events_figure};
-use stickslip_results::Track;
+use stickslip_run::Track;
 use stickslip_scenario::PlotName;
 
 pub(super) const KIND: Kind =

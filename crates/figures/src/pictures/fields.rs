@@ -5,9 +5,9 @@ use crate::look::{Pen, Picture};
 use crate::theory::moments::condition;
 use stickslip_contact::SpringState;
 use stickslip_plot::{FieldsMoment, FieldsZone, fields_figure};
-use stickslip_results::apart;
-use stickslip_results::files::FIELDS;
-use stickslip_results::moments::{self, OverRadius};
+use stickslip_run::apart;
+use stickslip_run::files::FIELDS;
+use stickslip_run::moments::{self, OverRadius};
 use stickslip_scenario::PlotName;
 
 /// Moments in one picture, at most.

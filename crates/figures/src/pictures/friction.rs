@@ -3,10 +3,10 @@
 use super::{Kind, Sources, Undrawn, written};
 use crate::look::{Pen, Picture};
 use stickslip_plot::{FrictionWork, friction_figures};
-use stickslip_results::apart;
-use stickslip_results::curves;
-use stickslip_results::files::FRICTION;
-use stickslip_results::moments::{self, OverRadius};
+use stickslip_run::apart;
+use stickslip_run::curves;
+use stickslip_run::files::FRICTION;
+use stickslip_run::moments::{self, OverRadius};
 use stickslip_scenario::PlotName;
 
 /// Contacts in one picture, at most.

@@ -3,11 +3,11 @@
 use super::{Kind, Sources, Undrawn, alike, of_contacts, whole_title};
 use crate::look::{Pen, Picture};
 use stickslip_plot::{HysteresisLoop, Ink, loop_figure};
-use stickslip_results::Job;
-use stickslip_results::Kept;
-use stickslip_results::Periods;
-use stickslip_results::Trail;
-use stickslip_results::contact_path;
+use stickslip_run::Job;
+use stickslip_run::Kept;
+use stickslip_run::Periods;
+use stickslip_run::Trail;
+use stickslip_run::contact_path;
 use stickslip_scenario::PlotName;
 
 pub(super) const KIND: Kind = Kind {

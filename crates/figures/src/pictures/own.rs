@@ -3,8 +3,8 @@
 use super::{Kind, Sources, Undrawn};
 use crate::look::{Pen, Picture, own_name};
 use stickslip_plot::{Arrangement, Axis, Figure, Label, Panel, Series as Curve};
-use stickslip_results::compare::unit;
-use stickslip_results::{Job, Series};
+use stickslip_quantity::names::unit;
+use stickslip_run::{Job, Series};
 use stickslip_scenario::OwnPlot;
 
 pub(super) const KIND: Kind = Kind { shows: "channels over a channel", needs, draw };

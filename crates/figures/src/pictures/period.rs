@@ -1,6 +1,6 @@
 //! The last period of a long run, which stands enlarged beside or below the whole: there its ringing is a solid band.
 
-use stickslip_results::{Job, Kept, Periods, Series};
+use stickslip_run::{Job, Kept, Periods, Series};
 
 /// A run of more periods than this is long.
 const MOST_PERIODS: usize = 10;

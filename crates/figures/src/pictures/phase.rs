@@ -4,10 +4,10 @@ use super::{Kind, Sources, Undrawn};
 use crate::look::{Pen, Picture};
 use stickslip_drive::scene::{Axis, Freedom};
 use stickslip_plot::{Coordinate, PhasePath, phase_figure};
-use stickslip_results::Job;
-use stickslip_results::Kept;
-use stickslip_results::Periods;
-use stickslip_results::Trail;
+use stickslip_run::Job;
+use stickslip_run::Kept;
+use stickslip_run::Periods;
+use stickslip_run::Trail;
 use stickslip_scenario::PlotName;
 
 pub(super) const KIND: Kind = Kind {

@@ -4,8 +4,8 @@ use super::{Kind, Sources, Undrawn, written};
 use crate::look::{Pen, Picture};
 use crate::theory::moments::condition;
 use stickslip_plot::{SpringCondition, SpringMap, state_figure};
-use stickslip_results::files::SPRINGS;
-use stickslip_results::springs::{self, Springs};
+use stickslip_run::files::SPRINGS;
+use stickslip_run::springs::{self, Springs};
 use stickslip_scenario::PlotName;
 
 pub(super) const KIND: Kind =

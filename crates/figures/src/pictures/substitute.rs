@@ -4,9 +4,9 @@ use super::{Kind, Sources, Undrawn, of_all, written};
 use crate::look::{Pen, Picture};
 use stickslip_contact::{Interface, Springs};
 use stickslip_plot::{SpringCondition, SubstituteMoment, substitute_figure};
-use stickslip_results::apart;
-use stickslip_results::curves::{self, MemoryCurve};
-use stickslip_results::files::MEMORY;
+use stickslip_run::apart;
+use stickslip_run::curves::{self, MemoryCurve};
+use stickslip_run::files::MEMORY;
 use stickslip_scenario::PlotName;
 
 /// Drawings in one picture, at most.

@@ -6,9 +6,9 @@ use super::{Kind, Sources, Undrawn, alike, of_contacts};
 use crate::look::{Pen, Picture};
 use stickslip_drive::scene::{Axis, Body, Freedom, Named, Side};
 use stickslip_plot::{Coordinate, Motion, Track, Trajectory, enlarged_beside, trajectory_figure};
-use stickslip_results::Job;
-use stickslip_results::Kept;
-use stickslip_results::Series;
+use stickslip_run::Job;
+use stickslip_run::Kept;
+use stickslip_run::Series;
 use stickslip_scenario::PlotName;
 
 pub(super) const KIND: Kind = Kind {

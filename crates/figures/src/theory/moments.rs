@@ -3,8 +3,8 @@
 use super::spread;
 use stickslip_contact::{Interface, SpringState, Zone, ZoneKind};
 use stickslip_plot::{AnchorMoment, FieldsMoment, FieldsZone, SpringCondition, SubstituteMoment};
-use stickslip_results::theory::{Moment, Walk};
-use stickslip_results::{Real, quantity};
+use stickslip_run::theory::{Moment, Walk};
+use stickslip_run::{Real, quantity};
 
 /// Corners in one picture, at most.
 const MOST: usize = 6;

@@ -7,7 +7,7 @@ use stickslip_console::interrupt::Interrupt;
 use stickslip_console::progress::Progress;
 use stickslip_console::verdict::Verdict;
 use stickslip_drive::RunError;
-use stickslip_results::{Job, Refusal};
+use stickslip_run::{Job, Refusal};
 use thiserror::Error;
 
 /// Why there is no measurement.

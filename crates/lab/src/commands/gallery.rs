@@ -10,9 +10,9 @@ use stickslip_console::progress::Progress;
 use stickslip_console::verdict::Verdict;
 use stickslip_drive::RunError;
 use stickslip_figures::gallery::{self, Exhibit, GalleryError};
-use stickslip_results::complaint::words;
-use stickslip_results::folder::Folder;
-use stickslip_results::{Job, Refusal};
+use stickslip_run::complaint::words;
+use stickslip_run::folder::Folder;
+use stickslip_run::{Job, Refusal};
 use thiserror::Error;
 
 /// Name of the page.

@@ -11,8 +11,8 @@ use stickslip_console::interrupt::Interrupt;
 use stickslip_console::progress::Progress;
 use stickslip_console::table;
 use stickslip_console::verdict::Verdict;
-use stickslip_results::complaint::words;
-use stickslip_results::folder::Folder;
+use stickslip_run::complaint::words;
+use stickslip_run::folder::Folder;
 use thiserror::Error;
 
 /// Why not everything was done.

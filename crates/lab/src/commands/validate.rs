@@ -9,9 +9,9 @@ use stickslip_console::progress::Progress;
 use stickslip_console::verdict::Verdict;
 use stickslip_drive::RunError;
 use stickslip_plot::PlotError;
-use stickslip_results::Watcher;
-use stickslip_results::complaint::words;
-use stickslip_results::folder::Folder;
+use stickslip_run::Watcher;
+use stickslip_run::complaint::words;
+use stickslip_run::folder::Folder;
 use stickslip_validation::{Page, Subject, ValidationError, index};
 use thiserror::Error;
 

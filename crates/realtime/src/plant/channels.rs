@@ -227,7 +227,7 @@ fn output(model: &Model, name: String, place: usize) -> Output {
 mod tests {
     use super::*;
     use crate::plant::{Drive, Plant};
-    use stickslip_results::Job;
+    use stickslip_run::Job;
 
     #[test]
     fn by_default_nothing_is_told_that_takes_a_row() {

@@ -10,7 +10,7 @@ use stickslip_realtime::system::Favours;
 use stickslip_realtime::tape::{Form, Reel, tape};
 use stickslip_realtime::wire;
 use stickslip_realtime::{Drive, Intake, Overrun, Pace, Sink, Source};
-use stickslip_results::Job;
+use stickslip_run::Job;
 
 /// Number of the scenario in packets.
 pub(crate) const SCENARIO: u64 = 0x5ca1_ab1e;

@@ -1,6 +1,6 @@
 //! Why there is no curve at all. What is wrong with a single point stands in its row.
 
-use stickslip_results::Refusal;
+use stickslip_run::Refusal;
 use stickslip_scenario::ScenarioError;
 use thiserror::Error;
 

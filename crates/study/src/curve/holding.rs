@@ -17,7 +17,7 @@ use crate::each::each;
 use held::Still;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicUsize, Ordering};
-use stickslip_results::{Job, Warning, Watcher};
+use stickslip_run::{Job, Warning, Watcher};
 use stickslip_scenario::Scenario;
 
 /// Its name as a curve.

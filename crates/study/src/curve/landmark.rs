@@ -4,7 +4,7 @@ use super::ahead::{self, Found};
 use super::{Bracket, Curve, CurveError, Kind, Motion, Motionless, Peak, Point, Seen, Traced};
 use crate::each::each;
 use std::sync::{Mutex, PoisonError};
-use stickslip_results::Watcher;
+use stickslip_run::Watcher;
 use thiserror::Error;
 
 /// A point of a curve that has a name.

@@ -6,7 +6,7 @@
 use super::waiting::{Unstable, waited};
 use crate::steady::{self, Multiplier, Options, SteadyError};
 use stickslip_drive::{RunError, Waveform};
-use stickslip_results::{Job, Watcher};
+use stickslip_run::{Job, Watcher};
 use stickslip_scenario::ScenarioError;
 use thiserror::Error;
 

@@ -1,7 +1,7 @@
 //! The points of a curve, each the steady motion of a scene of its own.
 
 use super::{Curve, Landmark, Motion, Motionless, Traced, Unfound};
-use stickslip_results::Warning;
+use stickslip_run::Warning;
 
 /// A point of a curve.
 #[derive(Debug, Clone, PartialEq)]

@@ -5,9 +5,9 @@ use crate::published::{self, Names};
 use serde::Serialize;
 use std::fmt::Write;
 use std::io;
-use stickslip_results::files::{CURVE, PARTIAL_CURVE};
-use stickslip_results::folder::Folder;
-use stickslip_results::{Job, Real, Warning};
+use stickslip_run::files::{CURVE, PARTIAL_CURVE};
+use stickslip_run::folder::Folder;
+use stickslip_run::{Job, Real, Warning};
 
 /// Names of the table and of what is told of all: of a curve, and of one that was interrupted, beside which a finished one stays.
 const NAMES: Names = [["curve.csv", CURVE], ["curve-partial.csv", PARTIAL_CURVE]];

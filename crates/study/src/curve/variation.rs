@@ -7,7 +7,7 @@ use std::f64::consts::TAU;
 use stickslip_drive::Waveform;
 use stickslip_drive::facts::Pressed;
 use stickslip_drive::scene::{Axis, Freedom, Named, Normal, Scene, Side, Varying};
-use stickslip_results::Job;
+use stickslip_run::Job;
 
 /// Pairs of key path and value.
 pub(super) type Overrides = Vec<(String, String)>;

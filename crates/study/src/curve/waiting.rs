@@ -13,10 +13,10 @@
 
 use super::motion::{Course, Motion, Motionless, STILL, natural, waveform};
 use crate::grip::{Grip, Loose};
-use stickslip_analysis::{Bounds, Mean, Moved, Settling};
 use stickslip_drive::{Event, Plan, Record, Run, RunError};
-use stickslip_results::summary::step_bounds;
-use stickslip_results::{Job, Watcher};
+use stickslip_measure::{Bounds, Mean, Moved, Settling};
+use stickslip_run::summary::step_bounds;
+use stickslip_run::{Job, Watcher};
 
 /// Most periods that are waited for, and while a swing about a motion that a run leaves is growing.
 const WAITED: u32 = 400;

@@ -4,7 +4,7 @@ use super::ladder::{self, Tried};
 use super::{Missing, Quantity, Sample, Sensitivity, sample};
 use crate::each::each;
 use std::sync::atomic::{AtomicUsize, Ordering};
-use stickslip_results::Watcher;
+use stickslip_run::Watcher;
 
 /// Most of the figure that it may change by where the scale of a quantity is looked for.
 const LITTLE: f64 = 0.1;

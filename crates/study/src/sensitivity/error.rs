@@ -1,7 +1,7 @@
 //! Why there are no derivatives at all. What is wrong with a single one stands in its row.
 
 use crate::steady::SteadyError;
-use stickslip_results::Refusal;
+use stickslip_run::Refusal;
 use stickslip_scenario::ScenarioError;
 use thiserror::Error;
 

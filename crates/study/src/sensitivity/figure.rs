@@ -3,7 +3,8 @@
 use super::SensitivityError;
 use serde_json::Value;
 use stickslip_drive::scene::Side;
-use stickslip_results::{Job, compare, definitions};
+use stickslip_quantity::names;
+use stickslip_run::{Job, definitions};
 use stickslip_scenario::suggestion;
 
 /// A figure.
@@ -138,7 +139,7 @@ pub(super) fn by_default(job: &Job, summary: &Value) -> Vec<String> {
 
 /// Its SI unit, by its name.
 pub(super) fn unit(name: &str) -> &'static str {
-    compare::unit(name)
+    names::unit(name)
 }
 
 fn is_whole(value: &Value) -> bool {

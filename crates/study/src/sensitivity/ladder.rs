@@ -2,7 +2,7 @@
 
 use super::quantity::Quantity;
 use super::sample::{Happened, Missing, Sample};
-use stickslip_results::Job;
+use stickslip_run::Job;
 
 /// A variant of the scenario.
 #[derive(Debug, Clone)]

@@ -19,8 +19,8 @@ use crate::interruptible::Interruptible;
 use crate::steady::{self, Options};
 use course::{Course, Neighbours};
 use stickslip_drive::{EnergyRates, Parameter, Plan, Run, State, Variation, VariationError};
-use stickslip_results::summary::load;
-use stickslip_results::{Extreme, Job, Watcher};
+use stickslip_run::summary::load;
+use stickslip_run::{Extreme, Job, Watcher};
 use told::Told;
 use turning::{Turning, Turns};
 

@@ -3,7 +3,7 @@
 use super::SensitivityError;
 use serde_json::Value;
 use std::collections::HashSet;
-use stickslip_results::Job;
+use stickslip_run::Job;
 use stickslip_scenario::Parameter;
 
 /// A number of the scenario.

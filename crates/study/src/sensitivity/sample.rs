@@ -6,7 +6,7 @@ use serde_json::Value;
 use std::collections::{BTreeMap, HashMap};
 use std::path::PathBuf;
 use stickslip_drive::{RunError, Stepper};
-use stickslip_results::{Job, Summary, Watcher};
+use stickslip_run::{Job, Summary, Watcher};
 use stickslip_scenario::{PlotName, Scenario, ScenarioError};
 use thiserror::Error;
 

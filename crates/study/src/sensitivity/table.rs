@@ -5,9 +5,9 @@ use crate::published::{self, Names};
 use serde::Serialize;
 use std::fmt::Write;
 use std::io;
-use stickslip_results::Real;
-use stickslip_results::files::{PARTIAL_SENSITIVITY, SENSITIVITY};
-use stickslip_results::folder::Folder;
+use stickslip_run::Real;
+use stickslip_run::files::{PARTIAL_SENSITIVITY, SENSITIVITY};
+use stickslip_run::folder::Folder;
 
 /// Names of the table and of what is told of all: of derivatives, and of those that were interrupted, beside which finished ones stay.
 const NAMES: Names = [["sensitivity.csv", SENSITIVITY], ["sensitivity-partial.csv", PARTIAL_SENSITIVITY]];

@@ -6,11 +6,11 @@
 use super::map::Map;
 use super::{Options, Steady, SteadyError};
 use nalgebra::DVector;
-use stickslip_analysis::{Bounds, Settling};
 use stickslip_drive::scene::Axis;
 use stickslip_drive::section::Section;
 use stickslip_drive::{RunError, State};
-use stickslip_results::{Job, Real, quantity};
+use stickslip_measure::{Bounds, Settling};
+use stickslip_run::{Job, Real, quantity};
 
 /// By how much every number is disturbed, in natural scales; less where that would take a memory apart.
 const DISTURBED: [f64; 3] = [1e-2, 1e-4, 1e-6];

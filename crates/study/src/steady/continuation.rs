@@ -33,7 +33,7 @@ use error::Trouble;
 use happened::Period;
 use place::Bench;
 use standing::{Measure, Standing, by_value};
-use stickslip_results::Job;
+use stickslip_run::Job;
 
 /// How a branch is followed.
 #[derive(Clone, Copy)]

@@ -5,7 +5,7 @@ use serde_json::Value;
 use std::path::PathBuf;
 use stickslip_drive::scene::{Named, Scene};
 use stickslip_drive::{Model, Timing, Waveform};
-use stickslip_results::Job;
+use stickslip_run::Job;
 use stickslip_scenario::Scenario;
 
 /// Longest common period that is looked for, in the longest period.

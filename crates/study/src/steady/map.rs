@@ -13,7 +13,7 @@ use crate::interruptible::Interruptible;
 use nalgebra::{DMatrix, DVector};
 use stickslip_drive::section::{Section, Unknown};
 use stickslip_drive::{Limits, Model, Plan, Record, Run, RunError, State, Stepper};
-use stickslip_results::Job;
+use stickslip_run::Job;
 
 /// Of periods that are less than this from a whole number of them the rest is rounding.
 const WHOLE: f64 = 1e-6;

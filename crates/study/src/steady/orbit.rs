@@ -4,7 +4,7 @@ use super::{Steady, SteadyError, endless};
 use std::path::PathBuf;
 use stickslip_drive::section::Section;
 use stickslip_drive::{Event, Limits, Model, Plan, Record, Run, State, Stepper};
-use stickslip_results::{Job, Series};
+use stickslip_run::{Job, Series};
 
 /// Last places by which a moment is passed that corners of waveforms are at: they are rounded sums.
 const BEYOND: f64 = 4.0 * f64::EPSILON;

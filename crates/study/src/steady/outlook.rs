@@ -3,8 +3,8 @@
 use super::{Kind, Options, Steady, SteadyError, find};
 use stickslip_drive::Counts;
 use stickslip_drive::scene::{Coordinate, EngineChoice, Freedom, Scene};
-use stickslip_results::outlook::{Outlook, Repetition};
-use stickslip_results::{Job, Real};
+use stickslip_run::outlook::{Outlook, Repetition};
+use stickslip_run::{Job, Real};
 
 /// Local error per step: six digits of a step are enough to compare a run with.
 const TOLERANCE: f64 = 1e-9;

@@ -2,7 +2,7 @@
 
 use super::{Aftermath, Ending, Kind, Multiplier, Steady, Way};
 use serde::Serialize;
-use stickslip_results::{Job, Real};
+use stickslip_run::{Job, Real};
 
 /// What is told of a steady motion, as `steady.json` has it.
 #[derive(Debug, Clone, Serialize)]

@@ -10,7 +10,7 @@ use nalgebra::{DMatrix, DVector};
 use stickslip_drive::scene::Axis;
 use stickslip_drive::section::{Gradient, Section};
 use stickslip_drive::{Limits, Model, Parameter, Plan, Run, Stepper, VariationError};
-use stickslip_results::Job;
+use stickslip_run::Job;
 
 impl Steady {
     /// A number of the scenario by which the motion changes, told by jobs at -2, -1, 1 and 2 distances from its value; none where

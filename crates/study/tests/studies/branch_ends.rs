@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::error::Error;
 use std::path::PathBuf;
-use stickslip_results::Job;
+use stickslip_run::Job;
 use stickslip_scenario::Scenario;
 use stickslip_study::steady::Options;
 use stickslip_study::steady::continuation::{

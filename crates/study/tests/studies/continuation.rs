@@ -3,7 +3,7 @@
 use std::error::Error;
 use std::path::{Path, PathBuf};
 use stickslip_drive::{Event, EventKind, Plan, Record, Run, Stepper};
-use stickslip_results::Job;
+use stickslip_run::Job;
 use stickslip_scenario::Scenario;
 use stickslip_study::steady::continuation::{
     Bifurcation, Branch, Continuation, ContinuationError, Course, End,

@@ -4,7 +4,7 @@ use std::error::Error;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicUsize, Ordering};
 use stickslip_drive::{Plan, Run};
-use stickslip_results::{Job, Watcher};
+use stickslip_run::{Job, Watcher};
 use stickslip_study::curve::{Course, Curve, CurveError, Kind, Motion, Motionless, Point, csv, json};
 
 type Checked = Result<(), Box<dyn Error>>;

@@ -2,10 +2,10 @@
 
 use std::error::Error;
 use std::path::{Path, PathBuf};
-use stickslip_analysis::{Bounds, Settling};
 use stickslip_drive::scene::Side;
 use stickslip_drive::{Plan, Run, RunError};
-use stickslip_results::Job;
+use stickslip_measure::{Bounds, Settling};
+use stickslip_run::Job;
 use stickslip_study::curve::{Course, Curve, Kind, Motion, Motionless};
 
 const DRIVES: [&str; 7] = [

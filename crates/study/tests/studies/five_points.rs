@@ -4,7 +4,7 @@ use serde_json::Value;
 use std::error::Error;
 use std::path::{Path, PathBuf};
 use stickslip_drive::Stepper;
-use stickslip_results::{Job, Summary};
+use stickslip_run::{Job, Summary};
 use stickslip_scenario::Scenario;
 use stickslip_study::sensitivity::{Asked, Sensitivity};
 use stickslip_study::steady::{self, Options};

@@ -8,7 +8,7 @@ use nalgebra::{DMatrix, DVector};
 use std::error::Error;
 use std::f64::consts::TAU;
 use std::path::PathBuf;
-use stickslip_results::Job;
+use stickslip_run::Job;
 use stickslip_scenario::Scenario;
 use stickslip_study::steady::{self, Options};
 

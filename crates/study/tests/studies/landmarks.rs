@@ -3,7 +3,7 @@
 use std::error::Error;
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
-use stickslip_results::Watcher;
+use stickslip_run::Watcher;
 use stickslip_study::curve::{Curve, CurveError, Kind, Landmark, csv, json};
 
 type Checked = Result<(), Box<dyn Error>>;

@@ -3,7 +3,7 @@
 use serde_json::{Value, json};
 use std::error::Error;
 use std::path::Path;
-use stickslip_results::Job;
+use stickslip_run::Job;
 use stickslip_study::steady::{self, Kind, Options};
 
 /// Period of the drive, s, and points in it.

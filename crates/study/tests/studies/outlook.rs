@@ -3,8 +3,8 @@
 use std::error::Error;
 use std::path::Path;
 use stickslip_drive::Counts;
-use stickslip_results::Job;
-use stickslip_results::outlook::Outlook;
+use stickslip_run::Job;
+use stickslip_run::outlook::Outlook;
 use stickslip_study::steady::outlook;
 
 fn p1(set: &[(&str, &str)]) -> Result<Job, Box<dyn Error>> {

@@ -4,7 +4,7 @@ use std::error::Error;
 use std::fmt::Write;
 use std::fs;
 use std::path::Path;
-use stickslip_results::{Job, Real, quantity};
+use stickslip_run::{Job, Real, quantity};
 use stickslip_study::steady::{self, Options};
 
 /// Examples with a steady motion.

@@ -4,7 +4,7 @@
 use std::error::Error;
 use std::path::Path;
 use stickslip_drive::{Model, Plan, Run, Stepper};
-use stickslip_results::Job;
+use stickslip_run::Job;
 use stickslip_study::steady::{self, Options};
 
 const PERIOD: f64 = 167.2e-6;

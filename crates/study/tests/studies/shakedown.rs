@@ -2,7 +2,7 @@
 
 use std::error::Error;
 use std::path::Path;
-use stickslip_results::Job;
+use stickslip_run::Job;
 use stickslip_study::steady::{self, Multiplier, Options, Steady};
 
 fn found(tolerance: f64) -> Result<Steady, Box<dyn Error>> {

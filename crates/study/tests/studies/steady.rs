@@ -3,7 +3,7 @@
 use std::error::Error;
 use std::path::Path;
 use stickslip_drive::{Model, Plan, Run, State, Stepper};
-use stickslip_results::Job;
+use stickslip_run::Job;
 use stickslip_study::steady::continuation::{Bifurcation, Continuation, Course};
 use stickslip_study::steady::{self, Ending, Kind, Options, Steady, SteadyError, Way};
 

@@ -9,7 +9,7 @@ use std::f64::consts::TAU;
 use std::path::PathBuf;
 use stickslip_drive::scene::Axis;
 use stickslip_drive::{Event, EventKind, Plan, Record, Run, Stepper};
-use stickslip_results::Job;
+use stickslip_run::Job;
 use stickslip_scenario::Scenario;
 use stickslip_study::steady::continuation::{Bifurcation, Branch, Continuation, Course};
 use stickslip_study::steady::{self, Ending, Multiplier, Options, Steady};

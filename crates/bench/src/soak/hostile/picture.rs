@@ -6,8 +6,8 @@ use std::collections::HashMap;
 use stickslip_plot::{
     Arrangement, Axis, Colour, Figure, Ink, Label, Mosaic, Panel, PlotError, Theme, draw_png, draw_svg,
 };
-use stickslip_results::program::this_program;
-use stickslip_results::provenance;
+use stickslip_run::program::this_program;
+use stickslip_run::provenance;
 
 /// Name of the picture's files, without ending.
 pub(super) const NAME: &str = "matrix";

@@ -9,9 +9,9 @@ use std::collections::BTreeMap;
 use std::fmt::Write;
 use std::io;
 use std::path::Path;
-use stickslip_results::folder::{self, Folder};
-use stickslip_results::markdown::{link, plain, relative, word};
-use stickslip_results::program::this_program;
+use stickslip_run::folder::{self, Folder};
+use stickslip_run::markdown::{link, plain, relative, word};
+use stickslip_run::program::this_program;
 
 /// Verdicts of the columns of the page's table.
 const HEADS: [Verdict; 12] = Verdict::ALL;

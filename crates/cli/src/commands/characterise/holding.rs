@@ -8,7 +8,7 @@ use stickslip_console::progress::Progress;
 use stickslip_console::table;
 use stickslip_console::verdict::Verdict;
 use stickslip_figures::curve::{self as pictures, holding as picture};
-use stickslip_results::folder::sweep;
+use stickslip_run::folder::sweep;
 use stickslip_study::curve::all_files;
 use stickslip_study::curve::holding::{self, Held, Holding, NAME, Point};
 

@@ -1,8 +1,8 @@
 //! What a comparison tells people.
 
 use serde_json::Value;
+use stickslip_compare::{ChannelDifference, Comparison, FigureDifference, Lone, time};
 use stickslip_console::table;
-use stickslip_results::compare::{ChannelDifference, Comparison, FigureDifference, Lone, time};
 
 /// Events and figures shown of each sort; `--json` has all.
 const SHOWN: usize = 5;

@@ -3,8 +3,8 @@
 use crate::commands::info::columns::broken;
 use crate::commands::info::digits::digits;
 use crate::commands::info::tables::grid;
-use stickslip_results::theory::{Loading, Sheet, Stop, Walk, contact_word};
-use stickslip_results::{Real, quantity};
+use stickslip_run::theory::{Loading, Sheet, Stop, Walk, contact_word};
+use stickslip_run::{Real, quantity};
 
 /// What is said of a contact that nothing presses.
 const OPEN: &str = "\
@@ -86,7 +86,7 @@ fn table(head: [&str; 2], rows: Vec<(&str, String)>) -> String {
 }
 
 fn normal(sheet: &Sheet) -> String {
-    let row = |row: &stickslip_results::theory::NormalRow| {
+    let row = |row: &stickslip_run::theory::NormalRow| {
         vec![
             quantity(row.d, "m"),
             quantity(row.a, "m"),
@@ -100,7 +100,7 @@ fn normal(sheet: &Sheet) -> String {
 }
 
 fn universal(sheet: &Sheet) -> String {
-    let row = |row: &stickslip_results::theory::UniversalRow| {
+    let row = |row: &stickslip_run::theory::UniversalRow| {
         let loading = &row.loading;
         vec![
             format!("{:.3}", row.stick_share.0),
@@ -118,7 +118,7 @@ fn universal(sheet: &Sheet) -> String {
 
 /// The corners of a history.
 pub(super) fn corners(walk: &Walk) -> String {
-    let row = |moment: &stickslip_results::theory::Moment| {
+    let row = |moment: &stickslip_run::theory::Moment| {
         let stop = &moment.stop;
         let told = |of: fn(&Stop) -> f64, unit: &str| quantity(Real(walk.told(stop, of)), unit);
         vec![

@@ -2,9 +2,9 @@
 
 use super::digits::digits;
 use super::tables::{WIDTH, grid, unbroken};
-use stickslip_results::Real;
-use stickslip_results::info::{ContactInfo, Loaded, Pressed};
-use stickslip_results::quantity;
+use stickslip_run::Real;
+use stickslip_run::info::{ContactInfo, Loaded, Pressed};
+use stickslip_run::quantity;
 
 /// Space that a column takes beside its text.
 const PADDING: usize = 2;

@@ -1,8 +1,8 @@
 //! Numbers as they stand in the tables.
 
-use stickslip_analysis::Prefix;
-use stickslip_results::Real;
-use stickslip_results::quantity;
+use stickslip_quantity::Prefix;
+use stickslip_run::Real;
+use stickslip_run::quantity;
 
 /// From here on a count is written with its power of ten.
 const MOST: f64 = 1e12;

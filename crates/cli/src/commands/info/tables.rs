@@ -4,11 +4,11 @@ use super::Info;
 use super::columns::{self, span};
 use super::digits::{bytes, digits, mass, two_digits, whole};
 use comfy_table::{ContentArrangement, LineStyle, Table, TableStyle};
-use stickslip_results::Real;
-use stickslip_results::info::Item;
-use stickslip_results::info::{BodyInfo, Freed, ModeInfo, PiezoInfo, WaveformInfo};
-use stickslip_results::outlook::Outlook;
-use stickslip_results::quantity;
+use stickslip_run::Real;
+use stickslip_run::info::Item;
+use stickslip_run::info::{BodyInfo, Freed, ModeInfo, PiezoInfo, WaveformInfo};
+use stickslip_run::outlook::Outlook;
+use stickslip_run::quantity;
 
 /// Widest line.
 pub(super) const WIDTH: u16 = 100;

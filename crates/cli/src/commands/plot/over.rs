@@ -7,7 +7,7 @@ use stickslip_console::answer::{complain, say};
 use stickslip_console::verdict::Verdict;
 use stickslip_figures::Sources;
 use stickslip_figures::overlay::{self, OVERLAID};
-use stickslip_results::Results;
+use stickslip_run::Results;
 use stickslip_scenario::PlotName;
 
 /// Draws each kind of picture of all folders into one.

@@ -9,8 +9,8 @@ use stickslip_figures::FigureError;
 use stickslip_realtime::memory::MemoryError;
 use stickslip_realtime::plant::ChannelError;
 use stickslip_realtime::source::RecordingError;
-use stickslip_results::Refusal;
-use stickslip_results::complaint::words;
+use stickslip_run::Refusal;
+use stickslip_run::complaint::words;
 use thiserror::Error;
 
 /// Why there is no loop, or no report.

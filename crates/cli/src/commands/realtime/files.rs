@@ -9,8 +9,8 @@ use stickslip_figures::realtime;
 use stickslip_realtime::Report;
 use stickslip_realtime::report::{frames_csv, histogram_csv};
 use stickslip_realtime::session::Ended;
-use stickslip_results::complaint::words;
-use stickslip_results::folder::{Folder, draft, sweep};
+use stickslip_run::complaint::words;
+use stickslip_run::folder::{Folder, draft, sweep};
 use tempfile::NamedTempFile;
 
 /// Names of the files of the report.

@@ -10,9 +10,9 @@ use stickslip_realtime::probe::{Probe, RowsProbe, probe, rows};
 use stickslip_realtime::session::Order;
 use stickslip_realtime::wire::MOST_VALUES;
 use stickslip_realtime::{Drive, Pace};
-use stickslip_results::Watcher;
-use stickslip_results::checkpoint::model_key;
-use stickslip_results::{Job, Real, quantity};
+use stickslip_run::Watcher;
+use stickslip_run::checkpoint::model_key;
+use stickslip_run::{Job, Real, quantity};
 use stickslip_scenario::Warning;
 
 /// Frames that are computed before the start, without waiting.

@@ -3,7 +3,7 @@
 use std::cell::Cell;
 use std::time::{Duration, Instant};
 use stickslip_console::progress::Bar;
-use stickslip_results::Watcher;
+use stickslip_run::Watcher;
 
 /// Longest sleep before somebody who wants it to end is heard, s.
 const NAP: f64 = 0.05;

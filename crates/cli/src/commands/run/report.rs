@@ -5,13 +5,13 @@ use std::io;
 use std::path::Path;
 use stickslip_console::verdict::Verdict;
 use stickslip_drive::RunError;
-use stickslip_results::Job;
-use stickslip_results::Outcome;
-use stickslip_results::Real;
-use stickslip_results::complaint::words;
-use stickslip_results::outlook::Outlook;
-use stickslip_results::quantity;
-use stickslip_results::summary::{DriveSummary, Fretting, Losses, SettlingSummary, Status, Summary};
+use stickslip_run::Job;
+use stickslip_run::Outcome;
+use stickslip_run::Real;
+use stickslip_run::complaint::words;
+use stickslip_run::outlook::Outlook;
+use stickslip_run::quantity;
+use stickslip_run::summary::{DriveSummary, Fretting, Losses, SettlingSummary, Status, Summary};
 
 /// An error below this share of the step does not show in its digits.
 const SHOWN: f64 = 1e-4;

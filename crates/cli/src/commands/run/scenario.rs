@@ -9,13 +9,13 @@ use std::time::Instant;
 use stickslip_console::interrupt::Interrupt;
 use stickslip_console::progress::Progress;
 use stickslip_figures::{Look, Sources};
-use stickslip_results::checkpoint::{CheckpointError, Keeper, Resumption};
-use stickslip_results::complaint::words;
-use stickslip_results::files::{CYCLES, EVENTS, INSIDES, InsideTables, SCENARIO, STEPS, SUMMARY, TRACE};
-use stickslip_results::folder::{Folder, is_complete, sweep};
-use stickslip_results::outlook::Outlook;
-use stickslip_results::summary::Status;
-use stickslip_results::{Draft, Job, Outcome, Recorder, Summary, Watcher};
+use stickslip_run::checkpoint::{CheckpointError, Keeper, Resumption};
+use stickslip_run::complaint::words;
+use stickslip_run::files::{CYCLES, EVENTS, INSIDES, InsideTables, SCENARIO, STEPS, SUMMARY, TRACE};
+use stickslip_run::folder::{Folder, is_complete, sweep};
+use stickslip_run::outlook::Outlook;
+use stickslip_run::summary::Status;
+use stickslip_run::{Draft, Job, Outcome, Recorder, Summary, Watcher};
 use stickslip_study::steady::outlook;
 
 /// Bytes that are kept for the summary, besides what the scenario weighs: the disk may be full when it is written.

@@ -10,9 +10,9 @@ use stickslip_console::progress::Progress;
 use stickslip_console::table;
 use stickslip_console::verdict::Verdict;
 use stickslip_figures::{FigureError, branch as picture};
-use stickslip_results::complaint::words;
-use stickslip_results::folder::{Folder, sweep};
-use stickslip_results::{Job, Real, Refusal, Watcher, quantity};
+use stickslip_run::complaint::words;
+use stickslip_run::folder::{Folder, sweep};
+use stickslip_run::{Job, Real, Refusal, Watcher, quantity};
 use stickslip_study::curve::Range;
 use stickslip_study::steady::Options;
 use stickslip_study::steady::continuation::{

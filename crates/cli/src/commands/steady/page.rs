@@ -1,8 +1,8 @@
 //! A steady motion as tables for people, the same on a terminal and into a pipe.
 
 use crate::commands::info::tables::grid;
-use stickslip_results::outlook::step_words;
-use stickslip_results::{Job, Real, quantity};
+use stickslip_run::outlook::step_words;
+use stickslip_run::{Job, Real, quantity};
 use stickslip_study::steady::{Aftermath, Multiplier, Steady};
 
 /// Multipliers that are told one by one.

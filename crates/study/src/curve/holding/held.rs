@@ -4,7 +4,7 @@ use crate::curve::Bracket;
 use stickslip_drive::facts::{Pressed, Setup};
 use stickslip_drive::scene::{Axis, Load, Scene, Start, Varying};
 use stickslip_drive::{Model, Part, Plan, SceneError, SceneFault, Stepper, WALK_TOLERANCE};
-use stickslip_results::Watcher;
+use stickslip_run::Watcher;
 use stickslip_scenario::{Scenario, ScenarioError};
 use thiserror::Error;
 

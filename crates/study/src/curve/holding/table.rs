@@ -5,8 +5,8 @@ use crate::curve::table::{Report, one_line, publish};
 use serde::Serialize;
 use std::fmt::Write;
 use std::io;
-use stickslip_results::folder::Folder;
-use stickslip_results::{Real, Warning};
+use stickslip_run::folder::Folder;
+use stickslip_run::{Real, Warning};
 
 #[derive(Debug, Serialize)]
 struct PointReport<'a> {

@@ -3,7 +3,7 @@
 use crate::sensitivity::quantity::Quantity;
 use crate::sensitivity::sample;
 use stickslip_drive::{Model, Parameter};
-use stickslip_results::{Job, Periods};
+use stickslip_run::{Job, Periods};
 
 /// Places of models beside a quantity's value, in distances.
 const BESIDE: [f64; 4] = [-2.0, -1.0, 1.0, 2.0];

@@ -7,8 +7,8 @@ use crate::sensitivity::figure::{Figure, Reading};
 use crate::steady::Steady;
 use stickslip_drive::EnergyRates;
 use stickslip_drive::scene::{Axis, Freedom, Normal, Varying};
-use stickslip_results::Job;
-use stickslip_results::summary::load;
+use stickslip_run::Job;
+use stickslip_run::summary::load;
 
 /// What a variation tells of a figure.
 #[derive(Debug, Clone, Copy)]

@@ -6,7 +6,7 @@
 
 use super::told::Told;
 use stickslip_drive::{Event, Record, State, Stride, Variation};
-use stickslip_results::Extreme;
+use stickslip_run::Extreme;
 
 /// Moments that differ by less than this, as a part of them, are one: the run with the variation passes the turns of the run without.
 const SAME: f64 = 1e-12;

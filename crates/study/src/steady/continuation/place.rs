@@ -11,7 +11,7 @@ use std::path::PathBuf;
 use std::rc::Rc;
 use stickslip_drive::State;
 use stickslip_drive::section::Section;
-use stickslip_results::Job;
+use stickslip_run::Job;
 use stickslip_scenario::{Scenario, ScenarioError};
 
 /// Change of the defect, in tolerances, that a difference by the varied number aims at, and the most, in natural scales: runs beside each

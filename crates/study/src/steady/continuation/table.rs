@@ -5,9 +5,9 @@ use crate::published::{self, Names};
 use serde::Serialize;
 use std::fmt::Write;
 use std::io;
-use stickslip_results::Real;
-use stickslip_results::files::{BRANCH, PARTIAL_BRANCH};
-use stickslip_results::folder::Folder;
+use stickslip_run::Real;
+use stickslip_run::files::{BRANCH, PARTIAL_BRANCH};
+use stickslip_run::folder::Folder;
 
 /// Names of the table and of what is told of all: of a branch, and of one that was interrupted, beside which a finished one stays.
 const NAMES: Names = [["branch.csv", BRANCH], ["branch-partial.csv", PARTIAL_BRANCH]];

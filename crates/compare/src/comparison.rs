@@ -1,0 +1,350 @@
+//! What a comparison of two runs found.
+
+use super::allowance::Allowance;
+use super::channels::{self, ChannelDifference, CommonRows};
+use super::coverage::{Coverage, extents};
+use super::error::CompareError;
+use super::events::{self, EventDifferences};
+use super::figures::{self, FigureDifferences};
+use super::results::Results;
+use super::terms::Terms;
+use serde::Serialize;
+use stickslip_run::Real;
+
+/// A comparison, as `--json` prints it.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Comparison {
+    /// How far they agree.
+    pub verdict: Verdict,
+    /// The reference.
+    pub a: Side,
+    /// The run that is judged.
+    pub b: Side,
+    /// What was allowed in general.
+    pub tolerance: Tolerance,
+    /// End of the time compared.
+    #[serde(rename = "until_s")]
+    pub until: Real,
+    /// Numbers of rows.
+    pub rows: Rows,
+    /// How much of A that is.
+    pub coverage: Coverage,
+    /// Channels of both, in the order of A.
+    pub channels: Vec<ChannelDifference>,
+    /// Channels of A that B has not.
+    pub channels_missing: Vec<String>,
+    /// Channels of B that A has not.
+    pub channels_extra: Vec<String>,
+    /// Events of both.
+    pub events: EventDifferences,
+    /// Figures of both summaries.
+    pub figures: FigureDifferences,
+    /// The first difference in time.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub first: Option<First>,
+    /// What was not compared, and why.
+    pub notes: Vec<String>,
+}
+
+/// How far two runs agree.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Verdict {
+    /// The rows and the events have the same bytes, and no figure differs.
+    Identical,
+    /// No difference is larger than allowed.
+    Equal,
+    /// One is.
+    Differs,
+}
+
+impl Verdict {
+    /// In a word.
+    #[must_use]
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::Identical => "identical",
+            Self::Equal => "equal",
+            Self::Differs => "differs",
+        }
+    }
+}
+
+/// One of the runs.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Side {
+    /// Where its results are.
+    pub folder: String,
+    /// How it ended: "done", "stopped" or "interrupted".
+    pub status: String,
+    /// Time reached, s.
+    #[serde(rename = "simulated_s")]
+    pub end: Real,
+    /// Its stepper and what that was asked for, in words.
+    pub stepper: String,
+    /// Version of the program that computed it.
+    pub version: String,
+    /// SHA-256 of its resolved scenario.
+    pub scenario_sha256: String,
+}
+
+/// What was allowed in general.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Tolerance {
+    /// Of the largest magnitude of a channel.
+    pub relative: Real,
+    /// Of the time of an event, s.
+    #[serde(rename = "time_s")]
+    pub time: Real,
+    /// Whether both runs did the same arithmetic.
+    pub same_stepper: bool,
+}
+
+/// Numbers of rows.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Rows {
+    /// Of A.
+    pub a: usize,
+    /// Of B.
+    pub b: usize,
+    /// Compared: at times that both have.
+    pub common: usize,
+    /// Rows of A that B lacks, where A is an excerpt, all of whose rows B must have.
+    #[serde(skip_serializing_if = "is_none")]
+    pub missing: usize,
+}
+
+/// Whether there is nothing of a kind.
+#[allow(clippy::trivially_copy_pass_by_ref, reason = "the serialiser asks by reference")]
+fn is_none(count: &usize) -> bool {
+    *count == 0
+}
+
+/// Where two runs part.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct First {
+    /// When, s.
+    #[serde(rename = "time_s")]
+    pub time: Real,
+    /// What differs there, in words.
+    pub what: String,
+}
+
+impl Comparison {
+    /// Compares two runs; with the rows at which it does.
+    ///
+    /// # Errors
+    /// Runs without a row at a common time; a name or a tolerance in `terms` that is none.
+    pub fn new(a: &Results, b: &Results, terms: &Terms) -> Result<(Self, CommonRows), CompareError> {
+        if b.is_excerpt() {
+            return Err(CompareError::JudgedExcerpt(b.folder.clone()));
+        }
+        let until = a.end.min(b.end);
+        let mut allowance = Allowance::new(a, b, until, terms);
+        allowance.refine(terms, &known(a, b))?;
+        let rows = common_rows(a, b, until, &allowance);
+        if rows.pairs.is_empty() && rows.at_events == 0 {
+            return Err(CompareError::NoCommonRow);
+        }
+        let channels = channels::compare(a, b, &rows, &allowance);
+        let wanted = |names: Vec<String>| names.into_iter().filter(|name| !allowance.ignores(name)).collect();
+        let mut comparison = Self {
+            verdict: Verdict::Differs,
+            a: Side::of(a),
+            b: Side::of(b),
+            tolerance: Tolerance {
+                relative: Real(allowance.relative),
+                time: Real(allowance.time),
+                same_stepper: allowance.is_same_run,
+            },
+            until: Real(until),
+            rows: Rows {
+                a: a.trace.rows(),
+                b: b.trace.rows(),
+                common: rows.pairs.len(),
+                missing: if a.is_excerpt() { rows.lone(a.time(), until) } else { 0 },
+            },
+            coverage: Coverage::new(a, &rows),
+            channels,
+            channels_missing: wanted(channels::missing(a, b)),
+            channels_extra: wanted(channels::missing(b, a)),
+            events: events::compare(a, b, until, &allowance),
+            figures: figures::compare(a, b, &allowance),
+            first: None,
+            notes: Vec::new(),
+        };
+        comparison.conclude((a, b), &rows, (&allowance, terms.exact));
+        Ok((comparison, rows))
+    }
+
+    fn conclude(
+        &mut self,
+        (a, b): (&Results, &Results),
+        rows: &CommonRows,
+        (allowance, exact): (&Allowance, bool),
+    ) {
+        let has_same_values =
+            self.channels.iter().all(ChannelDifference::is_same) && self.channels_missing.is_empty();
+        let has_same_figures = self.figures.differ.is_empty() && self.figures.missing.is_empty();
+        let has_same_rows = self.rows.missing == 0;
+        let is_same = has_same_values
+            && has_same_rows
+            && self.events.is_same()
+            && has_same_figures
+            && !self.one_stopped();
+        self.verdict = match (is_same, a.has_tables_of(b)) {
+            (true, true) => Verdict::Identical,
+            (true, false) if !exact => Verdict::Equal,
+            _ => Verdict::Differs,
+        };
+        self.first = self.first_difference();
+        self.notes = extents(a, b);
+        self.notes.extend(self.notes(rows, allowance));
+    }
+
+    /// What the verdict rests on, in one line.
+    pub fn finding(&self) -> String {
+        match (&self.first, self.verdict) {
+            (_, Verdict::Identical) => "the rows and the events have the same bytes".to_owned(),
+            (_, Verdict::Equal) => self.farthest(),
+            (Some(first), Verdict::Differs) => {
+                format!("first difference at t = {} s: {}", time(first.time.0), first.what)
+            }
+            (None, Verdict::Differs) => "a difference, in what has no time".to_owned(),
+        }
+    }
+
+    /// How far runs are apart that are equal: the channel that comes nearest to what is allowed.
+    fn farthest(&self) -> String {
+        let farthest = self.channels.iter().max_by(|p, q| p.excess().total_cmp(&q.excess()));
+        match farthest.and_then(|channel| Some((channel, channel.worst?, channel.allowed?, channel.at?))) {
+            Some((channel, worst, allowed, at)) => format!(
+                "farthest apart: {} by {:.1e} of {:.1e} {} allowed, at t = {} s",
+                channel.name,
+                worst.0,
+                allowed.0,
+                channel.unit,
+                time(at.0)
+            ),
+            None => "no channel is apart; the files differ in what is not compared".to_owned(),
+        }
+    }
+
+    /// Whether one run stopped itself and the other did not.
+    pub fn one_stopped(&self) -> bool {
+        (self.a.status == "stopped") != (self.b.status == "stopped")
+    }
+
+    fn first_difference(&self) -> Option<First> {
+        let channel = |c: &ChannelDifference| Some(First { time: c.first?, what: c.name.clone() });
+        let event = self.events.first().map(|(event, how)| First {
+            time: event.time,
+            what: format!("the event \"{}\" of {}, which {how}", event.kind, event.source),
+        });
+        // What a channel shows at an event comes of the event.
+        let all = event.into_iter().chain(self.channels.iter().filter_map(channel));
+        all.min_by(|p, q| p.time.0.total_cmp(&q.time.0))
+    }
+
+    fn notes(&self, rows: &CommonRows, allowance: &Allowance) -> Vec<String> {
+        let mut notes = self.origins();
+        for (name, side) in [("A", &self.a), ("B", &self.b)] {
+            if side.status != "done" {
+                notes.push(format!("{name}: the run was {} at t = {:?} s", side.status, side.end.0));
+            }
+        }
+        if self.a.end != self.b.end {
+            let until = self.until.0;
+            notes.push(format!(
+                "compared until t = {until:?} s, where the shorter run ends; figures of the whole run are not compared"
+            ));
+        }
+        let Rows { a, b, common, missing } = self.rows;
+        if a != common || b != common {
+            let at_events = match rows.at_events {
+                0 => String::new(),
+                count => format!(" ({count} more fall on events)"),
+            };
+            notes.push(format!(
+                "rows: {a} in A and {b} in B, compared at {common} common times{at_events}; nothing is interpolated"
+            ));
+        }
+        if missing > 0 {
+            notes.push(format!("rows: {missing} of A are missing in B"));
+        }
+        if !self.channels_extra.is_empty() {
+            notes.push(format!("only in B: {}", self.channels_extra.join(", ")));
+        }
+        if !self.figures.extra.is_empty() {
+            notes.push(format!("only in B: {}", self.figures.extra.join(", ")));
+        }
+        notes.extend(self.rounding(allowance));
+        notes
+    }
+
+    /// What the runs are of, where that is not the same.
+    fn origins(&self) -> Vec<String> {
+        let differ = |what: &str, a: &str, b: &str| {
+            (a != b && !a.is_empty() && !b.is_empty()).then(|| format!("{what}: {a} and {b}"))
+        };
+        let short = |side: &Side| side.scenario_sha256.chars().take(12).collect::<String>();
+        let scenarios = differ("the scenarios differ, SHA-256", &short(&self.a), &short(&self.b));
+        let versions = differ("written by versions", &self.a.version, &self.b.version);
+        scenarios.into_iter().chain(versions).collect()
+    }
+
+    /// Advice where the differences may be those of other rounding.
+    fn rounding(&self, allowance: &Allowance) -> Option<String> {
+        let (relative, promised) = (allowance.relative, allowance.promised);
+        let excess = self.channels.iter().map(ChannelDifference::excess).fold(0.0, f64::max);
+        let is_small = allowance.is_same_run && excess > 1.0 && excess * relative <= promised;
+        let has_same_words = self.channels.iter().all(|c| c.worst.is_some() || c.is_same());
+        (is_small && has_same_words && self.channels_missing.is_empty()).then(|| {
+            format!(
+                "the channels agree within what the stepper promises: other rounding alone, as of sums in another \
+                 order, can make such differences; --tolerance {promised:e} allows them"
+            )
+        })
+    }
+}
+
+impl Side {
+    fn of(results: &Results) -> Self {
+        Self {
+            folder: results.folder.display().to_string(),
+            status: results.status().to_owned(),
+            end: Real(results.end),
+            stepper: results.stepper.words(),
+            version: results.text("/program/version").to_owned(),
+            scenario_sha256: results.text("/scenario_sha256").to_owned(),
+        }
+    }
+}
+
+/// A row on an event may be before it in one run and after it in the other: where the steppers differ, where the grids
+/// do and the time is rounded otherwise, and at the end of the shorter run, where nothing begins any more.
+fn common_rows(a: &Results, b: &Results, until: f64, allowance: &Allowance) -> CommonRows {
+    let events = a.events().chain(b.events()).map(|event| event.time).collect();
+    let rows = CommonRows::new(a.time(), b.time(), until);
+    let goes_on = |t: f64| t < until || a.end == b.end;
+    let is_sure = |s: f64, t: f64| allowance.is_same_run && s == t && goes_on(t);
+    rows.told_from_events((a.time(), b.time()), events, allowance.time, is_sure)
+}
+
+/// Everything that has a name.
+fn known(a: &Results, b: &Results) -> Vec<String> {
+    let mut names = Vec::new();
+    for results in [a, b] {
+        names.extend(results.trace.columns().iter().map(|column| column.name.clone()));
+        names.extend(figures::names(results));
+        names.extend(results.events().map(|event| event.source.to_owned()));
+    }
+    names.sort_unstable();
+    names.dedup();
+    names
+}
+
+/// A time, s, in nine digits: they tell when, without the noise of binary fractions.
+pub fn time(t: f64) -> String {
+    format!("{t:.8e}").parse::<f64>().map_or_else(|_| t.to_string(), |t| format!("{t:?}"))
+}

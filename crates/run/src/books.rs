@@ -1,0 +1,291 @@
+//! The energy books of a run.
+
+use crate::warning::Warning;
+use serde::Serialize;
+use stickslip_drive::{Accuracy, Channel, Stepper};
+use stickslip_quantity::Real;
+use stickslip_quantity::quantity;
+
+/// Part of the throughput by which books may be open: more of it, and figures have no second digit.
+// With verlet at 5 µs the quickstart misses 0.2 and its step is 0.5 % off, with rk4 at 100 µs 0.99 and 3.7 %, with verlet at
+// 1 µs 7e-3 and 2e-4.
+const OPEN: f64 = 1e-2;
+/// Tolerances of the throughput by which books may be open.
+const TOLERANCES: f64 = 100.0;
+/// What rounding leaves of books, relative to all that is in them.
+const ROUNDING: f64 = 1e-12;
+
+/// Energies at the end, J, and how well they balanced all the way.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Books {
+    places: [Option<usize>; 6],
+    end: [f64; 6],
+    /// Places of the contacts' friction work, and the work at the end, J.
+    friction: Vec<(usize, f64)>,
+    /// Elastic energy at the start, J: a pressed contact has it before anything moves.
+    elastic_before: Option<f64>,
+    throughput: f64,
+    /// Largest energy in them, J.
+    largest: f64,
+    worst: f64,
+    /// Largest magnitude of the error at events, J: they end steps, and what stands in a row between two steps without dense
+    /// output is read off straight lines.
+    worst_at_events: f64,
+}
+
+/// The books as the summary shows them.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub(crate) struct Balance {
+    /// Work of followers, loads and gravity since the start.
+    #[serde(rename = "input_J")]
+    input: Real,
+    #[serde(rename = "kinetic_J")]
+    kinetic: Real,
+    #[serde(rename = "elastic_J")]
+    elastic: Real,
+    #[serde(rename = "friction_J")]
+    friction: Real,
+    #[serde(rename = "damping_J")]
+    damping: Real,
+    #[serde(rename = "error_J")]
+    error: Real,
+    /// Largest magnitude of the error.
+    #[serde(rename = "largest_error_J")]
+    largest_error: Real,
+    /// Largest of |input|, kinetic energy, change of elastic energy and heat at any time.
+    #[serde(rename = "throughput_J")]
+    throughput: Real,
+    /// Largest error over throughput; none where nothing moved but for rounding.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    largest_error_relative: Option<Real>,
+}
+
+impl Books {
+    /// Books of a model's channels.
+    pub(crate) fn new(channels: &[Channel]) -> Self {
+        let names = ["input", "kinetic", "elastic", "friction", "damping", "error"];
+        let place = |name| channels.iter().position(|c| c.name == format!("energy.{name}_J"));
+        let friction = channels.iter().enumerate().filter(|(_, c)| c.name.ends_with(".friction_J"));
+        let friction = friction.filter(|(_, c)| c.name != "energy.friction_J").map(|(place, _)| (place, 0.0));
+        Self {
+            places: names.map(place),
+            end: [0.0; 6],
+            friction: friction.collect(),
+            elastic_before: None,
+            throughput: 0.0,
+            largest: 0.0,
+            worst: 0.0,
+            worst_at_events: 0.0,
+        }
+    }
+
+    /// Reads a row of all channels.
+    pub(crate) fn read(&mut self, row: &[f64]) {
+        self.end = self.places.map(|place| place.and_then(|p| row.get(p)).copied().unwrap_or(f64::NAN));
+        for (place, work) in &mut self.friction {
+            *work = row.get(*place).copied().unwrap_or(f64::NAN);
+        }
+        let [input, kinetic, elastic, friction, damping, error] = self.end;
+        let before = *self.elastic_before.get_or_insert(elastic);
+        let flows = [input.abs(), kinetic, (elastic - before).abs(), friction + damping];
+        self.throughput = flows.into_iter().fold(self.throughput, f64::max);
+        self.largest = self.largest.max(elastic.abs()).max(self.throughput);
+        // A NaN must not pass for a small error.
+        if error.is_nan() || error.abs() > self.worst {
+            self.worst = error.abs();
+        }
+    }
+
+    /// Reads the row of an event.
+    pub(crate) fn read_event(&mut self, row: &[f64]) {
+        self.read(row);
+        let error = self.end[5].abs();
+        if error.is_nan() || error > self.worst_at_events {
+            self.worst_at_events = error;
+        }
+    }
+
+    /// Largest magnitude of the error at ends of steps, J: at events, and at the end of the run.
+    fn worst_at_steps(&self) -> f64 {
+        let end = self.end[5].abs();
+        if end.is_nan() || end > self.worst_at_events { end } else { self.worst_at_events }
+    }
+
+    /// Friction work of contact `c`, J.
+    pub(crate) fn friction_of(&self, c: usize) -> f64 {
+        self.friction.get(c).map_or(0.0, |(_, work)| *work)
+    }
+
+    /// As the summary shows them.
+    pub(crate) fn balance(&self) -> Balance {
+        let [input, kinetic, elastic, friction, damping, error] = self.end.map(Real);
+        Balance {
+            input,
+            kinetic,
+            elastic,
+            friction,
+            damping,
+            error,
+            largest_error: Real(self.worst),
+            throughput: Real(self.throughput),
+            // Where next to nothing moves rounding of what is stored is all that there is.
+            largest_error_relative: (self.throughput > ROUNDING * self.largest)
+                .then(|| Real(self.worst / self.throughput)),
+        }
+    }
+}
+
+/// Whether the books of a run by a stepper are open, and by how much: by more than [`OPEN`] of the throughput with any stepper, or
+/// by more than [`TOLERANCES`] that it was asked for.
+///
+/// Each of the six energies is booked for itself: work put in by what drives, the rest from places, speeds, memories and
+/// integrals. Nothing makes the books close but steps that are exact, and no stepper's error estimate comes into them. `finest` is the
+/// rounding of the places where bodies start in natural displacements: no tolerance below it is met.
+pub(crate) fn warning(books: &Books, stepper: Stepper, is_asked: bool, finest: f64) -> Option<Warning> {
+    let has_dense_output = matches!(stepper, Stepper::Event { .. });
+    let missing = if has_dense_output { books.worst } else { books.worst_at_steps() };
+    let (through, rounding) = (books.throughput, ROUNDING * books.largest);
+    let is_open = |limit: f64| missing.is_nan() || missing > limit.max(rounding);
+    let (missed, of) = (quantity(Real(missing), "J"), quantity(Real(through), "J"));
+    let warning = |share: String, more: String| {
+        let said = format!("the energy books miss {share} of what went through them, {missed} of {of}{more}");
+        Some(Warning::new("energy_books", said).help(advice(stepper)))
+    };
+    let share = missing / through;
+    if is_open(OPEN * through) && !share.is_finite() {
+        let said = format!("the energy books do not close: {missed} is missing");
+        return Some(Warning::new("energy_books", said).help(advice(stepper)));
+    }
+    if is_open(OPEN * through) {
+        let share =
+            if share < 10.0 { format!("{:.2} %", 100.0 * share) } else { format!("{share:.0e} times") };
+        return warning(share, String::new());
+    }
+    let tolerance = match stepper.accuracy() {
+        Accuracy::Tolerance(tolerance) if is_asked => tolerance,
+        // Nobody has asked for the tolerance of a walk under the name of another stepper.
+        Accuracy::Tolerance(_) | Accuracy::Step(_) | Accuracy::Frame { .. } => return None,
+    };
+    let unit = tolerance * through;
+    // Where no share is printed all is rounding.
+    if missing <= TOLERANCES * unit || through <= rounding {
+        return None;
+    }
+    let said = warning(
+        format!("{share:.1e}"),
+        format!(": {:.0} times the tolerance of {tolerance:e}", missing / unit),
+    );
+    if missing <= rounding {
+        let help = format!(
+            "so little moves that rounding of what is stored, {}, shows: no smaller tolerance closes the books",
+            quantity(Real(books.largest), "J")
+        );
+        return said.map(|warning| warning.help(help));
+    }
+    if finest <= tolerance {
+        return said;
+    }
+    let help = format!(
+        "bodies that start so far from 0 have places rounded to {finest:.0e} u_c, more than the tolerance: no smaller one closes \
+         the books, a start nearer to 0 does"
+    );
+    said.map(|warning| warning.help(help))
+}
+
+/// What to try where books are open.
+fn advice(stepper: Stepper) -> &'static str {
+    match stepper {
+        Stepper::Event { .. } => "take a smaller tolerance and see which digits stay",
+        Stepper::Dopri5 { .. } => {
+            "its error estimate sees neither kinks nor growth of contacts: take the stepper \"event\""
+        }
+        Stepper::Frames { .. } => {
+            "ask for a better accuracy, which takes more steps a frame, or take the stepper \"event\""
+        }
+        Stepper::Verlet { .. } | Stepper::Rk4 { .. } => {
+            "take a shorter step, or the stepper \"event\", which controls its error"
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_largest_error_is_measured_by_the_throughput() {
+        let names = ["input", "kinetic", "elastic", "friction", "damping", "error"];
+        let channels = names.map(|n| Channel { name: format!("energy.{n}_J"), is_state: false });
+        let mut books = Books::new(&channels);
+        books.read(&[0.0, 0.0, 7.0, 0.0, 0.0, 0.0]);
+        books.read(&[4.0, 1.0, 8.0, 2.0, 0.0, -2e-9]);
+        books.read(&[1.0, 0.0, 7.0, 1.0, 0.0, 0.0]);
+        let balance = books.balance();
+        assert_eq!((balance.throughput, balance.largest_error), (Real(4.0), Real(2e-9)));
+        assert_eq!(balance.largest_error_relative, Some(Real(5e-10)));
+        books.read(&[f64::NAN; 6]);
+        assert!(books.balance().largest_error.0.is_nan());
+        assert!(warning(&books, Stepper::Verlet { step: 1e-6 }, true, 0.0).is_some());
+    }
+
+    /// What is said of a throughput of 1 J, an elastic energy of `stored` and errors in a row, at an event and at the end, all in J.
+    fn said(stepper: Stepper, stored: f64, errors: [f64; 3]) -> Option<String> {
+        let names = ["input", "kinetic", "elastic", "friction", "damping", "error"];
+        let channels = names.map(|n| Channel { name: format!("energy.{n}_J"), is_state: false });
+        let mut books = Books::new(&channels);
+        let [row, event, end] = errors.map(|error| [1.0, 0.0, stored, 1.0, 0.0, error]);
+        books.read(&row);
+        books.read_event(&event);
+        books.read(&end);
+        warning(&books, stepper, true, 0.0).map(|warning| warning.message)
+    }
+
+    #[test]
+    fn books_are_open_by_their_throughput_or_by_the_tolerance() {
+        let (verlet, event) = (Stepper::Verlet { step: 1e-6 }, Stepper::Event { tolerance: 1e-8 });
+        let open = |stepper, error| said(stepper, 0.0, [0.0, 0.0, error]).is_some();
+        assert_eq!(
+            [0.99e-2, -0.99e-2, 1.01e-2, -1.01e-2].map(|e| open(verlet, e)),
+            [false, false, true, true]
+        );
+        assert_eq!([0.99e-6, 1.01e-6, 2e-2].map(|e| open(event, e)), [false, true, true]);
+        let reference = Stepper::Dopri5 { tolerance: 1e-8 };
+        assert_eq!([0.99e-6, -1.01e-6].map(|e| open(reference, e)), [false, true]);
+        let message = said(event, 0.0, [0.0, 0.0, 2e-5]).unwrap();
+        assert!(
+            message.ends_with(
+                "2.0e-5 of what went through them, 20.00 µJ of 1.000 J: 2000 times the tolerance of 1e-8"
+            ),
+            "{message}"
+        );
+        // Rounding is relative to all that is stored: without a tolerance it is not told of, with one as what it is.
+        assert!(said(verlet, 1e11, [0.0, 0.0, 0.05]).is_none());
+        assert!(
+            said(event, 1e11, [0.0, 0.0, 2e-6]).is_some() && said(event, 1e13, [0.0, 0.0, 2e-6]).is_none()
+        );
+    }
+
+    /// A body that starts 1 m from 0 has its place to 2.2e-16 m, a hundred millionth of 22 nm.
+    #[test]
+    fn a_smaller_tolerance_is_not_advised_where_places_are_rounded() {
+        let books = Books { throughput: 1.0, worst: 1e-4, ..Books::new(&[]) };
+        let help = |tolerance, finest| {
+            warning(&books, Stepper::Event { tolerance }, true, finest).and_then(|said| said.help).unwrap()
+        };
+        assert!(help(1e-9, 1e-8).contains("rounded to 1e-8 u_c"));
+        assert_eq!(help(1e-9, 1e-9), advice(Stepper::Event { tolerance: 1e-9 }));
+    }
+
+    /// Rows between two steps count where they are as exact as the steps.
+    #[test]
+    fn without_dense_output_only_ends_of_steps_count() {
+        let event = Stepper::Event { tolerance: 1e-8 };
+        for stepper in
+            [Stepper::Verlet { step: 1e-6 }, Stepper::Rk4 { step: 1e-6 }, Stepper::Dopri5 { tolerance: 1e-8 }]
+        {
+            let open = |errors| said(stepper, 0.0, errors).is_some();
+            assert_eq!([[0.1, 0.0, 0.0], [0.0, 0.1, 0.0], [0.0, 0.0, 0.1]].map(open), [false, true, true]);
+        }
+        assert!(said(event, 0.0, [0.1, 0.0, 0.0]).is_some());
+    }
+}

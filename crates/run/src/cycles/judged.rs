@@ -1,0 +1,122 @@
+//! Cycles of a contact as they end, with their regimes.
+
+use super::CycleFigures;
+use crate::job::Job;
+use stickslip_contact::{Interface, Profile};
+use stickslip_measure::Thresholds;
+
+/// Thresholds below this are those of a flat punch, which are 0.
+const ROUNDING: f64 = 1e-12;
+/// A force that misses the limit of friction by less than this share of it has come to it.
+// Partial slip of a sphere is as near at 1 - 1e-6 of u_c.
+const AT_LIMIT: f64 = 1e-9;
+
+/// A cycle and, where it is a loop under a constant load, its regime.
+#[derive(Debug, Clone, Copy)]
+pub struct JudgedCycle {
+    /// Its quantities.
+    pub figures: CycleFigures,
+    /// "still" of one that moves by no more than can be told from rest, "stick", "partial" or "gross".
+    pub regime: Option<&'static str>,
+}
+
+/// What has been told of the cycles of a contact.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct ContactCycles {
+    /// How many.
+    pub(crate) count: usize,
+    /// The last.
+    pub(crate) last: Option<JudgedCycle>,
+    /// All of them, where a run is kept in memory.
+    pub(crate) all: Vec<JudgedCycle>,
+    /// Thresholds of its profile as deep as it stood in the first: none under a load that varies, or of a damped contact.
+    pub(crate) thresholds: Option<Thresholds>,
+}
+
+impl ContactCycles {
+    /// Takes the next cycle of contact `c`.
+    pub(crate) fn take(
+        &mut self,
+        job: &Job,
+        (c, law): (usize, &Interface),
+        figures: CycleFigures,
+    ) -> JudgedCycle {
+        if self.count == 0 {
+            let limits = thresholds(law.profile(), figures.depth);
+            self.thresholds = limits.filter(|_| job.has_law_without_time(c));
+        }
+        let is_loop = self.thresholds.is_some() && figures.is_closed;
+        let regime = match figures.is_still {
+            true => Some("still"),
+            false => is_loop.then(|| regime(&figures, law.friction() * figures.normal)),
+        };
+        let judged = JudgedCycle { figures, regime };
+        (self.count, self.last) = (self.count + 1, Some(judged));
+        judged
+    }
+}
+
+/// The limit between partial and gross slip of any profile at indentation d, on a rigid rig. By Masing's rule the loop
+/// of amplitude u_c has `E_d = 4μE*κ(Md - 2N)` and crosses F_x = 0 where M(h) = M(d)/2: A = 1 - 2N/(Md), D = 2h/d - 1; for
+/// f ~ rⁿ these are 1/(2n+1) and 2^{1/(n+1)} - 1. None for an open contact.
+fn thresholds(profile: &Profile, d: f64) -> Option<Thresholds> {
+    let reduced_force = profile.reduced_force(d);
+    let energy = 1.0 - 2.0 * profile.reduced_energy(d) / (reduced_force * d);
+    let slip = 2.0 * profile.height_of_reduced_force(0.5 * reduced_force) / d - 1.0;
+    let positive = |value: f64| value > ROUNDING;
+    (reduced_force > 0.0 && d > 0.0).then(|| Thresholds {
+        energy_ratio: Some(energy),
+        system_free_ratio: (positive(energy) && positive(slip)).then(|| energy / slip),
+        slip_ratio: Some(slip),
+    })
+}
+
+/// How a contact slips in a loop: all of it where its force comes both ways to what friction bears, `limit`, N. That holds for any
+/// profile and for a row of few springs; A, B and D are made for loops whose limit of friction nobody knows, and B of a small loop
+/// is near 2/3 on any profile, above the threshold of a worn one.
+fn regime(figures: &CycleFigures, limit: f64) -> &'static str {
+    let cycle = &figures.cycle;
+    if cycle.force_amplitude >= (1.0 - AT_LIMIT) * limit {
+        "gross"
+    } else if cycle.energy_ratio().is_none_or(|a| a < Thresholds::RESOLUTION) {
+        "stick"
+    } else {
+        "partial"
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn thresholds_are_those_of_the_closed_form() {
+        let powers = [
+            (Profile::cone(0.1).unwrap(), 1.0),
+            (Profile::paraboloid(1e-3).unwrap(), 2.0),
+            (Profile::power(1e6, 4.0).unwrap(), 4.0),
+        ];
+        for (profile, n) in powers {
+            let (got, want) = (thresholds(&profile, 1e-6).unwrap(), Thresholds::of_profile(n).unwrap());
+            let pairs = [
+                (got.energy_ratio, want.energy_ratio),
+                (got.system_free_ratio, want.system_free_ratio),
+                (got.slip_ratio, want.slip_ratio),
+            ];
+            for (got, want) in pairs {
+                assert!((got.unwrap() - want.unwrap()).abs() < 1e-12, "n = {n}: {got:?}, {want:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_shallow_sphere_has_those_of_the_paraboloid_and_a_punch_none() {
+        // a/R = 1.4e-2: the profiles differ by (a/R)² in order of magnitude.
+        let sphere = thresholds(&Profile::sphere(5e-3).unwrap(), 1e-6).unwrap();
+        assert!((sphere.energy_ratio.unwrap() - 0.2).abs() < 2e-4);
+        assert!((sphere.slip_ratio.unwrap() - 0.25992).abs() < 2e-4);
+        let flat = thresholds(&Profile::flat(1e-3).unwrap(), 1e-6).unwrap();
+        assert!(flat.system_free_ratio.is_none() && flat.energy_ratio.unwrap().abs() < 1e-12);
+        assert!(thresholds(&Profile::flat(1e-3).unwrap(), -1e-6).is_none());
+    }
+}

@@ -1,0 +1,232 @@
+//! How far bodies turn, roll and fall in a run: beyond some way the model's kinematics are no longer those of the bodies.
+//!
+//! Angles are small, and contact points stay where they are on their bodies. Extremes over rows and events are kept, of bodies that can
+//! turn or lift alone.
+
+use crate::job::Job;
+use crate::warning::Warning;
+use std::collections::HashMap;
+use stickslip_drive::scene::{Freedom, SMALL_ANGLE, Scene, Side};
+use stickslip_quantity::Real;
+use stickslip_quantity::quantity;
+
+/// Places of channels by their names.
+type Places<'a> = HashMap<&'a str, usize>;
+
+/// The extremes.
+pub(crate) struct Excursions {
+    turns: Vec<Turn>,
+    rolls: Vec<Roll>,
+    falls: Vec<Fall>,
+}
+
+/// A body that turns.
+struct Turn {
+    body: usize,
+    /// Place of its pitch.
+    place: usize,
+    /// Largest angle, rad.
+    most: f64,
+}
+
+/// A contact between bodies that turn.
+struct Roll {
+    contact: usize,
+    /// Places of `d_m` and `a_m`.
+    places: [usize; 2],
+    /// Places of the pitches of its bodies; none of one that does not turn.
+    pitches: [Option<usize>; 2],
+    /// Least and largest angle between its bodies since they touched, rad.
+    range: [f64; 2],
+    /// Largest indentation since then, m, and the contact radius there, m.
+    deepest: [f64; 2],
+    /// Way that it has rolled in one touch, m, and the contact radius, m: where they have the largest ratio.
+    worst: [f64; 2],
+}
+
+/// A body that nothing but contacts keeps from falling.
+struct Fall {
+    body: usize,
+    /// Place of its z, and the way in which it falls along z: 1 down, -1 up.
+    place: usize,
+    down: f64,
+    contacts: Vec<Catch>,
+    /// Height of its reference point over its contact points, or the largest contact radius where that is more, m.
+    height: f64,
+    /// Farthest that it was below where they close, while all were open, m.
+    farthest: f64,
+}
+
+/// A contact of it.
+struct Catch {
+    /// Places of `d_m` and `a_m`.
+    places: [usize; 2],
+    /// Place of the z of the other body; none where that does not move.
+    other: Option<usize>,
+    /// Its z over that of the other body where they touch, as they are drawn, m.
+    level: f64,
+}
+
+impl Excursions {
+    /// Nothing yet.
+    pub(crate) fn new(job: &Job, places: &Places<'_>) -> Self {
+        let scene = &job.scenario.scene;
+        let place = |name: &str, quantity: &str| places.get(format!("{name}.{quantity}").as_str()).copied();
+        let pitch = |body: usize| scene.bodies.get(body).and_then(|body| place(&body.name, "pitch_rad"));
+        let turns =
+            (0..scene.bodies.len()).filter_map(|body| Some(Turn { body, place: pitch(body)?, most: 0.0 }));
+        let depths = |c: usize| {
+            let name = &scene.contacts.get(c)?.name;
+            Some([place(name, "d_m")?, place(name, "a_m")?])
+        };
+        let rolls = scene.contacts.iter().enumerate().filter_map(|(contact, it)| {
+            let pitches = it.part.between.map(|side| body_of(side).and_then(pitch));
+            pitches.iter().any(Option::is_some).then_some(())?;
+            Some(Roll::new(contact, depths(contact)?, pitches))
+        });
+        let falls = (0..scene.bodies.len()).filter_map(|body| {
+            let caught = scene.contacts.iter().enumerate().filter_map(|(c, it)| {
+                let own = it.part.between.iter().position(|side| *side == Side::Body(body))?;
+                let other = body_of(it.part.between[1 - own]).and_then(|other| scene.bodies.get(other));
+                let other = other.and_then(|other| place(&other.name, "z_m"));
+                let level = if own == 0 { it.part.gap } else { -it.part.gap };
+                Some((Catch { places: depths(c)?, other, level }, it.part.at[own].z.abs()))
+            });
+            Fall::of(scene, body, place(&scene.bodies.get(body)?.name, "z_m")?, caught)
+        });
+        Self { turns: turns.collect(), rolls: rolls.collect(), falls: falls.collect() }
+    }
+
+    /// Takes a row, or the row of an event.
+    pub(crate) fn row(&mut self, values: &[f64]) {
+        let at = |place: usize| values.get(place).copied().unwrap_or(0.0);
+        for turn in &mut self.turns {
+            turn.most = turn.most.max(at(turn.place).abs());
+        }
+        self.rolls.iter_mut().for_each(|roll| roll.row(at));
+        self.falls.iter_mut().for_each(|fall| fall.row(at));
+    }
+
+    /// What went too far, one of a kind: the farthest, with its number.
+    pub(crate) fn warnings(&self, job: &Job) -> impl Iterator<Item = Warning> {
+        [self.angle(job), self.rolling(job), self.fall(job)].into_iter().flatten()
+    }
+
+    fn angle(&self, job: &Job) -> Option<Warning> {
+        let turn = self
+            .turns
+            .iter()
+            .max_by(|a, b| a.most.total_cmp(&b.most))
+            .filter(|turn| turn.most > SMALL_ANGLE)?;
+        let name = &job.scenario.scene.bodies.get(turn.body)?.name;
+        let [angle, small] = [turn.most, SMALL_ANGLE].map(|angle| quantity(Real(angle), "rad"));
+        let message = format!(
+            "{name} turns by {angle}, beyond small angles of {small}: its points go on along straight lines, where they would go \
+             round, and lie off by θ²/2 of their levers"
+        );
+        let help =
+            "start it slower, load it less, give it a second contact or a spring, or run for a shorter time";
+        Some(Warning::new("angle", message).help(help))
+    }
+
+    fn rolling(&self, job: &Job) -> Option<Warning> {
+        let all = self.rolls.iter().map(|roll| (roll.contact, roll.farthest()));
+        let (contact, [way, radius]) = all.max_by(|a, b| ratio(a.1).total_cmp(&ratio(b.1)))?;
+        let name = &job.scenario.scene.contacts.get(contact).filter(|_| way > radius)?.name;
+        let [way, radius] = [way, radius].map(|length| quantity(Real(length), "m"));
+        let message = format!(
+            "{name} rolls by {way}, more than its contact radius of {radius}: a contact stays on the same points of its bodies, where \
+             rolling would take it on to fresh ones, which remember nothing"
+        );
+        Some(
+            Warning::new("rolling", message)
+                .help("what it holds and loses while it rolls is not to be trusted"),
+        )
+    }
+
+    fn fall(&self, job: &Job) -> Option<Warning> {
+        let through = self.falls.iter().filter(|fall| fall.farthest > fall.height);
+        let fall = through.max_by(|a, b| a.farthest.total_cmp(&b.farthest))?;
+        let name = &job.scenario.scene.bodies.get(fall.body)?.name;
+        let [descent, height] = [fall.farthest, fall.height].map(|length| quantity(Real(length), "m"));
+        let message = format!(
+            "{name} falls through the ground, or what else it stood on: it was {descent} below where its contacts close, more than its \
+             height of {height} over them, and all were open"
+        );
+        let help =
+            "bodies touch at their contacts alone: give it one below, or a spring; did it turn too far?";
+        Some(Warning::new("through_ground", message).help(help))
+    }
+}
+
+impl Roll {
+    fn new(contact: usize, places: [usize; 2], pitches: [Option<usize>; 2]) -> Self {
+        let range = [f64::INFINITY, f64::NEG_INFINITY];
+        Self { contact, places, pitches, range, deepest: [0.0; 2], worst: [0.0; 2] }
+    }
+
+    fn row(&mut self, at: impl Fn(usize) -> f64) {
+        let [d, a] = self.places.map(&at);
+        if d <= 0.0 {
+            *self = Self { worst: self.farthest(), ..Self::new(self.contact, self.places, self.pitches) };
+            return;
+        }
+        let [first, second] = self.pitches.map(|place| place.map_or(0.0, &at));
+        let angle = second - first;
+        self.range = [self.range[0].min(angle), self.range[1].max(angle)];
+        if d > self.deepest[0] {
+            self.deepest = [d, a];
+        }
+    }
+
+    /// The farthest that it has rolled in one touch: the angle times the radius of curvature, which is a²/d of a ball; what else
+    /// turns on an edge or a tip has left its contact where a²/d times the angle is a, too.
+    fn farthest(&self) -> [f64; 2] {
+        let [d, a] = self.deepest;
+        let now = [(self.range[1] - self.range[0]) * a * a / d, a];
+        if d > 0.0 && ratio(now) > ratio(self.worst) { now } else { self.worst }
+    }
+}
+
+impl Fall {
+    /// One that gravity pulls along a free z, and that no spring and no actuator holds; contacts with the heights over them.
+    fn of(
+        scene: &Scene,
+        body: usize,
+        place: usize,
+        contacts: impl Iterator<Item = (Catch, f64)>,
+    ) -> Option<Self> {
+        let springs = scene.springs.iter().map(|spring| spring.part.between);
+        let mut links = springs.chain(scene.actuators.iter().map(|actuator| actuator.part.between));
+        let (_, down) = scene.gravity.components();
+        let is_free = scene.bodies.get(body)?.part.z.freedom == Freedom::Free && down != 0.0;
+        let (contacts, heights): (Vec<_>, Vec<_>) = contacts.unzip();
+        let can_fall =
+            is_free && !contacts.is_empty() && !links.any(|between| between.contains(&Side::Body(body)));
+        let height = heights.into_iter().fold(0.0, f64::max);
+        let fall = Self { body, place, down: down.signum(), contacts, height, farthest: 0.0 };
+        can_fall.then_some(fall)
+    }
+
+    fn row(&mut self, at: impl Fn(usize) -> f64) {
+        let mut descent = f64::INFINITY;
+        for Catch { places: [depth, radius], other, level } in &self.contacts {
+            let below = self.down * (level + other.map_or(0.0, &at) - at(self.place));
+            descent = descent.min(if at(*depth) > 0.0 { 0.0 } else { below });
+            self.height = self.height.max(at(*radius));
+        }
+        self.farthest = self.farthest.max(descent);
+    }
+}
+
+/// A way over a length; 0 where neither is.
+fn ratio([way, length]: [f64; 2]) -> f64 {
+    if length > 0.0 { way / length } else { 0.0 }
+}
+
+fn body_of(side: Side) -> Option<usize> {
+    match side {
+        Side::Body(body) => Some(body),
+        Side::Ground => None,
+    }
+}

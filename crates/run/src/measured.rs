@@ -1,0 +1,232 @@
+//! Measured loops: a displacement and a tangential force from a table, cut into cycles and measured as those of a run are.
+
+use crate::contact_path::contact_path;
+use crate::job::Job;
+use crate::kept::Kept;
+use crate::periods::Periods;
+use std::ops::Range;
+use std::path::Path;
+use stickslip_measure::cycles::Cut;
+use stickslip_measure::series::extent;
+use stickslip_measure::{Cycle, SeriesError, returning_cycles, split_cycles};
+use stickslip_scenario::{Pairs, ScenarioError, pairs};
+use thiserror::Error;
+
+/// Names by which columns go where nobody says which they are.
+const TIMES: [&str; 2] = ["t", "time"];
+const DISPLACEMENTS: [&str; 4] = ["u", "x", "disp", "displacement"];
+const FORCES: [&str; 4] = ["fx", "f", "force", "q"];
+
+/// Columns of the table of measured cycles: names as in a run's `cycles.csv`. Times are places of lines where there are none; stiffnesses are
+/// fitted to the first tenth of the way back.
+const HEAD: [&str; 13] = [
+    "cycle",
+    "start_s",
+    "end_s",
+    "displacement_amplitude_m",
+    "force_amplitude_N",
+    "half_opening_m",
+    "dissipated_J",
+    "energy_ratio",
+    "system_free_ratio",
+    "slip_ratio",
+    "energy_coefficient_of_friction",
+    "fitted_stiffness_after_maximum_N_m",
+    "fitted_stiffness_after_minimum_N_m",
+];
+
+/// Which columns of a table are meant; those that go by a usual name where none is said.
+#[derive(Debug, Clone, Default)]
+pub struct Named {
+    /// Of times; a table may have none.
+    pub time: Option<String>,
+    /// Of displacements.
+    pub displacement: Option<String>,
+    /// Of tangential forces.
+    pub force: Option<String>,
+}
+
+/// Why there are no measured loops.
+#[derive(Debug, Error)]
+pub enum MeasuredError {
+    /// The table.
+    #[error(transparent)]
+    Table(#[from] ScenarioError),
+    /// Numbers that are no record.
+    #[error("{file}: {source}")]
+    Series {
+        /// The table.
+        file: String,
+        /// What is wrong with it.
+        source: SeriesError,
+    },
+    /// A period in a table without times.
+    #[error("{0}: a period needs a column of times, t or time, or the one named by --time")]
+    NoTime(String),
+    /// Nothing that comes back.
+    #[error(
+        "{0}: no cycle comes back to within a tenth of its range\n   help: say the period, if it has one, with --period"
+    )]
+    NoCycle(String),
+}
+
+/// A measured record.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Measured {
+    /// Name of its file.
+    pub file: String,
+    /// Times, s; places of the lines where there are none.
+    pub t: Vec<f64>,
+    /// Whether these are times.
+    pub has_time: bool,
+    /// Displacements, m.
+    pub u: Vec<f64>,
+    /// Forces that drive them, N.
+    pub force: Vec<f64>,
+    /// Whether the table has them with the other sign: as the forces that resist.
+    pub is_turned: bool,
+}
+
+/// One cycle of a record: where it lies in it, when, and its quantities. Its opening is that at the middle of its forces, whose zero a
+/// load cell need not have.
+#[derive(Debug, Clone, PartialEq)]
+pub struct MeasuredCycle {
+    /// Places of the record, both ends with them.
+    pub span: Range<usize>,
+    /// From when to when, s.
+    pub time: [f64; 2],
+    /// Its quantities.
+    pub cycle: Cycle,
+}
+
+impl Measured {
+    /// Reads a record from a table with heads; units may stand there.
+    ///
+    /// # Errors
+    /// A file that is no such table, or lacks a column that is asked for.
+    pub fn read(path: &Path, named: &Named) -> Result<Self, MeasuredError> {
+        let times = names(named.time.as_deref(), &TIMES, "s");
+        if named.time.is_some() {
+            // Only of the second column it is an error that there is none.
+            pairs(path, &[], &times)?;
+        }
+        let displacements = names(named.displacement.as_deref(), &DISPLACEMENTS, "m");
+        let Pairs { first, values, .. } = pairs(path, &times, &displacements)?;
+        let Pairs { values: forces, .. } = pairs(path, &times, &names(named.force.as_deref(), &FORCES, "N"))?;
+        let has_time = first.is_some();
+        let t = values.iter().enumerate().map(|(line, [t, _])| if has_time { *t } else { line as f64 });
+        Ok(Self {
+            file: path.display().to_string(),
+            t: t.collect(),
+            has_time,
+            u: values.iter().map(|[_, u]| *u).collect(),
+            force: forces.iter().map(|[_, force]| *force).collect(),
+            is_turned: false,
+        })
+    }
+
+    /// Its cycles: of a period, s, from the first line on, or else from one reversal to the next of its kind, those that come back.
+    ///
+    /// Forces that do work against the motion are those that resist it, and are turned round.
+    ///
+    /// # Errors
+    /// Times that do not ascend, a period without times, and no cycle at all.
+    pub fn cycles(&mut self, period: Option<f64>) -> Result<Vec<MeasuredCycle>, MeasuredError> {
+        let failed = |source| MeasuredError::Series { file: self.file.clone(), source };
+        let start = self.t.first().copied().unwrap_or(0.0);
+        let spans = match period {
+            Some(_) if !self.has_time => return Err(MeasuredError::NoTime(self.file.clone())),
+            Some(period) => {
+                split_cycles(&self.t, &self.u, &self.force, Cut::Period { start, period }).map_err(failed)?
+            }
+            None => {
+                // What is no record is refused here.
+                let any = Cut::Reversals { least: f64::MIN_POSITIVE };
+                split_cycles(&self.t, &self.u, &self.force, any).map_err(failed)?;
+                returning_cycles(&self.t, &self.u, 0.0)
+            }
+        };
+        if spans.is_empty() {
+            return Err(MeasuredError::NoCycle(self.file.clone()));
+        }
+        let all = self.measure(&spans).map_err(failed)?;
+        if all.iter().map(|cycle| cycle.cycle.dissipated).sum::<f64>() >= 0.0 {
+            return Ok(all);
+        }
+        self.is_turned = true;
+        self.force.iter_mut().for_each(|force| *force = -*force);
+        let failed = |source| MeasuredError::Series { file: self.file.clone(), source };
+        self.measure(&spans).map_err(failed)
+    }
+
+    fn measure(&self, spans: &[Range<usize>]) -> Result<Vec<MeasuredCycle>, SeriesError> {
+        let one = |span: &Range<usize>| {
+            let cycle = of_loop(&self.u[span.clone()], &self.force[span.clone()])?;
+            let time = [self.t[span.start], self.t[span.end - 1]];
+            Ok(MeasuredCycle { span: span.clone(), time, cycle })
+        };
+        spans.iter().map(one).collect()
+    }
+}
+
+/// The names that a column may go by, with the unit of its numbers where its head tells none.
+fn names<'a>(own: Option<&'a str>, usual: &[&'static str], si: &'static str) -> Vec<(&'a str, &'static str)> {
+    match own {
+        Some(own) => vec![(own, si)],
+        None => usual.iter().map(|name| (*name, si)).collect(),
+    }
+}
+
+/// The last cycle of contact `c` of a run, measured in the same way: its displacements, forces and quantities; none where none comes back.
+#[must_use]
+pub fn simulated(job: &Job, c: usize, kept: &Kept) -> Option<(Vec<f64>, Vec<f64>, Cycle)> {
+    let trail = contact_path(job, c, &kept.series);
+    let last = match Periods::of_contact(job, c, kept.end()) {
+        Some(periods) => trail.part(periods.last()),
+        None => {
+            let last = returning_cycles(&trail.t, &trail.x, 0.0).pop()?;
+            trail.part((trail.t[last.start], trail.t[last.end - 1]))
+        }
+    };
+    let cycle = of_loop(&last.x, &last.y).ok()?;
+    Some((last.x, last.y, cycle))
+}
+
+/// `cycles.csv` of measured loops; μ_e under a mean normal force, N. What a cycle does not have is left empty.
+#[must_use]
+pub fn table(cycles: &[MeasuredCycle], normal: Option<f64>) -> String {
+    let mut text = HEAD.join(",") + "\n";
+    for (number, MeasuredCycle { time, cycle, .. }) in (1..).zip(cycles) {
+        let values = [
+            Some(time[0]),
+            Some(time[1]),
+            Some(cycle.displacement_amplitude),
+            Some(cycle.force_amplitude),
+            cycle.half_opening,
+            Some(cycle.dissipated),
+            cycle.energy_ratio(),
+            cycle.system_free_ratio(),
+            cycle.slip_ratio(),
+            normal.and_then(|normal| cycle.friction_coefficient(normal)),
+            cycle.stiffness_after_maximum,
+            cycle.stiffness_after_minimum,
+        ];
+        let cells = values.map(|value| value.map_or_else(String::new, |value| format!("{value:e}")));
+        text.push_str(&format!("{number},{}\n", cells.join(",")));
+    }
+    text
+}
+
+/// The middle between the least and the largest value.
+#[must_use]
+pub fn middle(values: &[f64]) -> f64 {
+    let (low, high) = extent(values);
+    low + 0.5 * (high - low)
+}
+
+/// A loop about the middle of its forces.
+fn of_loop(u: &[f64], force: &[f64]) -> Result<Cycle, SeriesError> {
+    let middle = middle(force);
+    let force: Vec<f64> = force.iter().map(|force| force - middle).collect();
+    Cycle::of_loop(u, &force)
+}

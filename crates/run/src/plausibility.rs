@@ -1,0 +1,103 @@
+//! What a scene comes to and hardly was meant to: told with its number and its reason, and never a refusal.
+//!
+//! The scenario's own warnings look at the file alone; these look at pressures, forces and frequencies that follow from it. In
+//! reading order: [`contacts`] (materials, pressures, shapes), [`forces`] (loads, stacks, masses), [`motion`] (strokes,
+//! resonances, tolerances), [`drivers`] (their cost).
+
+mod contacts;
+mod drivers;
+mod forces;
+mod motion;
+
+pub(crate) use motion::multiplied;
+
+use crate::job::Job;
+use stickslip_drive::Stepper;
+use stickslip_drive::scene::{Freedom, Side};
+use stickslip_quantity::Real;
+use stickslip_quantity::quantity;
+use stickslip_scenario::Warning;
+
+/// Most of them that are told: each looks up its line.
+const MOST: usize = 20;
+/// Contacts that the dearer questions are asked of.
+const ASKED: usize = 256;
+
+/// Everything implausible about a job.
+pub(crate) fn of(job: &Job) -> Vec<Warning> {
+    let mut odd = Implausible { job, found: Vec::new(), left_out: 0, misnamed: Vec::new() };
+    odd.materials();
+    odd.contacts();
+    odd.loads();
+    odd.actuators();
+    odd.stacks();
+    odd.masses();
+    odd.strokes();
+    odd.damping_times();
+    odd.flanks();
+    odd.resonances();
+    odd.tolerance();
+    odd.steps();
+    odd.endless();
+    let stepper = job.model.effective(job.scenario.plan.stepper);
+    odd.frames(stepper);
+    odd.drivers(stepper);
+    odd.chatter(stepper);
+    let Implausible { mut found, left_out, .. } = odd;
+    if let (Some(last), 1..) = (found.last_mut(), left_out) {
+        let (more, help) = (format!("{left_out} more warnings are not shown"), &mut last.report.help);
+        *help = Some(help.take().map_or(more.clone(), |help| format!("{help}; {more}")));
+    }
+    found
+}
+
+/// What is not bounded where a stepper takes a job in frames, whatever stepper its scenario names.
+pub(crate) fn of_frames(job: &Job, stepper: Stepper) -> Vec<Warning> {
+    let mut odd = Implausible { job, found: Vec::new(), left_out: 0, misnamed: Vec::new() };
+    odd.frames(stepper);
+    odd.drivers(stepper);
+    odd.chatter(stepper);
+    odd.found
+}
+
+struct Implausible<'a> {
+    job: &'a Job,
+    found: Vec<Warning>,
+    left_out: usize,
+    /// Materials whose moduli are not those of their names.
+    misnamed: Vec<&'a str>,
+}
+
+impl Implausible<'_> {
+    fn find(&mut self, kind: &'static str, path: &str, message: String, help: &str) {
+        if self.found.len() < MOST {
+            self.found.push(self.job.scenario.warning(kind, path, message, help));
+        } else {
+            self.left_out += 1;
+        }
+    }
+
+    /// Indentation of contact `c` that is sure to come, m: the largest that is prescribed; where bodies press, that at the start.
+    fn depth(&self, c: usize) -> f64 {
+        let depths = self.job.model.indentations(&self.job.start, c);
+        depths.map_or(0.0, |d| if self.job.is_coupled(c) { d.start } else { d.most })
+    }
+
+    /// Whether a side is free along x or z.
+    fn is_free(&self, side: Side) -> bool {
+        let Side::Body(body) = side else { return false };
+        let body = self.job.scenario.scene.bodies.get(body);
+        body.is_some_and(|body| [body.part.x, body.part.z].iter().any(|c| c.freedom == Freedom::Free))
+    }
+
+    /// Mass of a side that is free along x or z, kg.
+    fn free_mass(&self, side: Side) -> Option<f64> {
+        let Side::Body(body) = side else { return None };
+        self.job.scenario.scene.bodies.get(body).filter(|_| self.is_free(side))?.part.mass
+    }
+}
+
+/// A number with its unit, four digits.
+fn told(value: f64, unit: &str) -> String {
+    quantity(Real(value), unit)
+}

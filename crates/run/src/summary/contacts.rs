@@ -1,0 +1,142 @@
+//! Contacts, and the quantities of their last cycle.
+
+use super::fretting::Fretting;
+use crate::job::Job;
+use crate::outcome::Outcome;
+use crate::parts::Parts;
+use crate::tally::ContactTally;
+use serde::Serialize;
+use stickslip_contact::Interface;
+use stickslip_drive::NaturalScale;
+use stickslip_quantity::Real;
+
+/// A contact. Forces and work are those of all identical contacts together unless they say otherwise.
+#[derive(Debug, Serialize)]
+pub struct ContactSummary {
+    /// Number of identical contacts.
+    count: u32,
+    /// Displacement at which gross slip starts, at t = 0.
+    #[serde(rename = "gross_slip_displacement_m")]
+    gross_slip_displacement: Real,
+    /// What the stepper's tolerance is relative to.
+    scales: Scales,
+    /// Loads at t = 0.
+    one: Load,
+    all: Load,
+    #[serde(rename = "peak_fx_N")]
+    peak_tangential: Real,
+    #[serde(rename = "peak_fn_N")]
+    peak_normal: Real,
+    /// Of a coupled contact.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    normal: Option<NormalMotion>,
+    #[serde(rename = "friction_J")]
+    friction: Real,
+    similarity: SimilaritySummary,
+    /// Quantities of the last whole cycle; none where there is none, or where it does not come back to its start.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub fretting: Option<Fretting>,
+}
+
+/// How far the theory holds for the two bodies.
+#[derive(Debug, Serialize)]
+struct SimilaritySummary {
+    /// Dundurs' β; 0 for elastically similar bodies.
+    dundurs_beta: Real,
+    /// By how much of itself the normal stiffness at a given contact radius is too low if nothing slips.
+    neglected_stiffness: Real,
+    /// What that means, in words.
+    means: String,
+}
+
+#[derive(Debug, Serialize)]
+struct Load {
+    #[serde(rename = "normal_force_N")]
+    normal: Real,
+    /// μF_N.
+    #[serde(rename = "limit_force_N")]
+    limit: Real,
+}
+
+/// Natural scales at the deepest indentation that the scenario names.
+#[derive(Debug, Serialize)]
+struct Scales {
+    /// u_c.
+    #[serde(rename = "displacement_m")]
+    displacement: Real,
+    /// μF_N.
+    #[serde(rename = "force_N")]
+    force: Real,
+    /// u_c ω.
+    #[serde(rename = "velocity_m_s")]
+    velocity: Real,
+}
+
+/// What the bodies' motion does to a contact along the normal, over all rows and events.
+#[derive(Debug, PartialEq, Serialize)]
+struct NormalMotion {
+    /// Least and largest normal force.
+    #[serde(rename = "fn_N")]
+    force: [Real; 2],
+    /// Least and largest indentation; negative: open.
+    #[serde(rename = "d_m")]
+    indentation: [Real; 2],
+    /// Share of the time in which the contact is open.
+    open_share: Real,
+}
+
+/// All contacts.
+pub(super) fn of(job: &Job, outcome: &Outcome) -> Parts<ContactSummary> {
+    let contacts = job.model.contacts().enumerate();
+    Parts(contacts.map(|(c, (name, law))| (name.to_owned(), contact(job, outcome, (c, law)))).collect())
+}
+
+fn contact(job: &Job, outcome: &Outcome, (c, law): (usize, &Interface)) -> ContactSummary {
+    let (gross_slip, normal) = job.contact_scale(c);
+    let load = |normal: f64| Load { normal: Real(normal), limit: Real(law.friction() * normal) };
+    let tally = outcome.tally.contact(c);
+    let [tangential, normal_peak] = tally.map_or([0.0; 2], |tally| tally.peaks).map(Real);
+    let count = job.count(c);
+    ContactSummary {
+        count,
+        gross_slip_displacement: Real(gross_slip),
+        scales: scales(job, c),
+        one: load(normal),
+        all: load(f64::from(count) * normal),
+        peak_tangential: tangential,
+        peak_normal: normal_peak,
+        normal: tally.filter(|_| job.is_coupled(c)).and_then(NormalMotion::of),
+        friction: Real(outcome.books.friction_of(c)),
+        similarity: SimilaritySummary::of(law),
+        fretting: outcome.cycles.get(c).and_then(|cycles| Fretting::of(cycles, job.is_damped(c))),
+    }
+}
+
+impl SimilaritySummary {
+    fn of(law: &Interface) -> Self {
+        let similarity = law.pair().similarity();
+        Self {
+            dundurs_beta: Real(similarity.dundurs_beta()),
+            neglected_stiffness: Real(similarity.neglected_stiffness()),
+            means: similarity.to_string(),
+        }
+    }
+}
+
+fn scales(job: &Job, c: usize) -> Scales {
+    let natural = job.model.contact_natural(c);
+    let of = |quantity: fn(NaturalScale) -> f64| Real(natural.map_or(0.0, quantity));
+    Scales {
+        displacement: of(|natural| natural.displacement),
+        force: Real(f64::from(job.count(c)) * of(|natural| natural.force).0),
+        velocity: of(|natural| natural.velocity),
+    }
+}
+
+impl NormalMotion {
+    /// None without rows.
+    fn of(tally: &ContactTally) -> Option<Self> {
+        let [force, indentation] = tally.ranges.map(|range| range.map(Real));
+        Some(Self { force, indentation, open_share: Real(tally.open_share()?) })
+    }
+}

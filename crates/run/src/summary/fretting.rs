@@ -1,0 +1,117 @@
+//! Fretting loops.
+
+use crate::cycles::{ContactCycles, JudgedCycle};
+use serde::Serialize;
+use stickslip_quantity::Real;
+
+/// The last cycle of a contact that comes back along u.
+#[derive(Debug, Serialize)]
+pub struct Fretting {
+    /// Number of whole cycles.
+    cycles: usize,
+    /// Start and end of the last.
+    #[serde(rename = "cycle_s")]
+    cycle: [Real; 2],
+    /// Whether its force comes back as well: only then is it a loop, with ratios and a regime.
+    pub closed: bool,
+    /// δ*, half of peak to peak.
+    #[serde(rename = "displacement_amplitude_m")]
+    displacement_amplitude: Real,
+    /// Q*, half of peak to peak.
+    #[serde(rename = "force_amplitude_N")]
+    force_amplitude: Real,
+    /// δ₀, half opening at the middle of the force's range: at F_x = 0 of a loop about that.
+    #[serde(rename = "half_opening_m", skip_serializing_if = "Option::is_none")]
+    half_opening: Option<Real>,
+    /// E_d, all that the contact loses in the cycle, to friction and to its damping; none where damping's part is not known.
+    #[serde(rename = "dissipated_J", skip_serializing_if = "Option::is_none")]
+    pub dissipated: Option<Real>,
+    /// Friction's part of that, of a damped contact.
+    #[serde(rename = "friction_J", skip_serializing_if = "Option::is_none")]
+    friction: Option<Real>,
+    /// Damping's part, of a damped contact; none where other parts lose energy as well, from whose share it is not told apart.
+    #[serde(rename = "damping_J", skip_serializing_if = "Option::is_none")]
+    pub damping: Option<Real>,
+    /// A = E_d/E_t.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    energy_ratio: Option<Real>,
+    /// B = E_d/(4Q*δ₀).
+    #[serde(skip_serializing_if = "Option::is_none")]
+    system_free_ratio: Option<Real>,
+    /// D = δ₀/δ*.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    slip_ratio: Option<Real>,
+    /// μ_e = E_d/(4Pδ₀), P the mean normal force.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    energy_coefficient_of_friction: Option<Real>,
+    /// Tangential stiffness of the contact right after the reversal at the largest u, where all of it sticks.
+    #[serde(rename = "stiffness_after_maximum_N_m", skip_serializing_if = "Option::is_none")]
+    stiffness_after_maximum: Option<Real>,
+    /// The same at the smallest u.
+    #[serde(rename = "stiffness_after_minimum_N_m", skip_serializing_if = "Option::is_none")]
+    stiffness_after_minimum: Option<Real>,
+    /// Secant over the first tenth of the displacement range after the largest u, which slip has softened.
+    #[serde(rename = "secant_after_maximum_N_m", skip_serializing_if = "Option::is_none")]
+    secant_after_maximum: Option<Real>,
+    /// The same after the smallest u.
+    #[serde(rename = "secant_after_minimum_N_m", skip_serializing_if = "Option::is_none")]
+    secant_after_minimum: Option<Real>,
+    /// A, B and D of this profile at the limit between partial and gross slip on a rigid rig; only under a constant load and
+    /// without damping.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    thresholds: Option<Limits>,
+    /// "gross" where its force comes both ways to the limit of friction, "stick" or "partial".
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub regime: Option<&'static str>,
+}
+
+/// Where gross slip begins.
+#[derive(Debug, Serialize)]
+struct Limits {
+    #[serde(skip_serializing_if = "Option::is_none")]
+    energy_ratio: Option<Real>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    system_free_ratio: Option<Real>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    slip_ratio: Option<Real>,
+}
+
+impl Fretting {
+    /// The last of the cycles; of a contact that `is_damped` with the parts of what it loses.
+    pub(super) fn of(cycles: &ContactCycles, is_damped: bool) -> Option<Self> {
+        let JudgedCycle { figures: last, regime } = cycles.last?;
+        let cycle = last.cycle;
+        let of_loop = |value: Option<f64>| last.of_loop(value).map(Real);
+        let ratio = |value: Option<f64>| last.ratio(value).map(Real);
+        Some(Fretting {
+            cycles: cycles.count,
+            cycle: last.time.map(Real),
+            closed: last.is_closed,
+            displacement_amplitude: Real(cycle.displacement_amplitude),
+            force_amplitude: Real(cycle.force_amplitude),
+            half_opening: of_loop(cycle.half_opening),
+            dissipated: last.dissipated().map(Real),
+            friction: is_damped.then(|| Real(last.friction())),
+            damping: last.damping.filter(|_| is_damped).map(Real),
+            energy_ratio: ratio(cycle.energy_ratio()),
+            system_free_ratio: ratio(cycle.system_free_ratio()),
+            slip_ratio: of_loop(cycle.slip_ratio()),
+            energy_coefficient_of_friction: ratio(cycle.friction_coefficient(last.normal)),
+            stiffness_after_maximum: cycle.stiffness_after_maximum.map(Real),
+            stiffness_after_minimum: cycle.stiffness_after_minimum.map(Real),
+            secant_after_maximum: of_loop(last.secants[0]),
+            secant_after_minimum: of_loop(last.secants[1]),
+            thresholds: cycles.thresholds.map(|limits| Limits {
+                energy_ratio: limits.energy_ratio.map(Real),
+                system_free_ratio: limits.system_free_ratio.map(Real),
+                slip_ratio: limits.slip_ratio.map(Real),
+            }),
+            regime,
+        })
+    }
+
+    /// What friction takes in the cycle, J.
+    pub fn friction_work(&self) -> Real {
+        self.friction.or(self.dissipated).unwrap_or(Real(0.0))
+    }
+}

@@ -1,0 +1,215 @@
+//! The account of the last period of a drive.
+
+use super::losses::{self, FootMotion, Losses};
+use crate::account::{Account, ContactAccount, Extreme, Phases};
+use crate::job::Job;
+use crate::outcome::Outcome;
+use crate::parts::Parts;
+use serde::Serialize;
+use stickslip_drive::scene::{Scene, Varying};
+use stickslip_measure::Stride;
+use stickslip_quantity::Real;
+
+/// The last whole period of the waveform of the figures. Forth is the way on which the waveform takes longer; of two that take
+/// as long, the way of the step.
+#[derive(Debug, Serialize)]
+pub struct LastPeriod {
+    #[serde(rename = "from_s")]
+    from: Real,
+    #[serde(rename = "to_s")]
+    to: Real,
+    /// How far the body came.
+    #[serde(rename = "step_m")]
+    pub(super) step: Real,
+    /// What the step loses.
+    #[serde(flatten)]
+    pub(super) losses: Losses,
+    /// How its foot moved, or why a step is not measured by that.
+    #[serde(skip)]
+    pub(super) foot: Result<FootMotion, &'static str>,
+    /// While the waveform goes forth.
+    pub(super) forth: Way,
+    /// While it goes back.
+    pub(super) back: Way,
+    /// Where the work of the drive went.
+    pub(super) work: PeriodWork,
+    /// The contacts of the body.
+    pub(super) contacts: Parts<ContactPeriod>,
+}
+
+/// One way of the waveform.
+#[derive(Debug, Serialize)]
+pub struct Way {
+    /// How long it takes.
+    #[serde(rename = "time_s")]
+    pub(super) time: Real,
+    /// How far the waveform goes, with its sign; none of one that is no length.
+    #[serde(rename = "stroke_m", skip_serializing_if = "Option::is_none")]
+    pub(super) stroke: Option<Real>,
+    /// How far the body goes meanwhile.
+    #[serde(rename = "travel_m")]
+    pub(super) travel: Real,
+}
+
+/// Work of a period: drive = load + friction + damping + stored, but for the errors of integration.
+#[derive(Debug, Serialize)]
+pub struct PeriodWork {
+    /// What the drive put in; none where a load on the body varies: it cannot be told from the drive.
+    #[serde(rename = "drive_J", skip_serializing_if = "Option::is_none")]
+    pub(super) drive: Option<Real>,
+    /// Work against the constant loads on the body and its weight.
+    #[serde(rename = "load_J", skip_serializing_if = "Option::is_none")]
+    pub(super) load: Option<Real>,
+    #[serde(rename = "friction_J")]
+    pub(super) friction: Real,
+    #[serde(rename = "damping_J")]
+    pub(super) damping: Real,
+    /// By how much kinetic and stored energy have grown.
+    #[serde(rename = "stored_J")]
+    stored: Real,
+    /// Work against the load as a share of what the drive put in; none where either is not above 0.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) efficiency: Option<Real>,
+}
+
+/// What a contact of the body did.
+#[derive(Debug, Serialize)]
+pub struct ContactPeriod {
+    /// Share of the way forth in which it slipped as a whole.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) slip_share_forth: Option<Real>,
+    /// The same of the way back.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) slip_share_back: Option<Real>,
+    /// How often its sliding turned on the way forth.
+    pub(super) reversals_forth: u32,
+    /// From when the waveform turned forth, until the force swings by less than 5 % of the limit of friction; 0 if it never swung
+    /// by more. None if it still did at the last reversal before the waveform turned back.
+    #[serde(rename = "settling_s", skip_serializing_if = "Option::is_none")]
+    pub(super) settling: Option<Real>,
+    /// The last swing on the way forth, half of peak to peak, as a share of the limit of friction.
+    pub(super) ringing_left: Real,
+}
+
+/// The last period, with the stride that the body made in it; none of a run without one. A step below `error`, m, is none.
+pub(super) fn of(
+    job: &Job,
+    outcome: &Outcome,
+    (stride, error): (Stride, f64),
+    is_length: bool,
+) -> Option<LastPeriod> {
+    let accounts = outcome.tally.accounts()?;
+    let account = accounts.last()?;
+    let forth = forth(account);
+    let [from, to] = account.span.map(Real);
+    let step: f64 = account.travel.iter().sum();
+    let way = |side: usize| Way {
+        time: Real(account.time[side]),
+        stroke: is_length.then(|| Real(stroke(accounts.phases(), side))),
+        // What it goes while the waveform rests is of the way that led there: forth.
+        travel: Real(account.travel[side] + if side == forth { account.travel[2] } else { 0.0 }),
+    };
+    let names: Vec<&str> = job.model.contacts().map(|(name, _)| name).collect();
+    let contacts = account
+        .contacts
+        .iter()
+        .filter_map(|it| Some(((*names.get(it.c)?).to_owned(), contact(it, account.time, forth))));
+    let [forth_way, back_way] = [way(forth), way(1 - forth)];
+    let foot = losses::foot(job, outcome, [&forth_way, &back_way]);
+    let travel = foot.ok().map(|foot| foot.travel);
+    Some(LastPeriod {
+        from,
+        to,
+        step: Real(step),
+        losses: Losses::of([step, error], stride.back_step(), travel),
+        foot,
+        forth: forth_way,
+        back: back_way,
+        work: work(account, load(job)),
+        contacts: Parts(contacts.collect()),
+    })
+}
+
+/// Of two ways as slow the rising one is forth where the step is less than this share of what the body goes on both, or leads that way.
+const STEP: f64 = 1e-3;
+
+/// Which of two ways is forth.
+fn forth(account: &Account) -> usize {
+    let [rising, falling] = account.time;
+    if (rising - falling).abs() > 1e-3 * (rising + falling) {
+        return usize::from(falling > rising);
+    }
+    // Without a step rounding would say which.
+    let step: f64 = account.travel.iter().sum();
+    usize::from(step < -STEP * (account.travel[0].abs() + account.travel[1].abs()))
+}
+
+/// How far a waveform goes on one of its ways.
+fn stroke(phases: &Phases, side: usize) -> f64 {
+    let [rise, fall] = phases.ways();
+    if side == 0 { rise } else { -fall }
+}
+
+fn contact(it: &ContactAccount, time: [f64; 2], forth: usize) -> ContactPeriod {
+    let share = |side: usize| (time[side] > 0.0).then(|| Real(it.slip[side] / time[side]));
+    let swing = it.swing[forth];
+    let still = swing > crate::account::RINGING;
+    ContactPeriod {
+        slip_share_forth: share(forth),
+        slip_share_back: share(1 - forth),
+        reversals_forth: it.reversals[forth],
+        settling: (!still).then(|| Real(it.rings[forth].unwrap_or(0.0))),
+        ringing_left: Real(swing),
+    }
+}
+
+fn work(account: &Account, load: Option<f64>) -> PeriodWork {
+    let [input, kinetic, elastic, friction, damping] = account.energies;
+    let step: f64 = account.travel.iter().sum();
+    // A load that pulls along does work on the body: it is no load then.
+    let load = load.map(|force| -force * step);
+    let drive = load.map(|load| input + load);
+    let efficiency = load.zip(drive).filter(|(load, drive)| *load > 0.0 && *drive > 0.0);
+    PeriodWork {
+        drive: drive.map(Real),
+        load: load.map(Real),
+        friction: Real(friction),
+        damping: Real(damping),
+        stored: Real(kinetic + elastic),
+        efficiency: efficiency.map(|(load, drive)| Real(load / drive)),
+    }
+}
+
+impl Outcome {
+    /// The last swing of a contact's force while the waveform of the figures went forth in its last whole period: both of its turns.
+    #[must_use]
+    pub fn last_swing(&self, contact: usize) -> Option<[Extreme; 2]> {
+        let account = self.tally.accounts()?.last()?;
+        account.contacts.iter().find(|it| it.c == contact)?.turns[forth(account)]
+    }
+}
+
+/// Constant force along x on the body of the figures, its loads and its weight, N; none where a load on it varies, or where others
+/// bear one.
+pub fn load(job: &Job) -> Option<f64> {
+    let (scene, b) = (&job.scenario.scene, job.scenario.figures.body?);
+    let body = &scene.bodies.get(b)?.part;
+    let (along, _) = scene.gravity.components();
+    let mut force = -body.mass.unwrap_or(0.0) * along;
+    for load in scene.loads.iter().filter(|load| load.on == b) {
+        match load.x {
+            Varying::Constant(constant) => force += constant,
+            Varying::Follows(_) => return None,
+        }
+    }
+    // Another body's load is put in with the drive: it cannot be told from it either.
+    let elsewhere = scene.loads.iter().any(|load| load.on != b && load.x != Varying::Constant(0.0));
+    (!elsewhere && !has_other_weight(scene, b)).then_some(force)
+}
+
+/// Whether another free body has a weight along x.
+fn has_other_weight(scene: &Scene, b: usize) -> bool {
+    let (along, _) = scene.gravity.components();
+    let others = scene.bodies.iter().enumerate().filter(|(k, _)| *k != b);
+    along != 0.0 && others.into_iter().any(|(_, body)| body.part.is_free())
+}

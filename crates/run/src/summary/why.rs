@@ -1,0 +1,149 @@
+//! Why a step is as long as it is, in sentences with numbers.
+
+use super::drivers::DriverSummary;
+use super::losses::FootMotion;
+use super::period::{ContactPeriod, LastPeriod, PeriodWork};
+use crate::job::Job;
+use crate::parts::Parts;
+use stickslip_drive::facts::zero_step_stroke;
+use stickslip_quantity::Real;
+use stickslip_quantity::quantity;
+
+/// A step below this share of the stroke is none.
+const NOTHING: f64 = 0.01;
+
+/// Whether a period made no step, or one against its slower way.
+pub(super) fn is_odd(last: &LastPeriod) -> bool {
+    last.forth.stroke.is_some_and(|stroke| last.step.0 * stroke.0.signum() <= NOTHING * stroke.0.abs())
+}
+
+/// The sentences of a period.
+pub(super) fn of(job: &Job, drivers: &Parts<DriverSummary>, last: &LastPeriod) -> Vec<String> {
+    let mut lines = Vec::new();
+    lines.extend(way(last));
+    lines.extend(lost(last));
+    lines.extend(drivers.0.iter().filter_map(|(name, driver)| driver.line(name)));
+    lines.extend(last.contacts.0.iter().map(|(name, contact)| contact_line(name, contact)));
+    lines.extend(short(job, last));
+    lines.extend(work(&last.work));
+    lines
+}
+
+fn length(value: f64) -> String {
+    quantity(Real(value), "m")
+}
+
+fn percent(share: f64) -> String {
+    format!("{:.1} %", 100.0 * share)
+}
+
+/// What became of the stroke.
+fn way(last: &LastPeriod) -> Option<String> {
+    let stroke = last.forth.stroke?.0;
+    let (step, fall) = (last.step.0 * stroke.signum(), last.losses.back_step_length.0);
+    let stroke = stroke.abs();
+    let forward = step.abs() + fall;
+    let came = format!("the body came forward by {} and fell back by {}", length(forward), length(fall));
+    let result = if step.abs() <= NOTHING * stroke {
+        format!("no step, the body moved by {} peak to peak", length(forward))
+    } else if step < 0.0 {
+        format!("a step of {} the other way; {came}", length(-step))
+    } else {
+        format!("a step of {}, {} of the stroke; {came}", length(step), percent(step / stroke))
+    };
+    let times = |[forward, back]: [f64; 2]| {
+        format!("in {} and back in {}", quantity(Real(forward), "s"), quantity(Real(back), "s"))
+    };
+    let command = format!("by {} {}", length(stroke), times([last.forth.time.0, last.back.time.0]));
+    Some(match last.foot {
+        Ok(FootMotion { travel, own_times: Some(own) }) => {
+            let own = if last.forth.stroke?.0 > 0.0 { own } else { [own[1], own[0]] };
+            let moved = format!("by {} {}", length(travel), times(own));
+            format!("the stack moved the foot forward {moved} (commanded: {command}): {result}")
+        }
+        _ => format!("the drive moved forward {command}: {result}"),
+    })
+}
+
+/// How much of the foot's travel is no step, or why that is not said.
+fn lost(last: &LastPeriod) -> Option<String> {
+    last.forth.stroke?;
+    Some(match (last.losses.lost_stroke, last.foot) {
+        (Some(lost), _) if lost.0 < 0.0 => {
+            format!("the step exceeds the travel of the foot by {}", length(-lost.0))
+        }
+        (Some(lost), _) => format!("{} of the travel of the foot are lost", length(lost.0)),
+        (None, foot) => format!("no lost stroke: {}", foot.err()?),
+    })
+}
+
+/// What a contact did.
+fn contact_line(name: &str, contact: &ContactPeriod) -> String {
+    let share = |share: Option<Real>| share.map_or("0.0 %".to_owned(), |share| percent(share.0));
+    let slip = format!(
+        "{name} slipped {} of the way back and {} of the way forth",
+        share(contact.slip_share_back),
+        share(contact.slip_share_forth)
+    );
+    let times = match contact.reversals_forth {
+        1 => "once".to_owned(),
+        2 => "twice".to_owned(),
+        times => format!("{times} times"),
+    };
+    let ringing = match contact.settling {
+        _ if contact.reversals_forth == 0 => "did not ring".to_owned(),
+        None => format!(
+            "turned {times} on the way forth and still swings by {} of the limit of friction when the drive turns: the step hangs on the period",
+            percent(contact.ringing_left.0)
+        ),
+        Some(settling) if settling.0 == 0.0 => {
+            format!("turned {times} on the way forth, with swings below 5 % of the limit of friction")
+        }
+        Some(settling) => format!(
+            "turned {times} on the way forth and swung by more than 5 % of the limit of friction for {}",
+            quantity(settling, "s")
+        ),
+    };
+    format!("{slip}; it {ringing}")
+}
+
+/// Whether the stroke is too short to step at all.
+fn short(job: &Job, last: &LastPeriod) -> Option<String> {
+    let stroke = last.forth.stroke?.0.abs();
+    let laws = job.model.contacts().enumerate();
+    let of_body = laws.filter(|(_, (name, _))| last.contacts.0.iter().any(|(own, _)| own == name));
+    let idle = of_body.filter_map(|(c, (_, law))| {
+        let natural = job.model.contact_natural(c)?;
+        zero_step_stroke(law, natural.displacement / law.stick_slope(), 0.0)
+    });
+    let idle = idle.fold(f64::INFINITY, f64::min);
+    (idle.is_finite() && stroke < idle).then(|| {
+        format!(
+            "the stroke of {} is below the zero-step stroke of {}, which the contact alone takes up when nothing rings",
+            length(stroke),
+            length(idle)
+        )
+    })
+}
+
+/// What is less than this share of the work shows in no per cent.
+const UNSEEN: f64 = 5e-4;
+
+/// Where the work went.
+fn work(work: &PeriodWork) -> Option<String> {
+    let (drive, load) = (work.drive.filter(|drive| drive.0 > 0.0)?, work.load?);
+    // A load that drags the body along puts work in as well.
+    let gave = Real((-load.0).max(0.0));
+    let share = |part: Real| percent(part.0 / (drive.0 + gave.0));
+    let load = if load.0 > 0.0 { format!(", the load {}", share(load)) } else { String::new() };
+    let gave = match gave.0 > UNSEEN * drive.0 {
+        true => format!(" and {} that the load gave", quantity(gave, "J")),
+        false => String::new(),
+    };
+    let friction = share(work.friction);
+    Some(format!(
+        "of {} that the drive put in{gave} friction took {friction}, dampers {}{load}",
+        quantity(drive, "J"),
+        share(work.damping)
+    ))
+}

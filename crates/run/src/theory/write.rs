@@ -1,0 +1,270 @@
+//! What was found of a contact as files, published together.
+
+use super::state::contact_word;
+use super::{Sheet as Constants, Walk};
+use crate::folder::Folder;
+use crate::insides::state_name;
+use crate::seal::Seal;
+use crate::sheet::Sheet;
+use serde::Serialize;
+use std::io;
+use stickslip_quantity::Real;
+
+/// All numbers; written last, with rows and SHA-256 of every table.
+pub const CONTACT: &str = "contact.json";
+/// The tables.
+pub const TABLES: [&str; 6] =
+    ["history.csv", "fields.csv", "line.csv", "friction.csv", "normal.csv", "universal.csv"];
+
+const HISTORY_HEAD: &[&str] =
+    &["corner", "share", "d_m", "u_m", "fn_N", "fx_N", "a_m", "c_m", "state", "elastic_J", "friction_J"];
+const FIELDS_HEAD: &[&str] =
+    &["corner", "r_m", "pressure_Pa", "shear_Pa", "displacement_m", "slip_m", "deflection_m", "state"];
+const LINE_HEAD: &[&str] = &[
+    "corner",
+    "x_m",
+    "length_m",
+    "g_m",
+    "kz_N_m",
+    "kx_N_m",
+    "qz_N_m",
+    "qx_N_m",
+    "limit_N_m",
+    "fz_N",
+    "fx_N",
+    "stretch_m",
+    "state",
+];
+/// Numbers and words of a line of a spring.
+pub(crate) const LINE_WIDTH: usize = LINE_HEAD.len();
+const FRICTION_HEAD: &[&str] = &["corner", "share", "r_m", "work_J_m2", "way_m"];
+const NORMAL_HEAD: &[&str] = &["d_m", "a_m", "fn_N", "stiffness_N_m", "u_c_m"];
+const UNIVERSAL_HEAD: &[&str] =
+    &["c_a", "u_uc", "fx_mufn", "c_m", "u_m", "fx_N", "fx_by_integral_N", "friction_J"];
+
+/// The tables and their columns.
+pub fn heads() -> [(&'static str, &'static [&'static str]); 6] {
+    let heads = [HISTORY_HEAD, FIELDS_HEAD, LINE_HEAD, FRICTION_HEAD, NORMAL_HEAD, UNIVERSAL_HEAD];
+    std::array::from_fn(|k| (TABLES[k], heads[k]))
+}
+
+/// What goes beside the tables.
+#[derive(Debug, Default)]
+pub struct Beside<'a> {
+    /// Names and bytes of pictures.
+    pub pictures: &'a [(String, Vec<u8>)],
+    /// Names of files of before that go.
+    pub stale: Vec<String>,
+    /// What is to be known of the rest.
+    pub notes: Vec<String>,
+}
+
+/// Fills a table.
+type Fill<'a> = &'a dyn Fn(&mut Sheet);
+
+/// What `contact.json` says.
+#[derive(Serialize)]
+struct Report<'a> {
+    #[serde(flatten)]
+    constants: &'a Constants,
+    corners: Vec<CornerReport>,
+    tables: Vec<TableReport>,
+    files: Vec<String>,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    notes: Vec<String>,
+}
+
+/// What a program says of it that prints JSON.
+#[derive(Serialize)]
+struct Answer<'a> {
+    #[serde(flatten)]
+    constants: &'a Constants,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    corners: Vec<CornerReport>,
+}
+
+#[derive(Serialize)]
+struct CornerReport {
+    #[serde(rename = "indentation_m")]
+    d: Real,
+    #[serde(rename = "displacement_m")]
+    u: Real,
+    #[serde(rename = "normal_force_N")]
+    normal_force: Real,
+    #[serde(rename = "tangential_force_N")]
+    force: Real,
+    #[serde(rename = "contact_radius_m")]
+    a: Real,
+    #[serde(rename = "stick_radius_m")]
+    c: Real,
+    state: &'static str,
+    #[serde(rename = "tangential_energy_J")]
+    elastic: Real,
+    #[serde(rename = "friction_work_J")]
+    friction: Real,
+}
+
+#[derive(Serialize)]
+struct TableReport {
+    name: &'static str,
+    rows: u64,
+    sha256: String,
+}
+
+/// All numbers on one line of JSON; the curves only where there is no history.
+pub fn json(constants: &Constants, walk: Option<&Walk>) -> String {
+    let (constants, corners) = match walk {
+        Some(walk) => (&constants.without_curves(), corners(walk)),
+        None => (constants, Vec::new()),
+    };
+    // Numbers and strings only: there is nothing that JSON could refuse.
+    serde_json::to_string(&Answer { constants, corners }).unwrap_or_default()
+}
+
+fn corners(walk: &Walk) -> Vec<CornerReport> {
+    walk.moments.iter().map(|moment| CornerReport::of(&moment.stop)).collect()
+}
+
+/// Writes the tables, `contact.json` and the pictures given into a folder; files of before that are not among them go.
+/// Returns the names.
+///
+/// # Errors
+/// What the system says; nothing that was there is gone then, unless it says so while names are given.
+pub fn write(
+    mut folder: Folder,
+    constants: &Constants,
+    walk: &Walk,
+    beside: Beside<'_>,
+) -> io::Result<Vec<String>> {
+    let fills: [Fill<'_>; 6] = [
+        &|sheet| history(sheet, walk),
+        &|sheet| fields(sheet, walk),
+        &|sheet| line(sheet, constants, walk),
+        &|sheet| friction(sheet, walk),
+        &|sheet| normal(sheet, constants),
+        &|sheet| universal(sheet, constants),
+    ];
+    let mut reports = Vec::new();
+    for ((name, head), fill) in heads().into_iter().zip(fills) {
+        let mut sheet = Sheet::new(folder.draft(name)?, head.iter().copied());
+        fill(&mut sheet);
+        let written = sheet.finish()?;
+        if let Some(failure) = written.failure {
+            return Err(failure);
+        }
+        let Seal { rows, sha256 } = written.seal;
+        // What a contact does not have, such as the fields of a list of springs, leaves no file.
+        if rows > 0 {
+            folder.stage(name, written.file)?;
+            reports.push(TableReport { name, rows, sha256 });
+        }
+    }
+    beside.pictures.iter().try_for_each(|(name, bytes)| folder.write(name, bytes))?;
+    let mut files = folder.names();
+    files.push(CONTACT.to_owned());
+    folder.forget(TABLES.iter().map(|name| (*name).to_owned()).chain(beside.stale).collect());
+    let report = Report {
+        constants: &constants.without_curves(),
+        corners: corners(walk),
+        tables: reports,
+        files: files.clone(),
+        notes: beside.notes,
+    };
+    let mut json = serde_json::to_vec_pretty(&report).map_err(io::Error::other)?;
+    json.push(b'\n');
+    folder.write(CONTACT, &json)?;
+    folder.publish()?;
+    Ok(files)
+}
+
+fn whole(sheet: &mut Sheet, number: usize) {
+    sheet.word(&number.to_string());
+}
+
+fn numbers<const N: usize>(sheet: &mut Sheet, values: [f64; N]) {
+    values.into_iter().for_each(|value| sheet.number(value));
+}
+
+fn history(sheet: &mut Sheet, walk: &Walk) {
+    for stop in &walk.stops {
+        whole(sheet, stop.corner);
+        let apex = stop.apex;
+        numbers(sheet, [stop.share, apex.d, apex.u, stop.normal_force, stop.force, stop.a, stop.c]);
+        sheet.word(contact_word(stop.state));
+        numbers(sheet, [stop.elastic, stop.friction]);
+        sheet.end_line();
+    }
+}
+
+fn fields(sheet: &mut Sheet, walk: &Walk) {
+    for moment in &walk.moments {
+        for field in &moment.fields {
+            whole(sheet, moment.stop.corner);
+            numbers(sheet, [field.r, field.pressure, field.shear, field.displacement]);
+            numbers(sheet, [field.slip, field.deflection]);
+            sheet.word(state_name(field.state));
+            sheet.end_line();
+        }
+    }
+}
+
+fn line(sheet: &mut Sheet, constants: &Constants, walk: &Walk) {
+    let moduli = [&constants.constants.normal_modulus, &constants.constants.tangential_modulus];
+    for moment in &walk.moments {
+        for spring in &moment.springs {
+            whole(sheet, moment.stop.corner);
+            let forces = [spring.normal_force, spring.tangential_force];
+            let spring_length = spring.spring.length;
+            numbers(sheet, [spring.spring.x, spring_length, spring.spring.height]);
+            numbers(sheet, moduli.map(|modulus| modulus.0 * spring_length));
+            numbers(sheet, [forces[0], forces[1], spring.limit].map(|force| force / spring_length));
+            numbers(sheet, [forces[0], forces[1], spring.spring.stretch]);
+            sheet.word(state_name(spring.spring.state));
+            sheet.end_line();
+        }
+    }
+}
+
+fn friction(sheet: &mut Sheet, walk: &Walk) {
+    let Some(course) = &walk.friction else { return };
+    for step in &course.steps {
+        for ((r, work), way) in course.radii.iter().zip(&step.work).zip(&step.way) {
+            whole(sheet, step.corner);
+            numbers(sheet, [step.share, *r, *work, *way]);
+            sheet.end_line();
+        }
+    }
+}
+
+fn normal(sheet: &mut Sheet, constants: &Constants) {
+    for row in &constants.normal {
+        numbers(sheet, [row.d.0, row.a.0, row.normal_force.0, row.normal_stiffness.0, row.gross_slip.0]);
+        sheet.end_line();
+    }
+}
+
+fn universal(sheet: &mut Sheet, constants: &Constants) {
+    for row in &constants.universal {
+        let loading = &row.loading;
+        numbers(sheet, [row.stick_share.0, row.displacement_share.0, row.force_share.0, loading.c.0]);
+        numbers(sheet, [loading.u.0, loading.tangential_force.0, loading.by_integral.0]);
+        sheet.number(loading.friction_work.0);
+        sheet.end_line();
+    }
+}
+
+impl CornerReport {
+    fn of(stop: &super::Stop) -> Self {
+        Self {
+            d: Real(stop.apex.d),
+            u: Real(stop.apex.u),
+            normal_force: Real(stop.normal_force),
+            force: Real(stop.force),
+            a: Real(stop.a),
+            c: Real(stop.c),
+            state: contact_word(stop.state),
+            elastic: Real(stop.elastic),
+            friction: Real(stop.friction),
+        }
+    }
+}

@@ -1,0 +1,150 @@
+//! What a run or its scenario is not worth: said on stderr and in the `warnings` of `summary.json`.
+//!
+//! Whoever finds something pushes a [`Warning`] into the list that [`Summary::new`](crate::Summary::new) collects; the program
+//! prints the list and, with `--strict`, lets no result pass that has one of its own.
+
+use crate::books;
+use crate::job::Job;
+use crate::outcome::Outcome;
+use crate::plausibility::multiplied;
+use crate::summary::flight;
+use serde::Serialize;
+use std::fmt;
+use stickslip_drive::Stepper;
+use stickslip_drive::scene::{Contact, Named};
+use stickslip_quantity::Real;
+use stickslip_quantity::quantity;
+
+/// Most contacts that a warning names.
+const MOST: usize = 3;
+
+/// Something that makes results worth less than they look.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+pub struct Warning {
+    /// What it is about, as one word for machines, such as `energy_books`; it never changes its meaning.
+    pub kind: &'static str,
+    /// Key path in the scenario of what is odd about it; none of what came out in the run.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub path: Option<String>,
+    /// What there is to say, with its number.
+    pub message: String,
+    /// What to try.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub help: Option<String>,
+}
+
+impl Warning {
+    /// One about what came out in a run.
+    pub fn new(kind: &'static str, message: impl Into<String>) -> Self {
+        Self { kind, path: None, message: message.into(), help: None }
+    }
+
+    /// The same with what to try.
+    #[must_use]
+    pub fn help(self, help: impl Into<String>) -> Self {
+        Self { help: Some(help.into()), ..self }
+    }
+
+    /// All that `check` warns of.
+    pub fn of_check(job: &Job) -> Vec<Self> {
+        job.warnings().iter().map(Self::of_odd).collect()
+    }
+
+    fn of_odd(odd: &stickslip_scenario::Warning) -> Self {
+        Self { kind: odd.kind, path: Some(odd.path.clone()), message: odd.message.clone(), help: None }
+    }
+
+    /// What is odd about the scenario of a job, by path: the same of a scenario and of what it is written out in full, which a
+    /// resumed run reads.
+    pub fn of_scenario(job: &Job) -> Vec<Self> {
+        let odd = job.warnings();
+        let told = odd.iter().filter(|odd| odd.kind != stickslip_scenario::Warning::WORDING);
+        let mut warnings: Vec<Self> = told.map(Self::of_odd).collect();
+        warnings.sort_by(|a, b| (&a.path, a.kind, &a.message).cmp(&(&b.path, b.kind, &b.message)));
+        warnings
+    }
+
+    /// Whether it is about what came out in the run, and not about its scenario, which `stickslip check` tells beforehand.
+    pub fn is_of_results(&self) -> bool {
+        self.path.is_none()
+    }
+}
+
+impl fmt::Display for Warning {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}", self.message)?;
+        self.help.iter().try_for_each(|help| write!(f, "\n   help: {help}"))
+    }
+}
+
+/// Rounding of where the bodies start, in the smallest natural displacement of a contact. What they travel is counted from near by.
+fn finest(job: &Job) -> f64 {
+    let places = job.scenario.scene.bodies.iter().map(|body| body.part.x.position.abs());
+    let contacts = 0..job.scenario.scene.contacts.len();
+    let natural = contacts.filter_map(|c| job.model.contact_natural(c)).map(|scale| scale.displacement);
+    let least = natural.filter(|length| *length > 0.0).fold(f64::INFINITY, f64::min);
+    f64::EPSILON * places.fold(0.0, f64::max) / least
+}
+
+/// What came out in the run itself: energy books that do not close, steps whose error is not known, motions beyond the model's kinematics.
+pub(crate) fn of_run(job: &Job, outcome: &Outcome) -> Vec<Warning> {
+    let asked = job.scenario.plan.stepper;
+    let stepper = job.model.effective(asked);
+    let is_asked = stepper.name() == asked.name();
+    let of_books = books::warning(&outcome.books, stepper, is_asked, finest(job));
+    let mut warnings: Vec<Warning> = of_books.into_iter().collect();
+    let missed = outcome.state.counts().missed;
+    if missed > 0 {
+        let all = outcome.state.counts().steps;
+        let message = format!(
+            "{missed} of {all} steps miss their tolerance: damped springs stick and slip by turns there, and \
+             no shorter step is any better"
+        );
+        warnings.push(
+            Warning::new("error_estimate", message)
+                .help("compare with a run at another tolerance, or with less contact damping"),
+        );
+    }
+    warnings.extend(impacts(job, outcome));
+    if let Some(since) = flight(job, outcome) {
+        let since = quantity(Real(since), "s");
+        let message = format!(
+            "the body of figures has been in the air since {since}, a period and more: all its contacts are open, and how far it \
+             flies in a period is no step"
+        );
+        let help =
+            "press it on: by its weight, by a spring or a load along z; did it start too high, or too deep?";
+        warnings.push(Warning::new("flight", message).help(help));
+    }
+    warnings.extend(outcome.tally.excursions().warnings(job));
+    warnings
+}
+
+/// Contacts that bodies press and that parted in a run by frames.
+fn impacts(job: &Job, outcome: &Outcome) -> Option<Warning> {
+    let Stepper::Frames { accuracy, .. } = job.model.effective(job.scenario.plan.stepper) else {
+        return None;
+    };
+    let contacts = job.scenario.scene.contacts.iter().enumerate().filter(|(c, _)| job.is_pressed_freely(*c));
+    let open = |(c, contact): (usize, &Named<Contact>)| {
+        let share = outcome.tally.contact(c)?.open_share().filter(|share| *share > 0.0)?;
+        Some(format!("{} was open for {:.2} % of the time", contact.name, 100.0 * share))
+    };
+    let parted: Vec<String> = contacts.filter_map(open).take(MOST).collect();
+    let message = format!("{}: {}", parted.join(", "), multiplied(accuracy));
+    let help = "compare with a smaller accuracy, or with the stepper event";
+    (!parted.is_empty()).then(|| Warning::new("frames_under_impacts", message).help(help))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_warning_is_words_for_people_and_a_kind_for_machines() {
+        let warning = Warning::new("energy_books", "20 % are missing").help("shorter steps");
+        assert_eq!(warning.to_string(), "20 % are missing\n   help: shorter steps");
+        let json = serde_json::to_string(&warning).unwrap();
+        assert_eq!(json, r#"{"kind":"energy_books","message":"20 % are missing","help":"shorter steps"}"#);
+    }
+}

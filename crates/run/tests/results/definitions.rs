@@ -1,0 +1,105 @@
+//! Whatever is written has its definition, and the page of definitions is the table's.
+
+use serde_json::Value;
+use std::collections::BTreeSet;
+use std::fs;
+use std::path::Path;
+use stickslip_drive::Model;
+use stickslip_run::{Definition, definitions, definitions_page};
+use stickslip_scenario::Scenario;
+
+fn root() -> &'static Path {
+    Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../.."))
+}
+
+fn defined(file: &str, name: &str) -> bool {
+    definitions().any(|definition| definition.defines(file, name))
+}
+
+#[test]
+fn the_page_is_the_table() {
+    let path = root().join("docs/definitions.md");
+    if std::env::var_os("STICKSLIP_WRITE").is_some() {
+        fs::write(&path, definitions_page()).unwrap();
+    }
+    assert_eq!(fs::read_to_string(path).unwrap(), definitions_page());
+}
+
+#[test]
+fn every_channel_of_every_example_is_defined() {
+    let mut lacking = BTreeSet::new();
+    for entry in fs::read_dir(root().join("scenarios")).unwrap() {
+        let path = entry.unwrap().path();
+        if path.extension().is_none_or(|extension| extension != "json") {
+            continue;
+        }
+        let scenario = Scenario::load(&path).unwrap();
+        let channels = Model::new(&scenario.scene).unwrap().channels();
+        assert!(channels.len() > 5);
+        lacking.extend(channels.into_iter().map(|c| c.name).filter(|name| !defined("trace.csv", name)));
+    }
+    assert!(lacking.is_empty(), "{lacking:?}");
+}
+
+/// The heads of the tables whose columns are the same in every run, as the program writes them.
+#[test]
+fn every_column_of_the_other_tables_is_defined() {
+    let heads = stickslip_run::heads();
+    assert_eq!(heads.len(), 7);
+    for (file, head) in heads {
+        for name in head {
+            assert!(defined(file, name), "{file}: {name}");
+        }
+        // And nothing is defined that is not there.
+        let known = definitions().filter(|definition| definition.file == file);
+        for Definition { name, .. } in known {
+            assert!(head.contains(name), "{file} has no {name}");
+        }
+    }
+}
+
+/// The tables of a contact by itself share names with those of a run.
+#[test]
+fn every_column_of_a_contact_by_itself_is_defined() {
+    for (file, head) in stickslip_run::theory::heads() {
+        let file = format!("contact: {file}");
+        for name in head {
+            assert!(defined(&file, name), "{file}: {name}");
+        }
+        for Definition { name, .. } in definitions().filter(|definition| definition.file == file) {
+            assert!(head.contains(name), "{file} has no {name}");
+        }
+    }
+}
+
+/// Keys that hold values, as paths; names of parts stay what they are.
+fn keys(value: &Value, here: &str, found: &mut BTreeSet<String>) {
+    match value {
+        Value::Object(entries) => {
+            for (key, inner) in entries {
+                // The dot of a file's name is none of a path.
+                let key = key.replace('.', " ");
+                keys(inner, &if here.is_empty() { key } else { format!("{here}.{key}") }, found);
+            }
+        }
+        Value::Array(entries) if entries.iter().any(Value::is_object) => {
+            entries.iter().for_each(|inner| keys(inner, here, found));
+        }
+        _ => drop(found.insert(here.to_owned())),
+    }
+}
+
+#[test]
+fn every_key_of_every_golden_summary_is_defined() {
+    let mut found = BTreeSet::new();
+    for entry in fs::read_dir(root().join("tests/golden")).unwrap() {
+        if let Ok(text) = fs::read_to_string(entry.unwrap().path().join("summary.json")) {
+            keys(&serde_json::from_str(&text).unwrap(), "", &mut found);
+        }
+    }
+    assert!(found.len() > 100, "{}", found.len());
+    // What golden results leave out of a summary, or add to it, is theirs.
+    let lacking: Vec<_> =
+        found.iter().filter(|name| !name.starts_with("excerpt") && !defined("summary.json", name)).collect();
+    assert!(lacking.is_empty(), "{lacking:?}");
+}
