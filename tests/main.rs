@@ -18,6 +18,7 @@ mod guide;
 mod info;
 mod info_tables;
 mod insides;
+mod library;
 mod measured_loops;
 mod new;
 mod output;

@@ -103,7 +103,7 @@ fn what_a_reference_does_not_see_of_its_energies_is_said() {
 #[test]
 fn steps_taken_in_spite_of_their_estimate_are_counted() {
     let out = tempdir().unwrap();
-    let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("../results/tests/data/flat_damped.json");
+    let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("../run/tests/data/flat_damped.json");
     // At its own tolerance, 1e-8, all steps of its detours agree with their halves.
     let fine = "run.stepper.event.tolerance=1e-9";
     let output = run(&file, out.path(), &[fine]);
@@ -199,7 +199,7 @@ fn what_is_implausible_is_said_by_every_command_and_refused_by_none() {
 #[test]
 fn motions_beyond_the_model_are_said_of_the_run_and_explained() {
     let out = tempdir().unwrap();
-    let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("../results/tests/data/spins_30_rad.json");
+    let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("../run/tests/data/spins_30_rad.json");
     let mut command = stickslip();
     command.args(["run", "--strict"]).arg(&file).arg("--out").arg(out.path());
     let output = command.output().unwrap();

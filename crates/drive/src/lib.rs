@@ -34,6 +34,7 @@ pub mod section;
 mod sine;
 mod state;
 mod variation;
+mod wall;
 mod watcher;
 mod waveform;
 
@@ -49,6 +50,7 @@ pub use scene::Scene;
 pub use schedule::{Moments, Schedule};
 pub use state::{BytesError, CommandError, Counts, Generated, InputError, State};
 pub use variation::{EnergyRates, Parameter, Variation, VariationError};
+pub use wall::Wall;
 pub use watcher::{Unrecorded, Watcher};
 pub use waveform::{
     Command, Cycle, Generator, Harmonic, Heading, Interpolation, Piece, Sample, Section, Shape, Steps, Sweep,

@@ -39,6 +39,38 @@ pub struct Scene {
 }
 
 impl Scene {
+    /// SI unit of a waveform: that of what follows it first; empty where nothing does.
+    #[must_use]
+    pub fn waveform_unit(&self, place: usize) -> &'static str {
+        let follows = |value: Varying| matches!(value, Varying::Follows(waveform) if waveform == place);
+        for body in &self.bodies {
+            for (axis, coordinate) in body.part.coordinates() {
+                if coordinate.freedom == Freedom::Follows(place) {
+                    return if axis == Axis::Pitch { "rad" } else { "m" };
+                }
+            }
+        }
+        if self.actuators.iter().any(|actuator| follows(actuator.part.stroke)) {
+            return "m";
+        }
+        for load in &self.loads {
+            if follows(load.x) || follows(load.z) {
+                return "N";
+            }
+            if follows(load.pitch) {
+                return "N m";
+            }
+        }
+        for contact in &self.contacts {
+            match contact.part.normal {
+                Normal::Force(value) if follows(value) => return "N",
+                Normal::Indentation(value) | Normal::Radius(value) if follows(value) => return "m",
+                _ => {}
+            }
+        }
+        ""
+    }
+
     /// The waveform that a signal is or, where a block makes it, what the first signal that the block reads comes from. None where
     /// no waveform is behind it.
     #[must_use]

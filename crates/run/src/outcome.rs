@@ -10,8 +10,7 @@ use crate::record::{Draft, Recorded, Recorder};
 use crate::selection::TakenEvents;
 use crate::tally::Tally;
 use std::io;
-use std::time::Instant;
-use stickslip_drive::{RunError, State};
+use stickslip_drive::{RunError, State, Wall};
 use stickslip_measure::Strides;
 
 /// What came of a run, all of it in memory.
@@ -85,9 +84,9 @@ pub(crate) struct Ended {
 impl Ended {
     fn of<'a>(job: &Job, mut recorder: Recorder<'a>) -> (Self, Recorder<'a>) {
         let mut state = job.start.clone();
-        let begun = Instant::now();
+        let begun = Wall::begin(true);
         let result = stickslip_drive::run(&job.model, &job.scenario.plan, &mut state, &mut recorder);
-        let wall = begun.elapsed().as_secs_f64();
+        let wall = begun.elapsed();
         (Self { error: result.err(), state, wall }, recorder)
     }
 

@@ -40,6 +40,8 @@ pub(crate) struct Document {
     pub(crate) tables: Vec<TableFile>,
     /// The folder that these are looked for in; none of a scenario that may name no files.
     pub(crate) base: Option<PathBuf>,
+    /// What the caller calls an override.
+    pub(crate) word: &'static str,
 }
 
 /// Most characters of a value that a message repeats.
@@ -55,6 +57,7 @@ impl Document {
             root: Place { key: None, value: whole, inner: Inner::Leaf },
             tables: Vec::new(),
             base: None,
+            word: "--set",
         };
         document.add(file.to_owned(), text.to_owned(), SourceKind::Scenario);
         document
@@ -127,6 +130,7 @@ impl Document {
         let mut report = Report {
             file: String::new(),
             is_override: false,
+            word: self.word,
             excerpt: None,
             path: fault.path.to_string(),
             message: match written {
@@ -184,7 +188,7 @@ impl Document {
         let span = self.locate(path, Mark::Value);
         let Some(source) = self.sources.get(span.source) else { return String::new() };
         match &source.kind {
-            SourceKind::Override => format!("--set {}", source.name),
+            SourceKind::Override => format!("{} {}", self.word, source.name).trim_start().to_owned(),
             _ => {
                 let excerpt = Excerpt::of(&source.text, span.start..span.end);
                 format!("{}:{}:{}", source.name, excerpt.line, excerpt.column)

@@ -62,6 +62,8 @@ pub struct Report {
     pub file: String,
     /// Whether an argument of `--set` is to blame, not a file.
     pub is_override: bool,
+    /// What the caller calls an override, such as `--set`; may be empty.
+    pub word: &'static str,
     /// Where in the file; none when the file as a whole is meant.
     pub excerpt: Option<Excerpt>,
     /// Key path such as `contacts.ball.friction`; empty for the whole scenario.
@@ -203,7 +205,12 @@ impl fmt::Display for ScenarioError {
 impl fmt::Display for Report {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match &self.excerpt {
-            _ if self.is_override => write!(f, "--set {}  ", self.file)?,
+            _ if self.is_override && self.word.is_empty() => write!(f, "{}  ", self.file)?,
+            _ if self.is_override => write!(f, "{} {}  ", self.word, self.file)?,
+            Some(excerpt) if self.file.is_empty() => {
+                write!(f, "line {}, column {}  ", excerpt.line, excerpt.column)?;
+            }
+            None if self.file.is_empty() => {}
             Some(excerpt) => write!(f, "{}:{}:{}  ", self.file, excerpt.line, excerpt.column)?,
             None => write!(f, "{}: ", self.file)?,
         }

@@ -99,7 +99,7 @@ impl Scenario {
         base: impl AsRef<Path>,
         overrides: &[(&str, &str)],
     ) -> Result<Self, ScenarioError> {
-        Self::read(text, name, Some(base.as_ref()), overrides)
+        Self::read(text, (name, "--set"), Some(base.as_ref()), overrides)
     }
 
     /// Reads a scenario that has no folder, such as one carried by a picture: it may name no files.
@@ -107,17 +107,31 @@ impl Scenario {
     /// # Errors
     /// Whatever is wrong with it, with its place.
     pub fn from_str_alone(text: &str, name: &str) -> Result<Self, ScenarioError> {
-        Self::read(text, name, None, &[])
+        Self::read(text, (name, "--set"), None, &[])
+    }
+
+    /// Reads a scenario from a text alone, for callers without files: it names none, and its errors say where by line and column.
+    /// Overrides are pairs as in [`Self::load_with`]; errors call them by `word`, as the caller does.
+    ///
+    /// # Errors
+    /// Whatever is wrong with the text or an override, with its place.
+    pub fn from_text(
+        text: &str,
+        overrides: &[(&str, &str)],
+        word: &'static str,
+    ) -> Result<Self, ScenarioError> {
+        Self::read(text, ("", word), None, overrides)
     }
 
     fn read(
         text: &str,
-        name: &str,
+        (name, word): (&str, &'static str),
         base: Option<&Path>,
         overrides: &[(&str, &str)],
     ) -> Result<Self, ScenarioError> {
         let (mut document, mut faults) = Document::read(name, text)?;
         document.base = base.map(Path::to_owned);
+        document.word = word;
         faults.extend(check_version(&document).err());
         for (path, value) in overrides {
             faults.extend(overrides::apply(&mut document, path, value));
@@ -265,6 +279,7 @@ fn read(path: &Path, name: &str) -> Result<String, ScenarioError> {
         ScenarioError::from(Report {
             file: name.to_owned(),
             is_override: false,
+            word: "",
             excerpt: None,
             path: String::new(),
             message,

@@ -18,6 +18,7 @@ mod interruptible;
 mod line;
 mod number;
 mod published;
+pub mod report;
 pub mod sensitivity;
 mod sketch;
 pub mod steady;
@@ -26,3 +27,5 @@ pub use batch::Batch;
 pub use figure::{Figure, FigureError};
 pub use line::{Ended, Line, LineFault, Lines};
 pub use number::{NumberError, ValueError};
+
+pub use report::summary;

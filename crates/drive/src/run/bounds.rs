@@ -3,10 +3,10 @@
 //! Asked by both kinds of runs after every attempt and every event of a component; it reads the state and
 //! stops a run with an error that says when, and of events whose. It changes nothing.
 
+use crate::Wall;
 use crate::record::Record;
 use crate::state::{Crawl, Window};
 use crate::{EventKind, Limits, Model, RunError, Source, State, Waveform};
-use std::time::Instant;
 
 /// More events of a component than this in a natural period of its own accumulate, and stop the run or make it take a detour.
 // A quarter of it changes none of 3 600 drawn runs; a damped flat punch dragged back under a falling load slides along a line
@@ -40,7 +40,7 @@ pub(super) struct Bounds {
     /// The user's.
     limits: Limits,
     /// When the run began, by the clock on the wall.
-    begun: Instant,
+    begun: Wall,
     /// Attempts between two looks at the clock, a power of two.
     stride: u64,
     /// Of each contact, then each block, then of the loops of each contact.
@@ -62,11 +62,14 @@ impl Bounds {
         let crawl = Crawl { since: 0.0, attempts: 0 };
         let sines = model.waveforms.iter().filter_map(Waveform::fastest_sine);
         let longest = SINES * sines.fold(f64::INFINITY, f64::min);
-        Self { limits, begun: Instant::now(), stride, windows, crawl, period, longest }
+        Self { limits, begun: Wall::begin(limits.wall.is_some()), stride, windows, crawl, period, longest }
     }
 
     /// Stops at other limits from here on.
     pub(super) fn limit(&mut self, limits: Limits) {
+        if limits.wall.is_some() && self.limits.wall.is_none() {
+            self.begun = Wall::begin(true);
+        }
         self.limits = limits;
     }
 
@@ -92,7 +95,7 @@ impl Bounds {
         }
         // First: what is found out does not depend on who interrupts.
         self.watch_progress(state.t)?;
-        if let Some(limit) = self.limits.wall.filter(|limit| self.begun.elapsed().as_secs_f64() > *limit) {
+        if let Some(limit) = self.limits.wall.filter(|limit| self.begun.elapsed() > *limit) {
             return Err(RunError::OutOfTime { t: state.t, limit });
         }
         if !record.goes_on(state.t) {

@@ -146,6 +146,22 @@ impl Way<'_> {
     }
 }
 
+/// Keeps the row that a run sets out with.
+struct First<'r>(&'r mut Vec<f64>);
+
+impl Record for First<'_> {
+    fn row(&mut self, values: &[f64]) {
+        self.0.clear();
+        self.0.extend_from_slice(values);
+    }
+
+    fn event(&mut self, _: &crate::Event, _: &[f64]) {}
+
+    fn wants_events(&self) -> bool {
+        false
+    }
+}
+
 impl<'m> Run<'m> {
     /// A run that begins with a state.
     ///
@@ -280,16 +296,23 @@ impl<'m> Run<'m> {
     }
 
     /// The values of all channels where the run stands, into the room of `row`; their names and units are those of
-    /// [`Model::channels`], in that order.
+    /// [`Model::channels`], in that order. Before the first advance it is the first row that the run will write.
     pub fn row(&self, row: &mut Vec<f64>) {
         let fill = |state: &State, row: &mut Vec<f64>| {
             let equations = Equations::on(self.model, state, state.layout(self.model), false);
             record::fill(&equations, state, state.t, &|i| state.y[i], row);
         };
-        if self.state.is_level() {
-            return fill(&self.state, row);
-        }
         let mut state = self.state.clone();
+        if !self.begun
+            && !self.resumed
+            && let Ok(mut way) = Way::new(self.model, &self.plan)
+        {
+            // As its first row will be: a run that sets out works out what a start leaves open.
+            return way.set_out((self.model, &self.plan), &mut state, Opening::Row, &mut First(row));
+        }
+        if state.is_level() {
+            return fill(&state, row);
+        }
         level(self.model, &self.plan, &mut state);
         fill(&state, row);
     }

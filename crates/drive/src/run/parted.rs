@@ -17,6 +17,7 @@ mod tests;
 
 use super::horizon::Goal;
 use super::output::Opening;
+use crate::Wall;
 use crate::record::Record;
 use crate::state::State;
 use crate::{Limits, Model, Plan, RunError};
@@ -26,7 +27,6 @@ use lane::Lane;
 use merged::Merged;
 use std::num::NonZero;
 use std::thread::available_parallelism;
-use std::time::Instant;
 use stickslip_contact::Memory;
 
 /// A first stretch, in periods of the fastest swing: so many, or over the square of the number of parts so many. In it each part has
@@ -58,7 +58,7 @@ pub(super) struct Parted<'m> {
     /// The part whose steps may end the run.
     leader: Option<usize>,
     merged: Merged,
-    begun: Instant,
+    begun: Wall,
     /// Length of the next stretch, s.
     span: f64,
     /// Work of rows so far.
@@ -85,7 +85,7 @@ impl<'m> Parted<'m> {
             calendar: Calendar::new(),
             leader,
             merged: Merged::new(model),
-            begun: Instant::now(),
+            begun: Wall::begin(plan.limits.wall.is_some()),
             // Where nothing swings and no waveform is quick time itself tells.
             span: (FIRST[0].min(FIRST[1] / (model.parts.len() as f64).powi(2)) * natural).min(plan.duration),
             written: 0.0,
@@ -368,8 +368,8 @@ impl<'m> Parted<'m> {
 }
 
 /// Whether time on the wall is over, or the record wants no more.
-fn halted(begun: Instant, limits: Limits, t: f64, record: &mut dyn Record) -> Result<(), RunError> {
-    if let Some(limit) = limits.wall.filter(|limit| begun.elapsed().as_secs_f64() > *limit) {
+fn halted(begun: Wall, limits: Limits, t: f64, record: &mut dyn Record) -> Result<(), RunError> {
+    if let Some(limit) = limits.wall.filter(|limit| begun.elapsed() > *limit) {
         return Err(RunError::OutOfTime { t, limit });
     }
     if record.goes_on(t) { Ok(()) } else { Err(RunError::Interrupted { t }) }

@@ -2,8 +2,8 @@
 
 use super::{Kind, Sources, Undrawn};
 use crate::look::{Pen, Picture};
-use stickslip_drive::scene::{Freedom, Varying};
-use stickslip_drive::{Piece, Scene, Waveform};
+use stickslip_drive::scene::Varying;
+use stickslip_drive::{Piece, Waveform};
 use stickslip_plot::{WaveformCourse, waveform_figure};
 use stickslip_scenario::{Piezo, PlotName};
 
@@ -49,7 +49,7 @@ fn draw(sources: &Sources<'_>, pen: &Pen<'_>) -> Result<Vec<Picture>, Undrawn> {
         .enumerate()
         .map(|(place, (waveform, drawn))| WaveformCourse {
             name: &waveform.name,
-            unit: if volt(stacks, place).is_some() { "V" } else { unit(scene, place) },
+            unit: if volt(stacks, place).is_some() { "V" } else { scene.waveform_unit(place) },
             time: &drawn.time,
             value: &drawn.value,
             rate: &drawn.rate,
@@ -76,38 +76,6 @@ fn span(waveform: &Waveform, duration: f64) -> (f64, f64) {
 fn volt(stacks: &[Piezo], place: usize) -> Option<f64> {
     let followed = |piezo: &&Piezo| piezo.by_voltage && piezo.command == Varying::Follows(place);
     stacks.iter().find(followed)?.stack.stroke_per_volt
-}
-
-/// Unit of what follows a waveform first.
-fn unit(scene: &Scene, place: usize) -> &'static str {
-    let follows = |value: Varying| matches!(value, Varying::Follows(waveform) if waveform == place);
-    for body in &scene.bodies {
-        for (axis, coordinate) in body.part.coordinates() {
-            if coordinate.freedom == Freedom::Follows(place) {
-                return if axis == stickslip_drive::scene::Axis::Pitch { "rad" } else { "m" };
-            }
-        }
-    }
-    if scene.actuators.iter().any(|actuator| follows(actuator.part.stroke)) {
-        return "m";
-    }
-    for load in &scene.loads {
-        if follows(load.x) || follows(load.z) {
-            return "N";
-        }
-        if follows(load.pitch) {
-            return "N m";
-        }
-    }
-    for contact in &scene.contacts {
-        use stickslip_drive::scene::Normal;
-        match contact.part.normal {
-            Normal::Force(value) if follows(value) => return "N",
-            Normal::Indentation(value) | Normal::Radius(value) if follows(value) => return "m",
-            _ => {}
-        }
-    }
-    ""
 }
 
 /// A waveform as points.

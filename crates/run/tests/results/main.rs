@@ -23,6 +23,7 @@ mod excursions;
 mod fed;
 mod fields;
 mod frames;
+mod held;
 mod in_memory;
 mod kept;
 mod last_period;

@@ -106,7 +106,7 @@ impl Table<'_> {
 /// Something wrong with a whole file.
 fn at_file(file: &str, (message, help): (String, Option<String>)) -> ScenarioError {
     let (file, path) = (file.to_owned(), String::new());
-    Report { file, is_override: false, excerpt: None, path, message, help }.into()
+    Report { file, is_override: false, word: "", excerpt: None, path, message, help }.into()
 }
 
 /// Something wrong at a place of its text.
@@ -118,5 +118,5 @@ fn in_text(
 ) -> ScenarioError {
     let (file, path) = (file.to_owned(), String::new());
     let excerpt = Some(Excerpt::of(text, range));
-    Report { file, is_override: false, excerpt, path, message, help }.into()
+    Report { file, is_override: false, word: "", excerpt, path, message, help }.into()
 }

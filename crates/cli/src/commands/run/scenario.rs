@@ -2,10 +2,8 @@
 
 use super::pace::Paced;
 use super::report::Report;
-use std::cell::Cell;
 use std::io;
 use std::path::Path;
-use std::time::Instant;
 use stickslip_console::interrupt::Interrupt;
 use stickslip_console::progress::Progress;
 use stickslip_figures::{Look, Sources};
@@ -13,10 +11,8 @@ use stickslip_run::checkpoint::{CheckpointError, Keeper, Resumption};
 use stickslip_run::complaint::words;
 use stickslip_run::files::{CYCLES, EVENTS, INSIDES, InsideTables, SCENARIO, STEPS, SUMMARY, TRACE};
 use stickslip_run::folder::{Folder, is_complete, sweep};
-use stickslip_run::outlook::Outlook;
 use stickslip_run::summary::Status;
 use stickslip_run::{Draft, Job, Outcome, Recorder, Summary, Watcher};
-use stickslip_study::steady::outlook;
 
 /// Bytes that are kept for the summary, besides what the scenario weighs: the disk may be full when it is written.
 const RESERVE: usize = 1 << 16;
@@ -44,9 +40,6 @@ pub(crate) enum Beginning {
     /// Where its checkpoint is, with more of them; at another interval, s, where one is given.
     Resumed(Box<Resumption>, Option<f64>),
 }
-
-/// Why there is no steady motion where somebody did not want to wait for it.
-const GIVEN_UP: &str = "no steady motion: interrupted while it was looked for";
 
 /// Runs a job and writes its results, also those of a run that did not come to its end.
 pub(crate) fn run(
@@ -101,23 +94,7 @@ pub(crate) fn write(
     mut folder: Folder,
     (outcome, drafts): (&Outcome, Vec<Draft>),
 ) -> io::Result<Report> {
-    let mut summary = Summary::new(job, outcome);
-    let mut gave_up = false;
-    if summary.status == Status::Done {
-        // What the run has left of its time is all that is taken.
-        let (begun, wall) = (Instant::now(), job.scenario.plan.limits.wall.unwrap_or(f64::INFINITY));
-        let has_time = || outcome.wall + begun.elapsed().as_secs_f64() < wall;
-        let interrupted = Cell::new(false);
-        let goes_on = || {
-            interrupted.set(!goes_on());
-            !interrupted.get() && has_time()
-        };
-        summary.set_outlook(outlook(job, Some(outcome.state.counts()), &goes_on));
-        gave_up = interrupted.get();
-        if gave_up {
-            summary.set_outlook(Some(Outlook::NotFound { fault: GIVEN_UP.to_owned() }));
-        }
-    }
+    let (mut summary, gave_up) = stickslip_study::summary(job, outcome, goes_on);
     summary.set_tables(drafts.iter().map(|draft| (draft.name.to_owned(), draft.seal.clone())).collect());
     drafts.into_iter().try_for_each(|draft| folder.stage(draft.name, draft.file))?;
     if summary.status == Status::Interrupted && is_complete(&job.folder) {
@@ -176,6 +153,7 @@ fn draw(
 mod tests {
     use super::*;
     use stickslip_console::verdict::Verdict;
+    use stickslip_study::report::GIVEN_UP;
 
     #[test]
     fn a_steady_motion_that_nobody_waits_for_is_told() {

@@ -1,0 +1,81 @@
+//! All rows and events of a run in memory, by channel.
+
+use std::collections::HashMap;
+use stickslip_drive::{Channel, Event, Model, Record, state_name};
+
+/// Rows and events of a run, kept whole: hand it to a run as its record.
+///
+/// ```no_run
+/// # use std::path::Path;
+/// # use stickslip_run::{Job, Table};
+/// let job = Job::prepare(Path::new("scenarios/p1.json"), &[], Path::new(""))?;
+/// let mut table = Table::new(&job.model);
+/// let mut state = job.start.clone();
+/// stickslip_drive::run(&job.model, &job.scenario.plan, &mut state, &mut table)?;
+/// let x = table.column("slider.x_m").unwrap();
+/// assert_eq!(x.len(), table.column("time_s").unwrap().len());
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Debug, Clone, PartialEq)]
+pub struct Table {
+    channels: Vec<Channel>,
+    places: HashMap<String, usize>,
+    columns: Vec<Vec<f64>>,
+    events: Vec<Event>,
+}
+
+impl Table {
+    /// An empty table of all channels of a model.
+    #[must_use]
+    pub fn new(model: &Model) -> Self {
+        let channels = model.channels();
+        let places =
+            channels.iter().enumerate().map(|(place, channel)| (channel.name.clone(), place)).collect();
+        let columns = vec![Vec::new(); channels.len()];
+        Self { channels, places, columns, events: Vec::new() }
+    }
+
+    /// The channels, in the order of a row.
+    #[must_use]
+    pub fn channels(&self) -> &[Channel] {
+        &self.channels
+    }
+
+    /// Values of a channel such as `slider.x_m`, in SI units, row by row; of a state its code.
+    #[must_use]
+    pub fn column(&self, name: &str) -> Option<&[f64]> {
+        self.places.get(name).map(|place| self.columns[*place].as_slice())
+    }
+
+    /// Words of a state such as `ball.state`, row by row.
+    pub fn states(&self, name: &str) -> Option<impl Iterator<Item = &'static str>> {
+        let place = *self.places.get(name)?;
+        self.channels[place].is_state.then(|| self.columns[place].iter().map(|code| state_name(*code)))
+    }
+
+    /// Number of rows.
+    #[must_use]
+    pub fn rows(&self) -> usize {
+        self.columns.first().map_or(0, Vec::len)
+    }
+
+    /// All events, in order.
+    #[must_use]
+    pub fn events(&self) -> &[Event] {
+        &self.events
+    }
+}
+
+impl Record for Table {
+    fn row(&mut self, values: &[f64]) {
+        self.columns.iter_mut().zip(values).for_each(|(column, value)| column.push(*value));
+    }
+
+    fn event(&mut self, event: &Event, _: &[f64]) {
+        self.events.push(*event);
+    }
+
+    fn wants_event_rows(&self) -> bool {
+        false
+    }
+}
