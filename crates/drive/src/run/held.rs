@@ -308,7 +308,12 @@ impl<'m> Run<'m> {
             && let Ok(mut way) = Way::new(self.model, &self.plan)
         {
             // As its first row will be: a run that sets out works out what a start leaves open.
-            return way.set_out((self.model, &self.plan), &mut state, Opening::Row, &mut First(row));
+            row.clear();
+            way.set_out((self.model, &self.plan), &mut state, Opening::Row, &mut First(row));
+            if row.is_empty() {
+                way.write_now(&mut state, &mut First(row));
+            }
+            return;
         }
         if state.is_level() {
             return fill(&state, row);
