@@ -3,7 +3,7 @@
 use serde::{Serialize, Serializer};
 
 /// A number in JSON. Where it is not finite it is null, which every reader of JSON takes: JSON has no such numbers, and a
-/// string in the place of one breaks who expects it. [`Summary`](crate::Summary) notes where that happens.
+/// string in the place of one breaks who expects it. A summary notes where that happens.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Real(pub f64);
 

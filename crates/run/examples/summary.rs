@@ -1,6 +1,7 @@
 //! Runs a scenario in memory and prints its whole report: the program's `summary.json` without what only files and clocks know.
 //!
 //! `cargo run --release -p stickslip-run --example summary -- scenarios/p1.json`
+#![allow(clippy::print_stdout, reason = "an example shows what comes out")]
 
 use serde_json::Value;
 use std::error::Error;

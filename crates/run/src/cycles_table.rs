@@ -1,8 +1,8 @@
 //! `cycles.csv`: every cycle of the contacts that come back along u.
 
-use crate::cycles::JudgedCycle;
 use crate::sheet::{Sheet, Written};
 use std::io;
+use stickslip_measure::contact_cycles::JudgedCycle;
 use tempfile::NamedTempFile;
 
 /// Place of `closed` among the values, after both times.

@@ -3,17 +3,16 @@
 use crate::columns::Columns;
 use crate::excess;
 use crate::limits;
-use crate::marks::Marks;
-use crate::plausibility;
 use crate::program::this_program;
 use crate::seal::hash;
+use std::ops::{Deref, DerefMut};
 use std::path::{Component, Path, PathBuf};
 use std::sync::Arc;
 use stickslip_contact::Springs;
-use stickslip_drive::facts::{Setup, has_constant_load};
-use stickslip_drive::scene::{Freedom, Normal, Side};
-use stickslip_drive::{Accuracy, Model, SceneError, State, Stepper};
-use stickslip_scenario::{Scenario, ScenarioError, Stage, Warning};
+use stickslip_drive::{Model, SceneError};
+use stickslip_measure::Setting;
+use stickslip_measure::marks::Marks;
+use stickslip_scenario::{Scenario, ScenarioError, Stage};
 use thiserror::Error;
 
 /// A checked scenario: no input can be wrong any more.
@@ -23,11 +22,7 @@ pub struct Job {
     /// Where its results go.
     pub folder: PathBuf,
     /// What is to be run.
-    pub scenario: Scenario,
-    /// Its constants, assembled.
-    pub model: Model,
-    /// The state at t = 0.
-    pub start: State,
+    pub setting: Setting,
     /// Columns of the trace and the events.
     pub columns: Columns,
     /// Springs to write down of each contact, where any are asked for.
@@ -67,6 +62,21 @@ pub enum Refusal {
         /// The earlier file.
         other: PathBuf,
     },
+}
+
+/// What a job runs is asked for by its own names: `job.model`, `job.scenario`.
+impl Deref for Job {
+    type Target = Setting;
+
+    fn deref(&self) -> &Setting {
+        &self.setting
+    }
+}
+
+impl DerefMut for Job {
+    fn deref_mut(&mut self) -> &mut Setting {
+        &mut self.setting
+    }
 }
 
 impl Job {
@@ -122,11 +132,13 @@ impl Job {
         let resolved = scenario.resolved();
         let hash = hash(&resolved);
         let program = this_program();
-        let mut job = Self { name, folder, scenario, model, start, columns, grids, resolved, hash, program };
+        let setting = Setting { scenario, model, start };
+        let mut job = Self { name, folder, setting, columns, grids, resolved, hash, program };
         if Marks::of(&job).are_dense {
             // Parts would wait for each other at every one of them: two damped sliders took ten times as long.
-            job.model.keep_together();
-            job.start = job.model.start(&job.scenario.plan).map_err(|error| job.scenario.refusal(&error))?;
+            let Setting { scenario, model, start } = &mut job.setting;
+            model.keep_together();
+            *start = model.start(&scenario.plan).map_err(|error| scenario.refusal(&error))?;
         }
         excess::check(&job)?;
         Ok(job)
@@ -140,95 +152,5 @@ impl Job {
     /// The scenario's title, or else its name.
     pub fn title(&self) -> &str {
         if self.scenario.title.is_empty() { &self.name } else { &self.scenario.title }
-    }
-
-    /// Number of identical contacts behind contact `c`.
-    pub fn count(&self, c: usize) -> u32 {
-        self.scenario.scene.contacts.get(c).map_or(1, |contact| contact.part.count)
-    }
-
-    /// What facts are told of.
-    pub fn setup(&self) -> Setup<'_> {
-        Setup { scene: &self.scenario.scene, model: &self.model, start: &self.start }
-    }
-
-    /// Whether the load of contact `c` never changes.
-    pub fn has_constant_load(&self, c: usize) -> bool {
-        self.scenario.scene.contacts.get(c).is_some_and(|contact| has_constant_load(&contact.part))
-    }
-
-    /// Whether the force of contact `c` follows from the way of its bodies along the slide alone.
-    pub fn has_law_without_time(&self, c: usize) -> bool {
-        self.has_constant_load(c) && !self.is_damped(c)
-    }
-
-    /// Whether contact `c` has damping of its own.
-    pub fn is_damped(&self, c: usize) -> bool {
-        self.scenario.scene.contacts.get(c).is_some_and(|contact| contact.part.interface.damping() > 0.0)
-    }
-
-    /// Whether a waveform of its scene jumps.
-    pub(crate) fn has_jumps(&self) -> bool {
-        self.scenario.scene.waveforms.iter().any(|waveform| waveform.part.has_jumps())
-    }
-
-    /// Whether nothing but friction loses energy beside contact `c`: no other damped contact, no damper, and no block.
-    pub(crate) fn loses_nothing_beside(&self, c: usize) -> bool {
-        let scene = &self.scenario.scene;
-        let mut others = (0..scene.contacts.len()).filter(|other| *other != c);
-        let dampers = scene.springs.iter().map(|it| it.part.damping);
-        let mut dampers = dampers.chain(scene.actuators.iter().map(|it| it.part.damping));
-        scene.blocks.is_empty() && !others.any(|other| self.is_damped(other)) && dampers.all(|it| it == 0.0)
-    }
-
-    /// Whether the bodies' motion presses contact `c`.
-    pub fn is_coupled(&self, c: usize) -> bool {
-        self.scenario.scene.contacts.get(c).is_some_and(|contact| contact.part.normal == Normal::Coupled)
-    }
-
-    /// Whether a body that is free along z presses contact `c`.
-    pub fn is_pressed_freely(&self, c: usize) -> bool {
-        let scene = &self.scenario.scene;
-        let is_free = |side: &Side| match side {
-            Side::Body(b) => scene.bodies.get(*b).is_some_and(|body| body.part.z.freedom == Freedom::Free),
-            Side::Ground => false,
-        };
-        self.is_coupled(c)
-            && scene.contacts.get(c).is_some_and(|contact| contact.part.between.iter().any(is_free))
-    }
-
-    /// Gross-slip displacement u_c (m) and normal force (N) of one contact of `c` at t = 0: in equilibrium, if the run
-    /// starts there.
-    pub fn contact_scale(&self, c: usize) -> (f64, f64) {
-        let contact = self.model.contacts().zip(self.start.memories()).nth(c);
-        contact.map_or((0.0, 0.0), |((_, law), memory)| {
-            let d = memory.apex().d;
-            (law.gross_slip_displacement(d), law.normal_force(d))
-        })
-    }
-
-    /// Everything odd about the scenario: what its file alone tells, then what its scene comes to.
-    pub fn warnings(&self) -> Vec<Warning> {
-        let mut warnings = self.scenario.warnings.clone();
-        warnings.extend(plausibility::of(self));
-        warnings
-    }
-
-    /// What is odd about the scenario if this stepper takes it in frames.
-    pub fn warnings_of_frames(&self, stepper: Stepper) -> Vec<Warning> {
-        plausibility::of_frames(self, stepper)
-    }
-
-    /// Name of the stepper that the run takes and its tolerance or step with that word.
-    pub fn stepper(&self) -> (&'static str, &'static str, f64) {
-        let stepper = self.model.effective(self.scenario.plan.stepper);
-        match stepper.accuracy() {
-            Accuracy::Tolerance(tolerance) => (stepper.name(), "tolerance", tolerance),
-            Accuracy::Step(step) => (stepper.name(), "step_s", step),
-            // The longest of its steps.
-            Accuracy::Frame { length, error } => {
-                (stepper.name(), "step_s", length / self.model.substeps(length, error))
-            }
-        }
     }
 }

@@ -3,9 +3,9 @@
 use crate::columns::Columns;
 use crate::fingerprint::{Fingerprint, Sketch};
 use crate::limits::MOST_VALUES;
-use crate::series::Series;
-use crate::tracks::Tracks;
 use stickslip_drive::Channel;
+use stickslip_measure::Series;
+use stickslip_measure::Tracks;
 use stickslip_scenario::PlotName;
 
 /// Pictures that are drawn from rows and moments after events; the others have tables of their own, or nothing over time.

@@ -1,11 +1,11 @@
 //! Measured loops: a displacement and a tangential force from a table, cut into cycles and measured as those of a run are.
 
-use crate::contact_path::contact_path;
 use crate::job::Job;
 use crate::kept::Kept;
-use crate::periods::Periods;
 use std::ops::Range;
 use std::path::Path;
+use stickslip_measure::Periods;
+use stickslip_measure::contact_path;
 use stickslip_measure::cycles::Cut;
 use stickslip_measure::series::extent;
 use stickslip_measure::{Cycle, SeriesError, returning_cycles, split_cycles};

@@ -1,17 +1,17 @@
 //! What came of a run.
 
 use crate::Watcher;
-use crate::books::Books;
-use crate::cycles::{ContactCycles, JudgedCycle};
 use crate::excess::Excess;
 use crate::job::Job;
 use crate::kept::Kept;
 use crate::record::{Draft, Recorded, Recorder};
 use crate::selection::TakenEvents;
-use crate::tally::Tally;
 use std::io;
 use stickslip_drive::{RunError, State, Wall};
 use stickslip_measure::Strides;
+use stickslip_measure::books::Books;
+use stickslip_measure::contact_cycles::{ContactCycles, JudgedCycle};
+use stickslip_measure::tally::Tally;
 
 /// What came of a run, all of it in memory.
 pub struct Outcome {

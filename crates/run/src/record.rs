@@ -5,18 +5,18 @@ mod tables;
 pub use tables::Draft;
 
 use crate::Watcher;
-use crate::books::Books;
-use crate::cycles::{ContactCycles, CycleFigures};
 use crate::excess::Excess;
 use crate::folder::Folder;
 use crate::job::Job;
 use crate::kept::Kept;
-use crate::marks::Marks;
 use crate::selection::{Selection, TakenEvents};
-use crate::tally::Tally;
 use std::io;
 use stickslip_contact::{Memory, Segment};
 use stickslip_drive::{Event, EventKind, Extent, Record, Source};
+use stickslip_measure::books::Books;
+use stickslip_measure::contact_cycles::{ContactCycles, CycleFigures};
+use stickslip_measure::marks::Marks;
+use stickslip_measure::tally::Tally;
 use tables::{Closed, Tables};
 
 /// Writes rows, events and looks into the contacts as they come.
@@ -306,7 +306,7 @@ impl Record for Recorder<'_> {
     }
 
     fn next_mark(&mut self) -> Option<f64> {
-        self.marks.next()
+        self.marks.take_next()
     }
 
     fn mark(&mut self, values: &[f64]) {

@@ -8,7 +8,6 @@ mod period;
 mod steps;
 mod why;
 
-use crate::books::Balance;
 use crate::complaint::words;
 use crate::excess::{self, Excess};
 use crate::files::EVENTS;
@@ -20,15 +19,16 @@ use crate::program;
 use crate::seal::Seal;
 use crate::selection::TakenEvents;
 use crate::states::legend;
-use crate::warning::{self, Warning};
+use crate::warning;
 use serde::Serialize;
 use serde_json::Value;
 use std::io;
 use stickslip_drive::RunError;
+use stickslip_measure::Warning;
+use stickslip_measure::books::Balance;
 use stickslip_quantity::Real;
 use stickslip_quantity::quantity;
 
-pub use crate::cycles::JudgedCycle;
 pub use contacts::ContactSummary;
 pub use drivers::DriverSummary;
 pub use fretting::Fretting;
@@ -36,6 +36,7 @@ pub use losses::Losses;
 pub use period::{ContactPeriod, LastPeriod, PeriodWork, Way, load};
 pub(crate) use steps::flight;
 pub use steps::{DriveSummary, SettlingSummary, Steady, step_bounds};
+pub use stickslip_measure::contact_cycles::JudgedCycle;
 
 /// Most numbers that are not finite of which a note gives the names.
 const NAMED: usize = 5;
@@ -201,7 +202,7 @@ impl Summary {
         }
         let unwritten = outcome.absent.iter();
         notes.extend(unwritten.map(|name| format!("{name} is not there: nothing of it could be written")));
-        let mut warnings = Warning::of_scenario(job);
+        let mut warnings = warning::of_scenario(job);
         warnings.extend(warning::of_run(job, outcome));
         let simulated = outcome.state.time();
         let (name, word, value) = job.stepper();

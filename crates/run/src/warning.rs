@@ -3,78 +3,32 @@
 //! Whoever finds something pushes a [`Warning`] into the list that [`Summary::new`](crate::Summary::new) collects; the program
 //! prints the list and, with `--strict`, lets no result pass that has one of its own.
 
-use crate::books;
 use crate::job::Job;
 use crate::outcome::Outcome;
-use crate::plausibility::multiplied;
 use crate::summary::flight;
-use serde::Serialize;
-use std::fmt;
 use stickslip_drive::Stepper;
 use stickslip_drive::scene::{Contact, Named};
+use stickslip_measure::plausibility::multiplied;
+use stickslip_measure::{Warning, books};
 use stickslip_quantity::Real;
 use stickslip_quantity::quantity;
 
 /// Most contacts that a warning names.
 const MOST: usize = 3;
 
-/// Something that makes results worth less than they look.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
-pub struct Warning {
-    /// What it is about, as one word for machines, such as `energy_books`; it never changes its meaning.
-    pub kind: &'static str,
-    /// Key path in the scenario of what is odd about it; none of what came out in the run.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub path: Option<String>,
-    /// What there is to say, with its number.
-    pub message: String,
-    /// What to try.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub help: Option<String>,
+/// All that `check` warns of.
+pub fn of_check(job: &Job) -> Vec<Warning> {
+    job.warnings().iter().map(Warning::of_odd).collect()
 }
 
-impl Warning {
-    /// One about what came out in a run.
-    pub fn new(kind: &'static str, message: impl Into<String>) -> Self {
-        Self { kind, path: None, message: message.into(), help: None }
-    }
-
-    /// The same with what to try.
-    #[must_use]
-    pub fn help(self, help: impl Into<String>) -> Self {
-        Self { help: Some(help.into()), ..self }
-    }
-
-    /// All that `check` warns of.
-    pub fn of_check(job: &Job) -> Vec<Self> {
-        job.warnings().iter().map(Self::of_odd).collect()
-    }
-
-    fn of_odd(odd: &stickslip_scenario::Warning) -> Self {
-        Self { kind: odd.kind, path: Some(odd.path.clone()), message: odd.message.clone(), help: None }
-    }
-
-    /// What is odd about the scenario of a job, by path: the same of a scenario and of what it is written out in full, which a
-    /// resumed run reads.
-    pub fn of_scenario(job: &Job) -> Vec<Self> {
-        let odd = job.warnings();
-        let told = odd.iter().filter(|odd| odd.kind != stickslip_scenario::Warning::WORDING);
-        let mut warnings: Vec<Self> = told.map(Self::of_odd).collect();
-        warnings.sort_by(|a, b| (&a.path, a.kind, &a.message).cmp(&(&b.path, b.kind, &b.message)));
-        warnings
-    }
-
-    /// Whether it is about what came out in the run, and not about its scenario, which `stickslip check` tells beforehand.
-    pub fn is_of_results(&self) -> bool {
-        self.path.is_none()
-    }
-}
-
-impl fmt::Display for Warning {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{}", self.message)?;
-        self.help.iter().try_for_each(|help| write!(f, "\n   help: {help}"))
-    }
+/// What is odd about the scenario of a job, by path: the same of a scenario and of what it is written out in full, which a
+/// resumed run reads.
+pub fn of_scenario(job: &Job) -> Vec<Warning> {
+    let odd = job.warnings();
+    let told = odd.iter().filter(|odd| odd.kind != stickslip_scenario::Warning::WORDING);
+    let mut warnings: Vec<Warning> = told.map(Warning::of_odd).collect();
+    warnings.sort_by(|a, b| (&a.path, a.kind, &a.message).cmp(&(&b.path, b.kind, &b.message)));
+    warnings
 }
 
 /// Rounding of where the bodies start, in the smallest natural displacement of a contact. What they travel is counted from near by.

@@ -250,7 +250,9 @@ impl Sense {
 /// What `check` warns of in a scenario file with overrides; nothing of one that is refused.
 fn warnings(file: &Path, set: &[(String, String)], varied: &[(String, String)]) -> Vec<Warning> {
     let all: Vec<_> = set.iter().chain(varied).cloned().collect();
-    Job::prepare(file, &all, Path::new("")).map(|job| Warning::of_check(&job)).unwrap_or_default()
+    Job::prepare(file, &all, Path::new(""))
+        .map(|job| stickslip_run::warning::of_check(&job))
+        .unwrap_or_default()
 }
 
 /// Name of a number with its unit, as it heads a column.

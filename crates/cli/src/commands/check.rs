@@ -72,7 +72,7 @@ pub(crate) fn check(arguments: &CheckArguments) -> Verdict {
 
 fn tell(arguments: &CheckArguments, file: &Path, job: &Result<Job, Refusal>) {
     if arguments.json {
-        let odd = job.as_ref().map_or_else(|_| Vec::new(), Job::warnings);
+        let odd = job.as_ref().map_or_else(|_| Vec::new(), |job| job.warnings());
         let finding = Finding {
             file,
             ok: job.is_ok(),

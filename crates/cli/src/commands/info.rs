@@ -80,7 +80,7 @@ impl Info {
             expected: Expectation::of(job),
             actuators: info::piezos(job),
             usage: Usage::of(job),
-            warnings: Warning::of_scenario(job),
+            warnings: stickslip_run::warning::of_scenario(job),
             modes,
         }
     }

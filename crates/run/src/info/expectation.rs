@@ -3,9 +3,9 @@
 use crate::job::Job;
 use crate::kept::draws_from_series;
 use crate::selection::expected;
-use crate::series::Series;
 use serde::Serialize;
 use stickslip_drive::facts::{ExpectedEvents, fixed_steps, rows};
+use stickslip_measure::Series;
 use stickslip_quantity::Real;
 use stickslip_scenario::PlotName;
 

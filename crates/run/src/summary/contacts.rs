@@ -4,10 +4,10 @@ use super::fretting::Fretting;
 use crate::job::Job;
 use crate::outcome::Outcome;
 use crate::parts::Parts;
-use crate::tally::ContactTally;
 use serde::Serialize;
 use stickslip_contact::Interface;
 use stickslip_drive::NaturalScale;
+use stickslip_measure::tally::ContactTally;
 use stickslip_quantity::Real;
 
 /// A contact. Forces and work are those of all identical contacts together unless they say otherwise.

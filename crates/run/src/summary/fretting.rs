@@ -1,7 +1,7 @@
 //! Fretting loops.
 
-use crate::cycles::{ContactCycles, JudgedCycle};
 use serde::Serialize;
+use stickslip_measure::contact_cycles::{ContactCycles, JudgedCycle};
 use stickslip_quantity::Real;
 
 /// The last cycle of a contact that comes back along u.

@@ -1,11 +1,11 @@
 //! What a step loses: how far the body falls back, and how much of the foot's travel is no step.
 
 use super::period::Way;
-use crate::foot::Foot;
 use crate::job::Job;
 use crate::outcome::Outcome;
 use serde::Serialize;
 use stickslip_drive::scene::Side;
+use stickslip_measure::foot::Foot;
 use stickslip_quantity::Real;
 
 /// Two times are the same where they differ by less than this share of their sum.

@@ -1,13 +1,14 @@
 //! The account of the last period of a drive.
 
 use super::losses::{self, FootMotion, Losses};
-use crate::account::{Account, ContactAccount, Extreme, Phases};
 use crate::job::Job;
 use crate::outcome::Outcome;
 use crate::parts::Parts;
 use serde::Serialize;
 use stickslip_drive::scene::{Scene, Varying};
+use stickslip_measure::Extreme;
 use stickslip_measure::Stride;
+use stickslip_measure::account::{Account, ContactAccount, Phases, RINGING};
 use stickslip_quantity::Real;
 
 /// The last whole period of the waveform of the figures. Forth is the way on which the waveform takes longer; of two that take
@@ -153,7 +154,7 @@ fn stroke(phases: &Phases, side: usize) -> f64 {
 fn contact(it: &ContactAccount, time: [f64; 2], forth: usize) -> ContactPeriod {
     let share = |side: usize| (time[side] > 0.0).then(|| Real(it.slip[side] / time[side]));
     let swing = it.swing[forth];
-    let still = swing > crate::account::RINGING;
+    let still = swing > RINGING;
     ContactPeriod {
         slip_share_forth: share(forth),
         slip_share_back: share(1 - forth),

@@ -6,11 +6,11 @@ use super::route::{refused, route};
 use super::state::LoadedSpring;
 use super::{BEYOND, Subject, TheoryError};
 use crate::limits::check_history;
-use crate::warning::Warning;
 use stickslip_contact::{
     Apex, ContactState, Curve, Field, Fields, FirstLoadingError, FrictionMap, Interface, Memory, NormalGiven,
     Segment, Springs, Zone,
 };
+use stickslip_measure::Warning;
 use stickslip_quantity::Real;
 use stickslip_quantity::quantity;
 

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 use stickslip_measure::Cycle;
-use stickslip_run::cycles::CycleFigures;
+use stickslip_measure::contact_cycles::CycleFigures;
 use stickslip_run::{Job, Summary};
 
 fn example(name: &str, set: &[(&str, &str)]) -> Job {

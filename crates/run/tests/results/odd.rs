@@ -5,7 +5,7 @@
 
 use std::fs;
 use std::path::{Path, PathBuf};
-use stickslip_run::{Job, Warning};
+use stickslip_run::Job;
 
 const STIFFNESS: &str = "actuators.stack.data_sheet.stiffness";
 const CAPACITANCE: &str = "actuators.stack.data_sheet.capacitance";
@@ -139,7 +139,7 @@ fn the_examples_are_plausible() {
     for path in folders.into_iter().flat_map(files) {
         let job = job(&path);
         assert_eq!(job.warnings(), [], "{}", path.display());
-        assert_eq!(Warning::of_scenario(&job), []);
+        assert_eq!(stickslip_run::warning::of_scenario(&job), []);
     }
 }
 

@@ -13,20 +13,20 @@ mod loops;
 mod peak;
 mod walk;
 
-pub(crate) use judged::ContactCycles;
+pub use judged::ContactCycles;
 pub use judged::JudgedCycle;
-pub(crate) use loops::Loops;
+pub use loops::Loops;
 
-use crate::job::Job;
+use crate::Cycle;
+use crate::Setting;
+use crate::cycles::CLOSED;
 use crate::periods::followed;
+use crate::series::extent;
 use load::Load;
 use std::ops::Range;
 use stickslip_contact::Interface;
 use stickslip_drive::Waveform;
 use stickslip_drive::scene::Side;
-use stickslip_measure::Cycle;
-use stickslip_measure::cycles::CLOSED;
-use stickslip_measure::series::extent;
 use walk::{Question, Walk};
 
 /// Change of a force below this share of the limit of friction is rounding.
@@ -35,7 +35,7 @@ const ROUNDING: f64 = 1e-9;
 const STILL: f64 = 1e-12;
 const FIXED: f64 = 1e-9;
 /// Share of the displacement range over which a secant is taken.
-const WINDOW: f64 = stickslip_measure::fretting::STIFFNESS_WINDOW;
+const WINDOW: f64 = crate::fretting::STIFFNESS_WINDOW;
 
 /// One cycle of a contact that comes back along u.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -72,12 +72,12 @@ impl CycleFigures {
     }
 
     /// A quantity that only a loop has.
-    pub(crate) fn of_loop(&self, value: Option<f64>) -> Option<f64> {
+    pub fn of_loop(&self, value: Option<f64>) -> Option<f64> {
         value.filter(|_| self.is_closed)
     }
 
     /// A quotient with `E_d`: only a loop has it, and one all of whose losses are known.
-    pub(crate) fn ratio(&self, value: Option<f64>) -> Option<f64> {
+    pub fn ratio(&self, value: Option<f64>) -> Option<f64> {
         self.of_loop(value).filter(|_| self.damping.is_some())
     }
 }
@@ -268,8 +268,8 @@ impl Track {
 }
 
 /// Whether a body of contact `c` moves as forces say.
-pub(crate) fn is_integrated(job: &Job, c: usize) -> bool {
-    let scene = &job.scenario.scene;
+pub fn is_integrated(setting: &Setting, c: usize) -> bool {
+    let scene = &setting.scenario.scene;
     let sides = scene.contacts.get(c).into_iter().flat_map(|contact| contact.part.between);
     let mut bodies = sides.filter_map(|side| match side {
         Side::Body(body) => scene.bodies.get(body),
@@ -280,10 +280,10 @@ pub(crate) fn is_integrated(job: &Job, c: usize) -> bool {
 
 /// Range of u up to which contact `c` stands still, m: twice the amplitude that rounding may leave, and, where its bodies are
 /// integrated, what the stepper promises, both of the natural displacement.
-fn still(job: &Job, c: usize) -> f64 {
-    let natural = job.model.contact_natural(c).map_or(0.0, |natural| natural.displacement);
-    let promised = match job.stepper() {
-        _ if !is_integrated(job, c) => 0.0,
+fn still(setting: &Setting, c: usize) -> f64 {
+    let natural = setting.model.contact_natural(c).map_or(0.0, |natural| natural.displacement);
+    let promised = match setting.stepper() {
+        _ if !is_integrated(setting, c) => 0.0,
         (_, "tolerance", tolerance) => tolerance,
         _ => FIXED,
     };
@@ -291,8 +291,8 @@ fn still(job: &Job, c: usize) -> f64 {
 }
 
 /// The waveform without a period that a body of a contact follows.
-pub(crate) fn table_of(job: &Job, c: usize) -> Option<&Waveform> {
-    let waveforms = followed(job, c).filter_map(|w| job.scenario.scene.waveforms.get(w));
+pub fn table_of(setting: &Setting, c: usize) -> Option<&Waveform> {
+    let waveforms = followed(setting, c).filter_map(|w| setting.scenario.scene.waveforms.get(w));
     waveforms.map(|waveform| &waveform.part).find(|waveform| waveform.period().is_none())
 }
 

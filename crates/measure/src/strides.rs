@@ -1,10 +1,10 @@
 //! The steps of a run: the last of them in memory, the rest in a file without a name.
 
+use crate::{Stride, Strides};
 use std::fs::File;
 use std::io::{self, Read, Seek, SeekFrom, Write};
 use std::ops::Range;
 use std::sync::{Mutex, PoisonError};
-use stickslip_measure::{Stride, Strides};
 
 /// Most that are kept in memory where there is a file.
 const MOST: usize = 1 << 13;
@@ -22,7 +22,7 @@ const UNREADABLE: Stride = Stride {
 
 /// The steps so far.
 #[derive(Debug, Default)]
-pub(crate) struct StrideList {
+pub struct StrideList {
     /// Those that are not in the file.
     recent: Vec<Stride>,
     /// Number of those in the file.
@@ -35,12 +35,12 @@ pub(crate) struct StrideList {
 
 impl StrideList {
     /// Keeps what there is too much of in a file. Without one all stays in memory.
-    pub(crate) fn spill(&mut self, file: File) {
+    pub fn spill(&mut self, file: File) {
         self.file = Some(Mutex::new(file));
     }
 
     /// Takes the next.
-    pub(crate) fn push(&mut self, stride: Stride) {
+    pub fn push(&mut self, stride: Stride) {
         self.longest = self.longest.max(stride.length().abs());
         self.recent.push(stride);
         if self.recent.len() >= MOST
@@ -63,22 +63,22 @@ impl StrideList {
     }
 
     /// Why no more can be written.
-    pub(crate) fn take_failure(&mut self) -> Option<io::Error> {
+    pub fn take_failure(&mut self) -> Option<io::Error> {
         self.failure.take()
     }
 
     /// What those in memory take, B.
-    pub(crate) fn bytes(&self) -> usize {
+    pub fn bytes(&self) -> usize {
         self.recent.capacity() * size_of::<Stride>()
     }
 
     /// Magnitude of the longest, m.
-    pub(crate) fn longest(&self) -> f64 {
+    pub fn longest(&self) -> f64 {
         self.longest
     }
 
     /// The last.
-    pub(crate) fn last(&self) -> Option<Stride> {
+    pub fn last(&self) -> Option<Stride> {
         let count = self.count();
         self.part(count.checked_sub(1)?..count).next()
     }

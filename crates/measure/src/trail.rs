@@ -23,7 +23,7 @@ impl Trail {
     }
 
     /// Leaves the first points only.
-    pub(crate) fn cut(&mut self, length: usize) {
+    pub fn cut(&mut self, length: usize) {
         self.t.truncate(length);
         self.x.truncate(length);
         self.y.truncate(length);

@@ -41,7 +41,7 @@ impl Implausible<'_> {
                 low.abs().min(high.abs())
             };
             let Some(holds) = pull.holds.filter(|holds| counts > *holds) else { continue };
-            let name = self.job.scenario.scene.bodies[body].name.clone();
+            let name = self.setting.scenario.scene.bodies[body].name.clone();
             let path = pull.cause.1.map_or("gravity".to_owned(), |i| format!("loads[{i}].x"));
             let [load, holds] = [counts, holds].map(|force| told(force, "N"));
             let then =
@@ -58,7 +58,7 @@ impl Implausible<'_> {
     }
 
     fn pulls(&self) -> Vec<Pull> {
-        let scene = &self.job.scenario.scene;
+        let scene = &self.setting.scenario.scene;
         let down = scene.gravity.components().0;
         let mut pulls: Vec<Pull> = scene
             .bodies
@@ -85,7 +85,7 @@ impl Implausible<'_> {
             let law = &contact.part.interface;
             let d = self.depth(c);
             // Where bodies press and are apart at the start nobody knows how hard they will.
-            let unknown = d <= 0.0 && self.job.is_coupled(c);
+            let unknown = d <= 0.0 && self.setting.is_coupled(c);
             let limit = f64::from(contact.part.count) * law.friction() * law.normal_force(d);
             let limit = if unknown { f64::INFINITY } else { limit };
             for side in contact.part.between {
@@ -116,8 +116,8 @@ impl Implausible<'_> {
 
     /// Stacks that nothing damps.
     pub(super) fn actuators(&mut self) {
-        let job = self.job;
-        let scene = &job.scenario.scene;
+        let setting = self.setting;
+        let scene = &setting.scenario.scene;
         let mut damped = vec![false; scene.bodies.len()];
         let dampers = scene.springs.iter().map(|spring| (spring.part.damping, spring.part.between));
         let dampers = dampers.chain(scene.actuators.iter().map(|a| (a.part.damping, a.part.between)));
@@ -148,8 +148,8 @@ impl Implausible<'_> {
 
     /// Stiffnesses and capacitances of stacks that suggest another prefix.
     pub(super) fn stacks(&mut self) {
-        let job = self.job;
-        for piezo in &job.scenario.stacks {
+        let setting = self.setting;
+        for piezo in &setting.scenario.stacks {
             let numbers = [
                 ("stiffness", Some(piezo.stack.stiffness), STIFFNESSES, "N/m", "\"100 N/um\""),
                 ("capacitance", piezo.stack.capacitance, CAPACITANCES, "F", "\"7.2 uF\""),
@@ -159,15 +159,15 @@ impl Implausible<'_> {
                 let [said, low, high] = [value, low, high].map(|number| told(number, unit));
                 let message = format!("a {key} of {said}: piezo actuators have {low} to {high}");
                 let help = format!("a stack has about {typical}; a bare number is in {unit}");
-                self.find(key, &job.scenario.stack_path(&piezo.name, key), message, &help);
+                self.find(key, &setting.scenario.stack_path(&piezo.name, key), message, &help);
             }
         }
     }
 
     /// Masses that suggest a forgotten unit.
     pub(super) fn masses(&mut self) {
-        let job = self.job;
-        for (i, body) in job.scenario.scene.bodies.iter().enumerate() {
+        let setting = self.setting;
+        for (i, body) in setting.scenario.scene.bodies.iter().enumerate() {
             let Some(mass) = self.free_mass(Side::Body(i)) else { continue };
             let path = format!("bodies.{}.mass", body.name);
             let said = told(1e3 * mass, "g");

@@ -48,7 +48,7 @@ impl Series {
     }
 
     /// One that keeps nothing.
-    pub(crate) fn none() -> Self {
+    pub fn none() -> Self {
         Self { columns: Vec::new(), places: HashMap::new() }
     }
 

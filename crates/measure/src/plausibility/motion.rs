@@ -54,7 +54,7 @@ const RATE: f64 = 1e6;
 impl Implausible<'_> {
     /// Waveforms that lengths follow, with the bodies that feel them.
     fn lengths(&self) -> Vec<(usize, Vec<Side>)> {
-        let scene = &self.job.scenario.scene;
+        let scene = &self.setting.scenario.scene;
         let mut driven: Vec<Vec<Side>> = vec![Vec::new(); scene.waveforms.len()];
         for (i, body) in scene.bodies.iter().enumerate() {
             for coordinate in [body.part.x, body.part.z] {
@@ -79,8 +79,8 @@ impl Implausible<'_> {
     /// Strokes that suggest a forgotten unit.
     pub(super) fn strokes(&mut self) {
         for (w, _) in self.lengths() {
-            let (low, high) = self.job.scenario.scene.waveforms[w].part.range();
-            let (stroke, path) = (high - low, self.job.scenario.waveform_path(w).unwrap_or_default());
+            let (low, high) = self.setting.scenario.scene.waveforms[w].part.range();
+            let (stroke, path) = (high - low, self.setting.scenario.waveform_path(w).unwrap_or_default());
             let said = told(stroke, "m");
             let help = "a bare number is in m; in a table the head of a column may say its unit, as in \"disp (µm)\"";
             if stroke > STROKES.1 {
@@ -103,8 +103,8 @@ impl Implausible<'_> {
 
     /// Contacts whose damping takes longer than it may in a period of whatever moves or presses anything.
     pub(super) fn damping_times(&mut self) {
-        let job = self.job;
-        let scene = &job.scenario.scene;
+        let setting = self.setting;
+        let scene = &setting.scenario.scene;
         let periods = scene.waveforms.iter().filter_map(|waveform| waveform.part.period());
         let period = periods.fold(f64::INFINITY, f64::min);
         for contact in &scene.contacts {
@@ -123,7 +123,7 @@ impl Implausible<'_> {
 
     /// Flanks that are over before waves have crossed the contacts that they reach.
     pub(super) fn flanks(&mut self) {
-        let (job, scene) = (self.job, &self.job.scenario.scene);
+        let (setting, scene) = (self.setting, &self.setting.scenario.scene);
         for (w, sides) in self.lengths() {
             let flank = shortest_flank(&scene.waveforms[w].part);
             let touches = |c: &usize| scene.contacts[*c].part.between.iter().any(|side| sides.contains(side));
@@ -139,7 +139,7 @@ impl Implausible<'_> {
                 "a flank of {said}, shorter than {least}, in which a shear wave crosses the contact {name} {PASSAGES} times \
                  ({passage} each): the contact is taken as a spring without inertia"
             );
-            let path = job.scenario.waveform_path(w).unwrap_or_default();
+            let path = setting.scenario.waveform_path(w).unwrap_or_default();
             self.find("flank", &path, message, "is the time in the unit that was meant?");
         }
     }
@@ -147,8 +147,8 @@ impl Implausible<'_> {
     /// Time in which a shear wave crosses contact `c`, s: its diameter over √(G/ρ) of the slower body; none where no name says what
     /// it is made of, or nothing presses it.
     fn passage(&self, c: usize) -> Option<f64> {
-        let scenario = &self.job.scenario;
-        let (_, law) = self.job.model.contacts().nth(c)?;
+        let scenario = &self.setting.scenario;
+        let (_, law) = self.setting.model.contacts().nth(c)?;
         let radius = law.profile().radius(self.depth(c));
         // Where a modulus is not that of its name, what is wrong is said already.
         let known = scenario.materials_of(c)?.into_iter().filter(|name| !self.misnamed.contains(name));
@@ -162,8 +162,8 @@ impl Implausible<'_> {
 
     /// Low harmonics of a drive that meet a resonance of contacts whose load is constant.
     pub(super) fn resonances(&mut self) {
-        let job = self.job;
-        let scene = &job.scenario.scene;
+        let setting = self.setting;
+        let scene = &setting.scenario.scene;
         let free: usize = scene
             .bodies
             .iter()
@@ -172,7 +172,7 @@ impl Implausible<'_> {
         if free == 0 || free > COORDINATES || scene.contacts.len() > ASKED {
             return;
         }
-        let modes = job.model.linearised(&job.start, |d| d.start).modes();
+        let modes = setting.model.linearised(&setting.start, |d| d.start).modes();
         for (w, sides) in self.lengths() {
             let waveform = &scene.waveforms[w].part;
             let Some(period) = waveform.period() else { continue };
@@ -186,7 +186,7 @@ impl Implausible<'_> {
                 let largest = mode.contacts.iter().fold(0.0, |most: f64, u| most.max(u.abs()));
                 let rings = |c: &usize| {
                     let touches = scene.contacts[*c].part.between.iter().any(|side| sides.contains(side));
-                    touches && job.has_constant_load(*c) && mode.contacts[*c].abs() > MOVED * largest
+                    touches && setting.has_constant_load(*c) && mode.contacts[*c].abs() > MOVED * largest
                 };
                 let Some(c) = (0..scene.contacts.len()).find(rings) else { continue };
                 let share = share(waveform, period, order as u32);
@@ -197,7 +197,7 @@ impl Implausible<'_> {
                 let message = format!(
                     "harmonic {order} of this drive, {share:.2} of its largest, meets the resonance of {name} at {at}"
                 );
-                let path = job.scenario.waveform_path(w).unwrap_or_default();
+                let path = setting.scenario.waveform_path(w).unwrap_or_default();
                 self.find(
                     "resonance",
                     &path,
@@ -211,20 +211,20 @@ impl Implausible<'_> {
 
     /// Tolerances coarser than what is to be seen.
     pub(super) fn tolerance(&mut self) {
-        let job = self.job;
-        let stepper = job.model.effective(job.scenario.plan.stepper);
+        let setting = self.setting;
+        let stepper = setting.model.effective(setting.scenario.plan.stepper);
         let Accuracy::Tolerance(tolerance) = stepper.accuracy() else { return };
         let lengths = self.lengths();
-        for (c, (name, law)) in job.model.contacts().enumerate().take(ASKED) {
+        for (c, (name, law)) in setting.model.contacts().enumerate().take(ASKED) {
             let d = self.depth(c);
-            let between = job.scenario.scene.contacts[c].part.between;
+            let between = setting.scenario.scene.contacts[c].part.between;
             let unit = law.gross_slip_displacement(d.max(0.0));
             if unit <= 0.0 || !between.iter().any(|side| self.is_free(*side)) {
                 continue;
             }
             let strokes = lengths.iter().filter(|(_, sides)| between.iter().any(|side| sides.contains(side)));
             let widest = strokes
-                .map(|(w, _)| job.scenario.scene.waveforms[*w].part.range())
+                .map(|(w, _)| setting.scenario.scene.waveforms[*w].part.range())
                 .fold(0.0, |most: f64, (low, high)| most.max(high - low));
             let idle = zero_step_stroke(law, d, 0.0).unwrap_or(0.0);
             // Below the zero-step stroke all there is to see is the way to and fro.
@@ -243,11 +243,11 @@ impl Implausible<'_> {
     /// Fixed steps that go over whole pieces of a waveform: what happens on these is seen by no step, and books of energy may close all
     /// the same.
     pub(super) fn steps(&mut self) {
-        let job = self.job;
-        let stepper = job.model.effective(job.scenario.plan.stepper);
+        let setting = self.setting;
+        let stepper = setting.model.effective(setting.scenario.plan.stepper);
         let Accuracy::Step(step) = stepper.accuracy() else { return };
-        let plan = &job.scenario.plan;
-        for waveform in &job.scenario.scene.waveforms {
+        let plan = &setting.scenario.plan;
+        for waveform in &setting.scenario.scene.waveforms {
             let ((low, high), quickest) = (waveform.part.range(), quickest(&waveform.part, plan.duration));
             // As long as a piece is no longer than it, but for rounding.
             if high > low && step > quickest * (1.0 + ROUNDED) {
@@ -266,13 +266,13 @@ impl Implausible<'_> {
 
     /// Runs that nobody will see the end of.
     pub(super) fn endless(&mut self) {
-        let (job, plan) = (self.job, &self.job.scenario.plan);
-        if job.scenario.scene.bodies.len() > BODIES {
+        let (setting, plan) = (self.setting, &self.setting.scenario.plan);
+        if setting.scenario.scene.bodies.len() > BODIES {
             return;
         }
-        let (what, count) = match fixed_steps(&job.model, plan) {
+        let (what, count) = match fixed_steps(&setting.model, plan) {
             Some(steps) => ("steps", steps),
-            None => ("events", ExpectedEvents::of(job.setup(), plan).total()),
+            None => ("events", ExpectedEvents::of(setting.setup(), plan).total()),
         };
         if count > MANY {
             let days = count / (RATE * 86_400.0);
@@ -285,16 +285,16 @@ impl Implausible<'_> {
     /// Frames under a normal that comes from outside: there a contact goes by the whole law of its memory, one chord a step, and
     /// no step is cut where its course turns.
     pub(super) fn frames(&mut self, stepper: Stepper) {
-        let job = self.job;
+        let setting = self.setting;
         let Stepper::Frames { accuracy, .. } = stepper else { return };
-        let waveforms = &job.scenario.scene.waveforms;
+        let waveforms = &setting.scenario.scene.waveforms;
         let is_fed = |varying: Varying| match varying {
             Varying::Follows(w) => {
                 waveforms.get(w).is_some_and(|w| matches!(w.part.shape(), Shape::Input { .. }))
             }
             Varying::Constant(_) => false,
         };
-        for contact in &job.scenario.scene.contacts {
+        for contact in &setting.scenario.scene.contacts {
             let (key, varying) = match contact.part.normal {
                 Normal::Force(varying) => ("force", varying),
                 Normal::Indentation(varying) => ("indentation", varying),
@@ -317,9 +317,9 @@ impl Implausible<'_> {
 
     /// Contacts that bodies press and a foot may lift off: what a touch leaves of an error the next one multiplies.
     fn lifted_frames(&mut self, accuracy: f64) {
-        let job = self.job;
-        let scene = &job.scenario.scene;
-        for (c, contact) in scene.contacts.iter().enumerate().filter(|(c, _)| job.is_pressed_freely(*c)) {
+        let setting = self.setting;
+        let scene = &setting.scenario.scene;
+        for (c, contact) in scene.contacts.iter().enumerate().filter(|(c, _)| setting.is_pressed_freely(*c)) {
             let bodies = contact.part.between.iter().filter_map(|side| match side {
                 Side::Body(body) => scene.bodies.get(*body),
                 Side::Ground => None,
@@ -344,15 +344,15 @@ impl Implausible<'_> {
 
     /// Stacks that meet a limit or whose plays turn: steps do not end there.
     fn limited_frames(&mut self, accuracy: f64) {
-        let job = self.job;
-        for piezo in &job.scenario.stacks {
+        let setting = self.setting;
+        for piezo in &setting.scenario.stacks {
             let spec = piezo.driver.as_ref();
             let follows = spec.is_none_or(|spec| spec.resistance.is_none() && spec.low.is_none());
             let plays =
                 matches!(piezo.ceramic.hysteresis, Some(Hysteresis::Plays(..))) && !piezo.ceramic.idle;
             let (key, what) = if spec.is_some_and(|spec| spec.current.is_some()) && accuracy < LIMITS {
                 ("driver.current", "meet this limit")
-            } else if follows && accuracy < HARD_LIMITS && piezo.cut(&job.scenario.scene).is_some() {
+            } else if follows && accuracy < HARD_LIMITS && piezo.cut(&setting.scenario.scene).is_some() {
                 ("driver.window", "meet an end of this window")
             } else if plays && accuracy < LIMITS {
                 ("hysteresis", "see plays of this hysteresis turn")
@@ -371,13 +371,13 @@ impl Implausible<'_> {
     /// Damped springs under a normal that moves, where a flank comes at once: no step ends just where the last of them slips; and those of
     /// a profile whose stiffness jumps: no step ends at each of its jumps.
     fn damped_frames(&mut self, accuracy: f64) {
-        let job = self.job;
+        let setting = self.setting;
         let flanks: Vec<(f64, Vec<Side>)> = self
             .lengths()
             .into_iter()
-            .filter_map(|(w, sides)| Some((flank(&job.scenario.scene.waveforms.get(w)?.part), sides)))
+            .filter_map(|(w, sides)| Some((flank(&setting.scenario.scene.waveforms.get(w)?.part), sides)))
             .collect();
-        for (c, contact) in job.scenario.scene.contacts.iter().enumerate() {
+        for (c, contact) in setting.scenario.scene.contacts.iter().enumerate() {
             let is_still = matches!(
                 contact.part.normal,
                 Normal::Force(Varying::Constant(_))
@@ -385,7 +385,9 @@ impl Implausible<'_> {
                     | Normal::Radius(Varying::Constant(_))
             );
             let jumps = contact.part.interface.profile().has_kinks();
-            let Some(natural) = job.model.contact_natural(c).filter(|_| job.is_damped(c)) else { continue };
+            let Some(natural) = setting.model.contact_natural(c).filter(|_| setting.is_damped(c)) else {
+                continue;
+            };
             let meets = |sides: &[Side]| contact.part.between.iter().any(|side| sides.contains(side));
             let own = flanks.iter().filter(|(_, sides)| meets(sides)).map(|(flank, _)| *flank);
             let way = contact.part.interface.damping() * own.fold(0.0, f64::max);
@@ -407,7 +409,7 @@ impl Implausible<'_> {
 }
 
 /// What frames lose of an accuracy where contacts part and touch.
-pub(crate) fn multiplied(accuracy: f64) -> String {
+pub fn multiplied(accuracy: f64) -> String {
     format!(
         "each touch multiplies errors, and more than the {accuracy:e} that frames are asked for may be lost of a stroke"
     )

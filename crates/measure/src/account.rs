@@ -5,23 +5,23 @@
 
 mod phases;
 
-pub(crate) use phases::{Phases, Sense};
+pub use phases::{Phases, Sense};
 
-use crate::job::Job;
+use crate::Setting;
 use crate::periods::{Periods, Tracker};
 use std::collections::HashMap;
 use stickslip_drive::scene::{Freedom, Side};
 use stickslip_drive::{EventKind, Source};
 
 /// A swing of the force below this share of the limit of friction is no ringing any more.
-pub(crate) const RINGING: f64 = 0.05;
+pub const RINGING: f64 = 0.05;
 /// Codes of an open contact and of gross slip in a row.
 const OPEN: f64 = 0.0;
 const SLIP: f64 = 3.0;
 
 /// Keeps the accounts of a run.
 #[derive(Debug)]
-pub(crate) struct Accounts {
+pub struct Accounts {
     phases: Phases,
     tracker: Tracker,
     /// Place of the body's x, and of the first of the energies, among all channels.
@@ -63,33 +63,34 @@ pub struct Extreme {
 
 /// What happened in a period. Of two values the first is of the rising waveform, the second of the falling one.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Account {
+pub struct Account {
     /// From when until when, s.
-    pub(crate) span: [f64; 2],
+    pub span: [f64; 2],
     /// How long, s.
-    pub(crate) time: [f64; 2],
+    pub time: [f64; 2],
     /// The way of the body, m; that while the waveform rests last.
-    pub(crate) travel: [f64; 3],
+    pub travel: [f64; 3],
     /// Input, kinetic, elastic, friction, damping: at its start, and by how much they have grown in it, J.
-    pub(crate) energies: [f64; 5],
-    pub(crate) contacts: Vec<ContactAccount>,
+    pub energies: [f64; 5],
+    /// Of each contact.
+    pub contacts: Vec<ContactAccount>,
 }
 
 /// What a contact of the body did in a period; of two values the first is of the rising waveform.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub(crate) struct ContactAccount {
+pub struct ContactAccount {
     /// Its place in the scene.
-    pub(crate) c: usize,
+    pub c: usize,
     /// Time in gross slip, s.
-    pub(crate) slip: [f64; 2],
+    pub slip: [f64; 2],
     /// Turns of u, but for those out of gross slip.
-    pub(crate) reversals: [u32; 2],
+    pub reversals: [u32; 2],
     /// From when the waveform turned, until the last swing of the force beyond [`RINGING`], s; none without such a swing.
-    pub(crate) rings: [Option<f64>; 2],
+    pub rings: [Option<f64>; 2],
     /// The last swing, half of peak to peak, as a share of the limit of friction: the mean of that at both turns.
-    pub(crate) swing: [f64; 2],
+    pub swing: [f64; 2],
     /// Both turns of that.
-    pub(crate) turns: [Option<[Extreme; 2]>; 2],
+    pub turns: [Option<[Extreme; 2]>; 2],
 }
 
 /// Which of two values a way has.
@@ -102,20 +103,20 @@ fn side(sense: Sense) -> Option<usize> {
 }
 
 impl Accounts {
-    /// Those of the body and the waveform of a job's figures; none where no free body is driven by a periodic waveform.
-    pub(crate) fn of(job: &Job, places: &HashMap<&str, usize>) -> Option<Self> {
-        let (scene, figures) = (&job.scenario.scene, job.scenario.figures);
+    /// Those of the body and the waveform of a setting's figures; none where no free body is driven by a periodic waveform.
+    pub fn of(setting: &Setting, places: &HashMap<&str, usize>) -> Option<Self> {
+        let (scene, figures) = (&setting.scenario.scene, setting.scenario.figures);
         let b = figures.body?;
         let body = scene.bodies.get(b).filter(|body| body.part.x.freedom == Freedom::Free)?;
         let waveform = &scene.waveforms.get(figures.waveform?)?.part;
         let place = |name: String| places.get(name.as_str()).copied();
-        let touching = scene.contacts.iter().zip(job.model.contacts()).enumerate();
+        let touching = scene.contacts.iter().zip(setting.model.contacts()).enumerate();
         let touching = touching.filter(|(_, (it, _))| it.part.between.contains(&Side::Body(b)));
         let contacts = touching.filter_map(|(c, (_, (name, law)))| {
             let [force, normal, state] =
                 ["fx_N", "fn_N", "state"].map(|column| place(format!("{name}.{column}")));
             let places = [force?, normal?, state?];
-            let turn = if job.model.tells_turns(job.scenario.plan.stepper, c) {
+            let turn = if setting.model.tells_turns(setting.scenario.plan.stepper, c) {
                 EventKind::Turn
             } else {
                 EventKind::Reversal
@@ -137,7 +138,7 @@ impl Accounts {
     }
 
     /// Takes a moment: an event, or a mark.
-    pub(crate) fn moment(&mut self, event: Option<(Source, &str)>, values: &[f64]) {
+    pub fn moment(&mut self, event: Option<(Source, &str)>, values: &[f64]) {
         let [place, energies] = self.places;
         let (Some(&t), Some(&x), Some(books)) =
             (values.first(), values.get(place), values.get(energies..).and_then(<[f64]>::first_chunk::<5>))
@@ -254,11 +255,12 @@ impl Accounts {
     }
 
     /// That of the last whole period.
-    pub(crate) fn last(&self) -> Option<&Account> {
+    pub fn last(&self) -> Option<&Account> {
         self.whole.as_ref()
     }
 
-    pub(crate) fn phases(&self) -> &Phases {
+    /// Which way the waveform goes when.
+    pub fn phases(&self) -> &Phases {
         &self.phases
     }
 }

@@ -2,8 +2,8 @@
 
 mod motion;
 
-use crate::job::Job;
-use crate::series::Series;
+use crate::Setting;
+use crate::simulated::Series;
 use crate::trail::Trail;
 use motion::Motion;
 use stickslip_contact::{Apex, Interface, Memory, Segment};
@@ -27,20 +27,20 @@ const MANY: usize = 50_000;
 /// branch the force follows from the way alone, and all turning points are events. So the contact is walked once more through the
 /// samples, and asked in between: under a constant load along the straight way, for the force depends on u alone; where the load
 /// varies, along the motion of its bodies, on the cubics through their places and velocities. Elsewhere the samples stand alone.
-pub fn contact_path(job: &Job, c: usize, series: &Series) -> Trail {
-    let Some((name, law)) = job.model.contacts().nth(c) else { return Trail::default() };
+pub fn contact_path(setting: &Setting, c: usize, series: &Series) -> Trail {
+    let Some((name, law)) = setting.model.contacts().nth(c) else { return Trail::default() };
     let [u, d, force] = ["u_m", "d_m", "fx_N"].map(|quantity| series.column(name, quantity));
     let samples = Trail { t: series.time().to_vec(), x: u.to_vec(), y: force.to_vec() };
-    let Some(memory) = job.start.memories().get(c) else { return samples };
-    let count = f64::from(job.count(c));
+    let Some(memory) = setting.start.memories().get(c) else { return samples };
+    let count = f64::from(setting.count(c));
     // Where events are left out of a series, turning points may be missing in it.
     // The moment before a jump may be none of the series.
-    if is_walked(job, c) && !job.has_jumps() && job.scenario.written.has_all_events() {
+    if is_walked(setting, c) && !setting.has_jumps() && setting.scenario.written.has_all_events() {
         let d = d.first().copied().unwrap_or(0.0);
         return refined(&samples, law, memory.clone(), (d, count));
     }
-    let knows = knows_turns(job) && job.scenario.written.has_all_events();
-    let motion = Motion::new(job, c, series).filter(|_| knows && samples.t.len() < MANY);
+    let knows = knows_turns(setting) && setting.scenario.written.has_all_events();
+    let motion = Motion::new(setting, c, series).filter(|_| knows && samples.t.len() < MANY);
     match motion.filter(|_| law.damping() == 0.0) {
         Some(motion) => moved(&samples, (law, d, count), memory.clone(), &motion).unwrap_or(samples),
         None => samples,
@@ -49,18 +49,18 @@ pub fn contact_path(job: &Job, c: usize, series: &Series) -> Trail {
 
 /// Whether the force of contact `c` between two moments of a run follows from the contact's own law: that has no time in it, and
 /// all turning points are events, or marks where something jumps: a straight way. What never rubs has no events.
-pub(crate) fn is_walked(job: &Job, c: usize) -> bool {
-    let rubs = job.model.contact_natural(c).is_some_and(|natural| natural.force > 0.0);
-    rubs && locates(job) && job.has_law_without_time(c)
+pub fn is_walked(setting: &Setting, c: usize) -> bool {
+    let rubs = setting.model.contact_natural(c).is_some_and(|natural| natural.force > 0.0);
+    rubs && locates(setting) && setting.has_law_without_time(c)
 }
 
 /// Whether all turning points of a run are events, and nothing jumps.
-fn knows_turns(job: &Job) -> bool {
-    !job.has_jumps() && locates(job)
+fn knows_turns(setting: &Setting) -> bool {
+    !setting.has_jumps() && locates(setting)
 }
 
-fn locates(job: &Job) -> bool {
-    job.model.effective(job.scenario.plan.stepper).locates_events()
+fn locates(setting: &Setting) -> bool {
+    setting.model.effective(setting.scenario.plan.stepper).locates_events()
 }
 
 /// The way with points between its samples where the load varies: the contact is walked along the motion of its bodies. None

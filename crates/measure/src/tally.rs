@@ -1,22 +1,22 @@
 //! What figures are taken from while a run goes on: no more of it than figures need, however long the run.
 
+use crate::Setting;
+use crate::Stride;
 use crate::account::Accounts;
-use crate::cycles::{CycleFigures, Loops};
+use crate::contact_cycles::{CycleFigures, Loops};
 use crate::excursions::Excursions;
 use crate::foot::Foot;
-use crate::job::Job;
 use crate::periods::{Periods, Tracker};
 use crate::strides::StrideList;
 use std::collections::HashMap;
 use stickslip_drive::scene::Freedom;
 use stickslip_drive::{Extent, Source};
-use stickslip_measure::Stride;
 
 /// No place yet.
 const NOWHERE: [f64; 2] = [f64::INFINITY, f64::NEG_INFINITY];
 
 /// What figures are taken from.
-pub(crate) struct Tally {
+pub struct Tally {
     contacts: Vec<ContactTally>,
     /// Contacts of each part of the scene, and the part of each contact; none of a scene that is one.
     parts: Vec<Vec<usize>>,
@@ -33,17 +33,17 @@ pub(crate) struct Tally {
 }
 
 /// What a contact has come to, over all rows and events.
-pub(crate) struct ContactTally {
+pub struct ContactTally {
     /// Places of `fx_N`, `fn_N` and `d_m` among all channels.
     places: [Option<usize>; 3],
     /// Largest magnitudes of the forces, N.
-    pub(crate) peaks: [f64; 2],
+    pub peaks: [f64; 2],
     /// Least and largest normal force, N, and indentation, m.
-    pub(crate) ranges: [[f64; 2]; 2],
+    pub ranges: [[f64; 2]; 2],
     /// Time in which it was open, s.
-    pub(crate) open: f64,
+    pub open: f64,
     /// Since when it has been open, s; none while it is closed.
-    pub(crate) open_since: Option<f64>,
+    pub open_since: Option<f64>,
     /// The first moment and the last, s, and the indentation at the last, m.
     first: f64,
     last: Option<[f64; 2]>,
@@ -64,21 +64,22 @@ struct Walker {
 }
 
 impl Tally {
-    /// Nothing yet, of the figures of a job.
-    pub(crate) fn new(job: &Job) -> Self {
-        let channels = job.model.channels();
+    /// Nothing yet, of the figures of a setting.
+    pub fn new(setting: &Setting) -> Self {
+        let channels = setting.model.channels();
         let places: HashMap<&str, usize> =
             channels.iter().enumerate().map(|(place, channel)| (channel.name.as_str(), place)).collect();
-        let names = job.model.contacts().map(|(name, _)| name).enumerate();
-        let contacts: Vec<_> = names.map(|(c, name)| ContactTally::new((job, c), name, &places)).collect();
-        let parts: Vec<Vec<usize>> = job.model.part_contacts().map(<[usize]>::to_vec).collect();
+        let names = setting.model.contacts().map(|(name, _)| name).enumerate();
+        let contacts: Vec<_> =
+            names.map(|(c, name)| ContactTally::new((setting, c), name, &places)).collect();
+        let parts: Vec<Vec<usize>> = setting.model.part_contacts().map(<[usize]>::to_vec).collect();
         let mut part_of = vec![0; contacts.len()];
         parts.iter().enumerate().for_each(|(k, part)| part.iter().for_each(|c| part_of[*c] = k));
-        let voltage_place = Foot::of(job)
-            .and_then(|foot| foot.voltage(job))
+        let voltage_place = Foot::of(setting)
+            .and_then(|foot| foot.voltage(setting))
             .and_then(|name| places.get(name.as_str()).copied());
-        let (walker, accounts) = (Walker::of(job, &places), Accounts::of(job, &places));
-        let excursions = Excursions::new(job, &places);
+        let (walker, accounts) = (Walker::of(setting, &places), Accounts::of(setting, &places));
+        let excursions = Excursions::new(setting, &places);
         Self {
             contacts,
             parts,
@@ -94,14 +95,14 @@ impl Tally {
     }
 
     /// Keeps what there is too much of in a file without a name.
-    pub(crate) fn spill(&mut self, file: std::fs::File) {
+    pub fn spill(&mut self, file: std::fs::File) {
         if let Some(walker) = &mut self.walker {
             walker.strides.spill(file);
         }
     }
 
     /// Takes a row, or the row of an event.
-    pub(crate) fn row(&mut self, values: &[f64]) {
+    pub fn row(&mut self, values: &[f64]) {
         self.contacts.iter_mut().for_each(|contact| contact.row(values));
         self.excursions.row(values);
         if let Some(walker) = &mut self.walker
@@ -114,9 +115,9 @@ impl Tally {
 
     /// Takes a moment that figures are taken at: after an event, where something bends, or else a mark. Contacts of other parts than that of
     /// the event feel nothing of it: of a thousand parts each keeps its own moments, not those of all.
-    pub(crate) fn moment(
+    pub fn moment(
         &mut self,
-        job: &Job,
+        setting: &Setting,
         (values, event): (&[f64], Option<Source>),
         ended: &mut Vec<(usize, CycleFigures)>,
     ) {
@@ -128,7 +129,7 @@ impl Tally {
         let take = |c: usize| {
             let loops = self.contacts.get_mut(c).and_then(|contact| contact.loops.as_mut());
             let figures = loops
-                .zip(job.model.contacts().nth(c))
+                .zip(setting.model.contacts().nth(c))
                 .and_then(|(loops, (_, law))| loops.take(law, values, event.is_some()));
             ended.extend(figures.map(|figures| (c, figures)));
         };
@@ -142,7 +143,7 @@ impl Tally {
     }
 
     /// Takes a moment of the account of a period: an event, or a mark.
-    pub(crate) fn account(&mut self, event: Option<(Source, &str)>, values: &[f64]) {
+    pub fn account(&mut self, event: Option<(Source, &str)>, values: &[f64]) {
         if let Some(accounts) = &mut self.accounts {
             accounts.moment(event, values);
         }
@@ -153,28 +154,28 @@ impl Tally {
     }
 
     /// How far bodies have turned, rolled and fallen.
-    pub(crate) fn excursions(&self) -> &Excursions {
+    pub fn excursions(&self) -> &Excursions {
         &self.excursions
     }
 
     /// What happened in the last whole period, where that is told.
-    pub(crate) fn accounts(&self) -> Option<&Accounts> {
+    pub fn accounts(&self) -> Option<&Accounts> {
         self.accounts.as_ref()
     }
 
     /// Takes how far the body of the figures and its foot went.
-    pub(crate) fn extents(&mut self, [body, foot]: [Extent; 2]) {
+    pub fn extents(&mut self, [body, foot]: [Extent; 2]) {
         self.extents = [self.extents[0].join(body), self.extents[1].join(foot)];
     }
 
     /// Begins the first period of the figures: what was before it is none of theirs.
-    pub(crate) fn begin_extents(&mut self) {
+    pub fn begin_extents(&mut self) {
         self.extents = [Extent::NONE; 2];
         self.voltages[0] = Extent::NONE;
     }
 
     /// Ends a period of the figures.
-    pub(crate) fn end_extents(&mut self) -> Option<Stride> {
+    pub fn end_extents(&mut self) -> Option<Stride> {
         let [body, foot] = std::mem::replace(&mut self.extents, [Extent::NONE; 2]);
         self.foot = Some(foot).filter(|foot| !foot.is_none());
         self.voltages = [Extent::NONE, self.voltages[0]];
@@ -182,30 +183,30 @@ impl Tally {
     }
 
     /// How far the foot went in the last whole period of the figures; none of a foot that is not free.
-    pub(crate) fn foot(&self) -> Option<Extent> {
+    pub fn foot(&self) -> Option<Extent> {
         self.foot
     }
 
     /// How far the voltage behind the driver of its stack went meanwhile; none without a driver.
-    pub(crate) fn voltage(&self) -> Option<Extent> {
+    pub fn voltage(&self) -> Option<Extent> {
         Some(self.voltages[1]).filter(|voltage| !voltage.is_none())
     }
 
     /// Why no more steps can be kept.
-    pub(crate) fn take_failure(&mut self) -> Option<std::io::Error> {
+    pub fn take_failure(&mut self) -> Option<std::io::Error> {
         self.walker.as_mut()?.strides.take_failure()
     }
 
     /// What it takes, B.
-    pub(crate) fn bytes(&self) -> usize {
+    pub fn bytes(&self) -> usize {
         let loops = self.contacts.iter().filter_map(|contact| contact.loops.as_ref()).map(Loops::bytes);
         loops.sum::<usize>() + self.walker.as_ref().map_or(0, |walker| walker.strides.bytes())
     }
 
     /// The cycles that are known only at the end.
-    pub(crate) fn finish(&mut self, job: &Job) -> Vec<(usize, CycleFigures)> {
+    pub fn finish(&mut self, setting: &Setting) -> Vec<(usize, CycleFigures)> {
         let mut found = Vec::new();
-        for (c, (contact, (_, law))) in self.contacts.iter_mut().zip(job.model.contacts()).enumerate() {
+        for (c, (contact, (_, law))) in self.contacts.iter_mut().zip(setting.model.contacts()).enumerate() {
             let Some(loops) = &mut contact.loops else { continue };
             found.extend(loops.finish(law).into_iter().map(|figures| (c, figures)));
         }
@@ -213,29 +214,29 @@ impl Tally {
     }
 
     /// What contact `c` has come to.
-    pub(crate) fn contact(&self, c: usize) -> Option<&ContactTally> {
+    pub fn contact(&self, c: usize) -> Option<&ContactTally> {
         self.contacts.get(c)
     }
 
     /// The steps so far; none where no body makes any.
-    pub(crate) fn strides(&self) -> Option<&StrideList> {
+    pub fn strides(&self) -> Option<&StrideList> {
         self.walker.as_ref().map(|walker| &walker.strides)
     }
 
     /// The way of the body that steps, m.
-    pub(crate) fn net_travel(&self) -> f64 {
+    pub fn net_travel(&self) -> f64 {
         let way = self.walker.as_ref().and_then(|walker| walker.way);
         way.map_or(0.0, |[first, last]| last - first)
     }
 
     /// Moments that cycles are without, for there were too many of them.
-    pub(crate) fn left_out(&self) -> u64 {
+    pub fn left_out(&self) -> u64 {
         self.contacts.iter().filter_map(|contact| contact.loops.as_ref()).map(|loops| loops.left_out).sum()
     }
 }
 
 impl ContactTally {
-    fn new((job, c): (&Job, usize), name: &str, places: &HashMap<&str, usize>) -> Self {
+    fn new((setting, c): (&Setting, usize), name: &str, places: &HashMap<&str, usize>) -> Self {
         let place = |quantity| places.get(format!("{name}.{quantity}").as_str()).copied();
         Self {
             places: ["fx_N", "fn_N", "d_m"].map(place),
@@ -245,7 +246,7 @@ impl ContactTally {
             open_since: None,
             first: 0.0,
             last: None,
-            loops: Loops::of(job, c, places),
+            loops: Loops::of(setting, c, places),
         }
     }
 
@@ -271,7 +272,7 @@ impl ContactTally {
     }
 
     /// Share of the time in which it was open; none without a row.
-    pub(crate) fn open_share(&self) -> Option<f64> {
+    pub fn open_share(&self) -> Option<f64> {
         let [last, _] = self.last?;
         let total = last - self.first;
         Some(if total > 0.0 { self.open / total } else { 0.0 })
@@ -279,8 +280,8 @@ impl ContactTally {
 }
 
 impl Walker {
-    fn of(job: &Job, places: &HashMap<&str, usize>) -> Option<Self> {
-        let (scene, figures) = (&job.scenario.scene, job.scenario.figures);
+    fn of(setting: &Setting, places: &HashMap<&str, usize>) -> Option<Self> {
+        let (scene, figures) = (&setting.scenario.scene, setting.scenario.figures);
         let body = scene.bodies.get(figures.body?)?;
         let waveform = scene.waveforms.get(figures.waveform?)?;
         let periods = Periods::until(&waveform.part, f64::INFINITY)?;

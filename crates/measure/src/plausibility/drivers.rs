@@ -17,7 +17,7 @@ impl Implausible<'_> {
         if stepper.locates_events() {
             return;
         }
-        let scenario = &self.job.scenario;
+        let scenario = &self.setting.scenario;
         for piezo in scenario.stacks.iter().filter(|piezo| piezo.is_reciprocal(&scenario.scene)) {
             let Some(spec) = &piezo.driver else { continue };
             if spec.current.is_some() && spec.resistance.is_none() {
@@ -31,16 +31,18 @@ impl Implausible<'_> {
 
     /// Drivers that follow so fast that stability, not what is to be seen, makes the steps.
     pub(super) fn drivers(&mut self, stepper: Stepper) {
-        let job = self.job;
-        let duration = job.scenario.plan.duration;
-        for piezo in &job.scenario.stacks {
+        let setting = self.setting;
+        let duration = setting.scenario.plan.duration;
+        for piezo in &setting.scenario.stacks {
             let (Some(spec), Some(_)) = (&piezo.driver, piezo.block) else { continue };
             let rate = spec.rate();
             let steps = match stepper.accuracy() {
                 // Implicit steps go over what settles.
-                Accuracy::Tolerance(_) if job.model.is_stiff() => continue,
+                Accuracy::Tolerance(_) if setting.model.is_stiff() => continue,
                 Accuracy::Tolerance(_) => duration * rate / STRIDE,
-                Accuracy::Frame { length, error } => duration / length * job.model.substeps(length, error),
+                Accuracy::Frame { length, error } => {
+                    duration / length * setting.model.substeps(length, error)
+                }
                 // As given; one that is too long is refused.
                 Accuracy::Step(_) => continue,
             };

@@ -6,8 +6,8 @@
 //! the first order.
 
 use super::{ROUNDING, Track};
+use crate::series::extent;
 use std::ops::Range;
-use stickslip_measure::series::extent;
 
 /// Moments nearer than this share of their mean distance are one.
 const NEAR: f64 = 0.01;

@@ -3,7 +3,7 @@
 //! Angles are small, and contact points stay where they are on their bodies. Extremes over rows and events are kept, of bodies that can
 //! turn or lift alone.
 
-use crate::job::Job;
+use crate::Setting;
 use crate::warning::Warning;
 use std::collections::HashMap;
 use stickslip_drive::scene::{Freedom, SMALL_ANGLE, Scene, Side};
@@ -14,7 +14,7 @@ use stickslip_quantity::quantity;
 type Places<'a> = HashMap<&'a str, usize>;
 
 /// The extremes.
-pub(crate) struct Excursions {
+pub struct Excursions {
     turns: Vec<Turn>,
     rolls: Vec<Roll>,
     falls: Vec<Fall>,
@@ -69,8 +69,8 @@ struct Catch {
 
 impl Excursions {
     /// Nothing yet.
-    pub(crate) fn new(job: &Job, places: &Places<'_>) -> Self {
-        let scene = &job.scenario.scene;
+    pub fn new(setting: &Setting, places: &Places<'_>) -> Self {
+        let scene = &setting.scenario.scene;
         let place = |name: &str, quantity: &str| places.get(format!("{name}.{quantity}").as_str()).copied();
         let pitch = |body: usize| scene.bodies.get(body).and_then(|body| place(&body.name, "pitch_rad"));
         let turns =
@@ -98,7 +98,7 @@ impl Excursions {
     }
 
     /// Takes a row, or the row of an event.
-    pub(crate) fn row(&mut self, values: &[f64]) {
+    pub fn row(&mut self, values: &[f64]) {
         let at = |place: usize| values.get(place).copied().unwrap_or(0.0);
         for turn in &mut self.turns {
             turn.most = turn.most.max(at(turn.place).abs());
@@ -108,17 +108,17 @@ impl Excursions {
     }
 
     /// What went too far, one of a kind: the farthest, with its number.
-    pub(crate) fn warnings(&self, job: &Job) -> impl Iterator<Item = Warning> {
-        [self.angle(job), self.rolling(job), self.fall(job)].into_iter().flatten()
+    pub fn warnings(&self, setting: &Setting) -> impl Iterator<Item = Warning> {
+        [self.angle(setting), self.rolling(setting), self.fall(setting)].into_iter().flatten()
     }
 
-    fn angle(&self, job: &Job) -> Option<Warning> {
+    fn angle(&self, setting: &Setting) -> Option<Warning> {
         let turn = self
             .turns
             .iter()
             .max_by(|a, b| a.most.total_cmp(&b.most))
             .filter(|turn| turn.most > SMALL_ANGLE)?;
-        let name = &job.scenario.scene.bodies.get(turn.body)?.name;
+        let name = &setting.scenario.scene.bodies.get(turn.body)?.name;
         let [angle, small] = [turn.most, SMALL_ANGLE].map(|angle| quantity(Real(angle), "rad"));
         let message = format!(
             "{name} turns by {angle}, beyond small angles of {small}: its points go on along straight lines, where they would go \
@@ -129,10 +129,10 @@ impl Excursions {
         Some(Warning::new("angle", message).help(help))
     }
 
-    fn rolling(&self, job: &Job) -> Option<Warning> {
+    fn rolling(&self, setting: &Setting) -> Option<Warning> {
         let all = self.rolls.iter().map(|roll| (roll.contact, roll.farthest()));
         let (contact, [way, radius]) = all.max_by(|a, b| ratio(a.1).total_cmp(&ratio(b.1)))?;
-        let name = &job.scenario.scene.contacts.get(contact).filter(|_| way > radius)?.name;
+        let name = &setting.scenario.scene.contacts.get(contact).filter(|_| way > radius)?.name;
         let [way, radius] = [way, radius].map(|length| quantity(Real(length), "m"));
         let message = format!(
             "{name} rolls by {way}, more than its contact radius of {radius}: a contact stays on the same points of its bodies, where \
@@ -144,10 +144,10 @@ impl Excursions {
         )
     }
 
-    fn fall(&self, job: &Job) -> Option<Warning> {
+    fn fall(&self, setting: &Setting) -> Option<Warning> {
         let through = self.falls.iter().filter(|fall| fall.farthest > fall.height);
         let fall = through.max_by(|a, b| a.farthest.total_cmp(&b.farthest))?;
-        let name = &job.scenario.scene.bodies.get(fall.body)?.name;
+        let name = &setting.scenario.scene.bodies.get(fall.body)?.name;
         let [descent, height] = [fall.farthest, fall.height].map(|length| quantity(Real(length), "m"));
         let message = format!(
             "{name} falls through the ground, or what else it stood on: it was {descent} below where its contacts close, more than its \

@@ -1,6 +1,6 @@
 //! The periods of a waveform within a run.
 
-use crate::job::Job;
+use crate::Setting;
 use stickslip_drive::Waveform;
 use stickslip_drive::scene::{Direction, Freedom, Scene, Side, Varying};
 
@@ -34,13 +34,13 @@ impl Periods {
 
     /// The periods of whatever drives contact `c`: the one waveform that its bodies follow, or else the waveform of the
     /// scenario's `figures`; until time `end`, s.
-    pub fn of_contact(job: &Job, c: usize, end: f64) -> Option<Self> {
-        let mut followed = followed(job, c);
+    pub fn of_contact(setting: &Setting, c: usize, end: f64) -> Option<Self> {
+        let mut followed = followed(setting, c);
         let waveform = match (followed.next(), followed.next()) {
             (Some(only), None) => only,
-            _ => job.scenario.figures.waveform?,
+            _ => setting.scenario.figures.waveform?,
         };
-        Self::until(&job.scenario.scene.waveforms.get(waveform)?.part, end)
+        Self::until(&setting.scenario.scene.waveforms.get(waveform)?.part, end)
     }
 
     /// End of period k, and start of the next, s; 0: start of the first.
@@ -67,7 +67,7 @@ impl Periods {
 
 /// Finds the ends of periods among moments as they come: of each the first moment that is as good as it.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Tracker {
+pub struct Tracker {
     periods: Periods,
     /// The end that comes next.
     next: usize,
@@ -75,13 +75,14 @@ pub(crate) struct Tracker {
 }
 
 impl Tracker {
-    pub(crate) fn new(periods: Periods) -> Self {
+    /// One that stands at the start.
+    pub fn new(periods: Periods) -> Self {
         Self { periods, next: 0, is_over: false }
     }
 
     /// Which end a moment is, s, moments ascending; 0 for the beginning of the first period. After one that is missing there are
     /// no more.
-    pub(crate) fn pass(&mut self, t: f64) -> Option<usize> {
+    pub fn pass(&mut self, t: f64) -> Option<usize> {
         if self.is_over {
             return None;
         }
@@ -96,15 +97,15 @@ impl Tracker {
     }
 
     /// Whether no end comes any more.
-    pub(crate) fn is_over(&self) -> bool {
+    pub fn is_over(&self) -> bool {
         self.is_over
     }
 }
 
 /// Places of the waveforms that the bodies of contact `c` follow along the slide; of a balanced body those of what pulls at
 /// it, through any number of springs and bodies as balanced as it.
-pub(crate) fn followed(job: &Job, c: usize) -> impl Iterator<Item = usize> + use<> {
-    let scene = &job.scenario.scene;
+pub fn followed(setting: &Setting, c: usize) -> impl Iterator<Item = usize> + use<> {
+    let scene = &setting.scenario.scene;
     let mut bodies: Vec<usize> =
         scene.contacts.get(c).into_iter().flat_map(|it| sides(it.part.between)).collect();
     let (mut followed, mut next) = (Vec::new(), 0);

@@ -1,10 +1,10 @@
 //! The moments at which a run is asked for its figures: ends of periods, and parts of them.
 
+use crate::Setting;
 use crate::account::Phases;
+use crate::contact_cycles::{is_integrated, table_of};
 use crate::contact_path::is_walked;
-use crate::cycles::{is_integrated, table_of};
 use crate::foot::Foot;
-use crate::job::Job;
 use crate::periods::{Periods, followed};
 use stickslip_drive::Waveform;
 use stickslip_drive::scene::{Direction, Freedom, Normal, Side, Varying};
@@ -30,16 +30,16 @@ const TABLE_PARTS: f64 = 4096.0;
 const SAME: f64 = 1e-9;
 
 /// Moments to come.
-pub(crate) struct Marks {
+pub struct Marks {
     grids: Vec<Grid>,
     /// How many of them, the first, are not for the account of a period alone.
     common: usize,
     /// Whether contacts are looked at in parts of a period.
-    pub(crate) are_dense: bool,
+    pub are_dense: bool,
     /// Body whose way in each period is wanted.
-    pub(crate) body: Option<usize>,
+    pub body: Option<usize>,
     /// The foot that a stack moves under it, whose way is wanted, too.
-    pub(crate) foot: Option<usize>,
+    pub foot: Option<usize>,
     /// Periods of the figures.
     figures: Option<Periods>,
     /// End of the run, s.
@@ -56,9 +56,10 @@ struct Grid {
 }
 
 impl Marks {
-    /// Those that the figures of a job need.
-    pub(crate) fn of(job: &Job) -> Self {
-        let (scene, figures, end) = (&job.scenario.scene, job.scenario.figures, job.scenario.plan.duration);
+    /// Those that the figures of a setting need.
+    pub fn of(setting: &Setting) -> Self {
+        let (scene, figures, end) =
+            (&setting.scenario.scene, setting.scenario.figures, setting.scenario.plan.duration);
         // A run that goes on beyond this end has had the same marks before it.
         let for_ever = f64::INFINITY;
         let is_free =
@@ -69,21 +70,22 @@ impl Marks {
         let mut grids: Vec<Grid> = figures.iter().map(|periods| Grid::of(periods, 1.0)).collect();
         let mut any_dense = false;
         for c in 0..scene.contacts.len() {
-            let is_dense = are_dense(job, c);
+            let is_dense = are_dense(setting, c);
             any_dense |= is_dense;
-            let grids_of_contact = match (Periods::of_contact(job, c, for_ever), table_of(job, c)) {
+            let grids_of_contact = match (Periods::of_contact(setting, c, for_ever), table_of(setting, c)) {
                 (Some(periods), _) => {
-                    let load = load_of(job, c).filter(|_| is_dense);
+                    let load = load_of(setting, c).filter(|_| is_dense);
                     let parts = if is_dense {
-                        parts_of(&periods, load).max(of_ringing(job, c, &periods))
+                        parts_of(&periods, load).max(of_ringing(setting, c, &periods))
                     } else {
                         1.0
                     };
                     let of_load = load.into_iter().flat_map(peaks_of_load);
-                    let drives = followed(job, c).filter_map(|w| scene.waveforms.get(w)).map(|it| &it.part);
+                    let drives =
+                        followed(setting, c).filter_map(|w| scene.waveforms.get(w)).map(|it| &it.part);
                     let fast = drives.chain(load).filter(|_| is_dense);
                     let fast = fast.flat_map(|waveform| fast_pieces(waveform, periods.length / parts));
-                    let jumping = followed(job, c).filter_map(|w| scene.waveforms.get(w));
+                    let jumping = followed(setting, c).filter_map(|w| scene.waveforms.get(w));
                     let jumps = jumping.flat_map(|waveform| jumps_of(&waveform.part));
                     [Grid::of(&periods, parts)].into_iter().chain(of_load).chain(fast).chain(jumps).collect()
                 }
@@ -97,19 +99,19 @@ impl Marks {
             }
         }
         let common = grids.len();
-        grids.extend(figures.iter().flat_map(|periods| turns(job, periods)));
+        grids.extend(figures.iter().flat_map(|periods| turns(setting, periods)));
         let body = body.filter(|_| figures.is_some());
-        let foot = body.and_then(|_| Foot::of(job)?.driven());
+        let foot = body.and_then(|_| Foot::of(setting)?.driven());
         Self { grids, common, are_dense: any_dense, body, foot, figures, end }
     }
 
     /// Whether a moment is one for all figures, and not for the account of a period alone.
-    pub(crate) fn is_common(&self, t: f64) -> bool {
+    pub fn is_common(&self, t: f64) -> bool {
         self.common == self.grids.len() || self.grids.iter().take(self.common).any(|grid| grid.has(t))
     }
 
     /// The next moment, s.
-    pub(crate) fn next(&mut self) -> Option<f64> {
+    pub fn take_next(&mut self) -> Option<f64> {
         let next = self.grids.iter().filter_map(Grid::due).fold(f64::INFINITY, f64::min);
         for grid in &mut self.grids {
             // Those that rounding puts elsewhere are one.
@@ -124,12 +126,12 @@ impl Marks {
     }
 
     /// Periods of the figures.
-    pub(crate) fn figures(&self) -> Option<Periods> {
+    pub fn figures(&self) -> Option<Periods> {
         self.figures
     }
 
     /// Which period of the figures a moment ends, from 1; 0 for their beginning.
-    pub(crate) fn period_ended(&self, t: f64) -> Option<u64> {
+    pub fn period_ended(&self, t: f64) -> Option<u64> {
         let periods = self.figures?;
         let place = (t - periods.start) / periods.length;
         // Of many periods rounding of t is more.
@@ -140,30 +142,30 @@ impl Marks {
 
 /// Whether a contact is looked at in parts of a period, or of a table: its force does not follow from the way alone, and it is none of
 /// those on which the body of the figures steps. Two free bodies may step together.
-pub(crate) fn are_dense(job: &Job, c: usize) -> bool {
-    if is_walked(job, c) {
+pub fn are_dense(setting: &Setting, c: usize) -> bool {
+    if is_walked(setting, c) {
         return false;
     }
     let is_free = |body: &usize| {
-        job.scenario.scene.bodies.get(*body).is_some_and(|b| b.part.x.freedom == Freedom::Free)
+        setting.scenario.scene.bodies.get(*body).is_some_and(|b| b.part.x.freedom == Freedom::Free)
     };
-    let sides = job.scenario.scene.contacts.get(c).map(|contact| contact.part.between);
-    let tells_turns = job.model.effective(job.scenario.plan.stepper).locates_events();
-    let steps = job.scenario.figures.body.filter(is_free).zip(sides).is_some_and(|(body, sides)| {
+    let sides = setting.scenario.scene.contacts.get(c).map(|contact| contact.part.between);
+    let tells_turns = setting.model.effective(setting.scenario.plan.stepper).locates_events();
+    let steps = setting.scenario.figures.body.filter(is_free).zip(sides).is_some_and(|(body, sides)| {
         let frees = |side: &Side| matches!(side, Side::Body(other) if *other != body && is_free(other));
         // What holds it has loops, of which fixed steps tell no turn.
         let is_untold = sides.contains(&Side::Ground) && !tells_turns;
-        sides.contains(&Side::Body(body)) && !sides.iter().any(frees) && !is_untold && !is_held(job, body)
+        sides.contains(&Side::Body(body)) && !sides.iter().any(frees) && !is_untold && !is_held(setting, body)
     });
-    match Periods::of_contact(job, c, f64::INFINITY) {
+    match Periods::of_contact(setting, c, f64::INFINITY) {
         Some(_) => !steps,
-        None => table_of(job, c).is_some(),
+        None => table_of(setting, c).is_some(),
     }
 }
 
 /// Whether a spring or a stack holds a body along x to what does not go along with it: it comes back, and its contacts have loops.
-fn is_held(job: &Job, body: usize) -> bool {
-    let scene = &job.scenario.scene;
+fn is_held(setting: &Setting, body: usize) -> bool {
+    let scene = &setting.scenario.scene;
     let own = |side: &Side| *side == Side::Body(body);
     let stays = |side: &Side| match side {
         Side::Body(other) => {
@@ -180,11 +182,11 @@ fn is_held(job: &Job, body: usize) -> bool {
 }
 
 /// The waveform that presses a contact.
-fn load_of(job: &Job, c: usize) -> Option<&Waveform> {
-    match job.scenario.scene.contacts.get(c)?.part.normal {
+fn load_of(setting: &Setting, c: usize) -> Option<&Waveform> {
+    match setting.scenario.scene.contacts.get(c)?.part.normal {
         Normal::Force(Varying::Follows(w))
         | Normal::Indentation(Varying::Follows(w))
-        | Normal::Radius(Varying::Follows(w)) => Some(&job.scenario.scene.waveforms.get(w)?.part),
+        | Normal::Radius(Varying::Follows(w)) => Some(&setting.scenario.scene.waveforms.get(w)?.part),
         _ => None,
     }
 }
@@ -196,9 +198,9 @@ fn parts_of(periods: &Periods, load: Option<&Waveform>) -> f64 {
 }
 
 /// The same of a damped contact whose bodies ring, many times in a period: others turn at events.
-fn of_ringing(job: &Job, c: usize, periods: &Periods) -> f64 {
-    let rings = job.is_damped(c) && is_integrated(job, c);
-    let frequency = job.model.contact_frequency(c).filter(|_| rings).unwrap_or(0.0);
+fn of_ringing(setting: &Setting, c: usize, periods: &Periods) -> f64 {
+    let rings = setting.is_damped(c) && is_integrated(setting, c);
+    let frequency = setting.model.contact_frequency(c).filter(|_| rings).unwrap_or(0.0);
     (RING_PARTS * periods.length * frequency / std::f64::consts::TAU).ceil().min(MOST_PARTS)
 }
 
@@ -247,9 +249,9 @@ fn fast_pieces(waveform: &Waveform, part: f64) -> Vec<Grid> {
 }
 
 /// Where the waveform of the figures turns without an event: without a corner, or at one of which a run in fixed steps tells nothing.
-fn turns(job: &Job, periods: &Periods) -> Vec<Grid> {
-    let waveform = job.scenario.figures.waveform.and_then(|w| job.scenario.scene.waveforms.get(w));
-    let tells_corners = job.model.effective(job.scenario.plan.stepper).locates_events();
+fn turns(setting: &Setting, periods: &Periods) -> Vec<Grid> {
+    let waveform = setting.scenario.figures.waveform.and_then(|w| setting.scenario.scene.waveforms.get(w));
+    let tells_corners = setting.model.effective(setting.scenario.plan.stepper).locates_events();
     let untold = waveform.map(|it| &it.part).filter(|waveform| !(tells_corners && waveform.is_straight()));
     let Some(phases) = untold.and_then(Phases::of) else { return Vec::new() };
     let grid = |turn: f64| Grid { start: periods.start + turn, ..Grid::of(periods, 1.0) };

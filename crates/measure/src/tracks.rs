@@ -37,7 +37,7 @@ impl Tracks {
     }
 
     /// Number of moments.
-    pub(crate) fn size(&self) -> u64 {
+    pub fn size(&self) -> u64 {
         self.size
     }
 

@@ -3,14 +3,14 @@
 use super::load::Load;
 use super::walk::Walk;
 use super::{CLOSED, CycleFigures, Moment, Setup, Track, still, table_of};
+use crate::Setting;
 use crate::contact_path::is_walked;
-use crate::job::Job;
+use crate::cycles::returns;
 use crate::marks;
 use crate::periods::{Periods, Tracker};
+use crate::returning_cycles;
 use std::collections::HashMap;
 use stickslip_contact::Interface;
-use stickslip_measure::cycles::returns;
-use stickslip_measure::returning_cycles;
 
 /// Most moments of a cycle that are kept, and of a whole run whose cycles are told at its end.
 const MOST: [usize; 2] = [1 << 18, 1 << 21];
@@ -20,7 +20,7 @@ const PENDING: usize = 1 << 14;
 const QUANTITIES: [&str; 5] = ["u_m", "d_m", "fx_N", "fn_N", "friction_J"];
 
 /// A contact whose cycles are looked for.
-pub(crate) struct Loops {
+pub struct Loops {
     /// Its columns among all channels, in the order of [`QUANTITIES`].
     places: [usize; 5],
     /// The column of what dampers have taken, where that is what its own damping has; none where it has no damping.
@@ -41,7 +41,7 @@ pub(crate) struct Loops {
     /// Most moments of its track.
     most: usize,
     /// Moments for which there was no room.
-    pub(crate) left_out: u64,
+    pub left_out: u64,
     /// Whether some of the cycle under way are among them.
     is_torn: bool,
 }
@@ -58,34 +58,34 @@ enum Cutting {
 
 impl Loops {
     /// Those of contact `c`; none where nothing that drives it has periods or is a table. `places` are those of all channels.
-    pub(crate) fn of(job: &Job, c: usize, places: &HashMap<&str, usize>) -> Option<Self> {
-        let cut = match (Periods::of_contact(job, c, f64::INFINITY), table_of(job, c)) {
+    pub fn of(setting: &Setting, c: usize, places: &HashMap<&str, usize>) -> Option<Self> {
+        let cut = match (Periods::of_contact(setting, c, f64::INFINITY), table_of(setting, c)) {
             (Some(periods), _) => Cutting::Periods(Tracker::new(periods)),
             (None, Some(_)) => Cutting::Reversals,
             (None, None) => return None,
         };
         let most = MOST[usize::from(matches!(cut, Cutting::Reversals))];
-        let (name, _) = job.model.contacts().nth(c)?;
+        let (name, _) = setting.model.contacts().nth(c)?;
         let place = |quantity| places.get(format!("{name}.{quantity}").as_str()).copied();
         let [Some(u), Some(d), Some(force), Some(normal), Some(friction)] = QUANTITIES.map(place) else {
             return None;
         };
-        let is_damped = job.is_damped(c);
-        let damps_alone = is_damped && job.loses_nothing_beside(c);
+        let is_damped = setting.is_damped(c);
+        let damps_alone = is_damped && setting.loses_nothing_beside(c);
         let damping = places.get("energy.damping_J").copied().filter(|_| damps_alone);
-        let memory = job.start.memories().get(c).filter(|_| is_walked(job, c));
+        let memory = setting.start.memories().get(c).filter(|_| is_walked(setting, c));
         Some(Self {
             places: [u, d, force, normal, friction],
             damping,
             knows_damping: damps_alone || !is_damped,
-            load: Load::of(job, c),
-            is_dense: marks::are_dense(job, c),
-            is_continuous: !is_damped && !job.has_jumps(),
+            load: Load::of(setting, c),
+            is_dense: marks::are_dense(setting, c),
+            is_continuous: !is_damped && !setting.has_jumps(),
             cut,
             track: Track::default(),
             walk: memory.map(|memory| Walk::new(memory.clone())),
-            count: f64::from(job.count(c)),
-            still: still(job, c),
+            count: f64::from(setting.count(c)),
+            still: still(setting, c),
             most,
             left_out: 0,
             is_torn: false,
@@ -94,7 +94,7 @@ impl Loops {
 
     /// Takes the next moment, a row of all channels, and whether something `bends` there; returns the cycle that it ends, where that
     /// comes back.
-    pub(crate) fn take(&mut self, law: &Interface, values: &[f64], bends: bool) -> Option<CycleFigures> {
+    pub fn take(&mut self, law: &Interface, values: &[f64], bends: bool) -> Option<CycleFigures> {
         if matches!(self.cut, Cutting::Over) {
             return None;
         }
@@ -127,13 +127,13 @@ impl Loops {
     }
 
     /// What it takes, B.
-    pub(crate) fn bytes(&self) -> usize {
+    pub fn bytes(&self) -> usize {
         let pending = self.walk.as_ref().map_or(0, |walk| walk.pending.capacity());
         size_of::<f64>() * (7 * self.track.t.capacity() + pending) + self.track.bends.capacity()
     }
 
     /// The cycles that are known only when the run has ended.
-    pub(crate) fn finish(&mut self, law: &Interface) -> Vec<CycleFigures> {
+    pub fn finish(&mut self, law: &Interface) -> Vec<CycleFigures> {
         if !matches!(self.cut, Cutting::Reversals) || self.track.t.is_empty() {
             return Vec::new();
         }
@@ -215,27 +215,29 @@ impl Loops {
 mod tests {
     use super::*;
 
-    fn sphere() -> Job {
+    fn sphere() -> Setting {
         let text = include_str!("../../../../scenarios/fretting_sphere.json");
         let scenario = stickslip_scenario::Scenario::from_str(text, "fretting_sphere", "").unwrap();
-        Job::new(scenario, "fretting_sphere".to_owned(), "".into()).unwrap()
+        let model = stickslip_drive::Model::new(&scenario.scene).unwrap();
+        let start = model.start(&scenario.plan).unwrap();
+        Setting { scenario, model, start }
     }
 
-    fn loops(job: &Job) -> Loops {
-        let channels = job.model.channels();
+    fn loops(setting: &Setting) -> Loops {
+        let channels = setting.model.channels();
         let places = channels.iter().enumerate().map(|(place, channel)| (channel.name.as_str(), place));
-        Loops::of(job, 0, &places.collect()).unwrap()
+        Loops::of(setting, 0, &places.collect()).unwrap()
     }
 
     /// One cycle with more moments than there is room for once silenced all that came after it.
     #[test]
     fn a_cycle_without_room_is_lost_and_no_other() {
-        let job = sphere();
-        let law = job.model.contacts().next().unwrap().1;
-        let period = Periods::of_contact(&job, 0, f64::INFINITY).unwrap().length;
+        let setting = sphere();
+        let law = setting.model.contacts().next().unwrap().1;
+        let period = Periods::of_contact(&setting, 0, f64::INFINITY).unwrap().length;
         let told = |most: usize| {
-            let mut loops = Loops { most, ..loops(&job) };
-            let (mut row, mut told) = (vec![0.0; job.model.channels().len()], Vec::new());
+            let mut loops = Loops { most, ..loops(&setting) };
+            let (mut row, mut told) = (vec![0.0; setting.model.channels().len()], Vec::new());
             for cycle in 0..6 {
                 let count = if cycle == 2 { 100 } else { 8 };
                 for k in 0..count {
@@ -244,7 +246,7 @@ mod tests {
                     // Not the same in each, so that figures hang on the way until then.
                     let turn = 2.0 * std::f64::consts::PI * share;
                     row[loops.places[0]] = 1e-7 * (turn.sin() + 0.1 * f64::from(cycle) * (3.0 * turn).sin());
-                    row[loops.places[1]] = job.start.memories()[0].apex().d;
+                    row[loops.places[1]] = setting.start.memories()[0].apex().d;
                     row[loops.places[2]] = turn.cos();
                     told.extend(loops.take(law, &row, true));
                 }
@@ -260,16 +262,16 @@ mod tests {
     /// What is kept does not grow with the run.
     #[test]
     fn no_more_is_kept_than_a_cycle() {
-        let job = sphere();
-        let mut loops = loops(&job);
-        let law = job.model.contacts().next().unwrap().1;
-        let period = Periods::of_contact(&job, 0, f64::INFINITY).unwrap().length;
-        let (mut row, mut cycles) = (vec![0.0; job.model.channels().len()], 0);
+        let setting = sphere();
+        let mut loops = loops(&setting);
+        let law = setting.model.contacts().next().unwrap().1;
+        let period = Periods::of_contact(&setting, 0, f64::INFINITY).unwrap().length;
+        let (mut row, mut cycles) = (vec![0.0; setting.model.channels().len()], 0);
         for k in 0..100_000 {
             let share = f64::from(k % 4) / 4.0;
             row[0] = period * (f64::from(k / 4) + share);
             row[loops.places[0]] = 1e-7 * if k % 2 == 0 { 0.0 } else { 1.0 - share };
-            row[loops.places[1]] = job.start.memories()[0].apex().d;
+            row[loops.places[1]] = setting.start.memories()[0].apex().d;
             cycles += usize::from(loops.take(law, &row, true).is_some());
             assert!(loops.track.t.len() <= 5 && loops.walk.as_ref().unwrap().pending.len() <= PENDING);
         }

@@ -1,7 +1,7 @@
 //! How the bodies of a contact move between two samples: on the cubics through their places and velocities.
 
-use crate::job::Job;
-use crate::series::Series;
+use crate::Setting;
+use crate::simulated::Series;
 use stickslip_contact::{Apex, Interface};
 use stickslip_drive::scene::{Axis, Contact, Freedom, Normal, Side, Varying};
 use stickslip_drive::{Piece, Waveform};
@@ -70,16 +70,16 @@ enum Kind {
 
 impl<'a> Motion<'a> {
     /// The motion of contact `c`; none where a rate that it needs was not recorded, or is not that of a coordinate.
-    pub(super) fn new(job: &'a Job, c: usize, series: &'a Series) -> Option<Self> {
-        let (name, law) = job.model.contacts().nth(c)?;
-        let contact = &job.scenario.scene.contacts.get(c)?.part;
+    pub(super) fn new(setting: &'a Setting, c: usize, series: &'a Series) -> Option<Self> {
+        let (name, law) = setting.model.contacts().nth(c)?;
+        let contact = &setting.scenario.scene.contacts.get(c)?.part;
         let mut motion = Self {
             time: series.time(),
             u: series.column(name, "u_m"),
             d: series.column(name, "d_m"),
             contact,
             law,
-            waveforms: job.scenario.scene.waveforms.iter().map(|waveform| &waveform.part).collect(),
+            waveforms: setting.scenario.scene.waveforms.iter().map(|waveform| &waveform.part).collect(),
             along: Vec::new(),
             across: Vec::new(),
         };
@@ -90,11 +90,11 @@ impl<'a> Motion<'a> {
         for ((side, point), sign) in contact.between.into_iter().zip(contact.at).zip([1.0, -1.0]) {
             let Side::Body(body) = side else { continue };
             // A point at (X, Z) moves by x - Zθ along the slide and by z + Xθ across it.
-            motion.along.extend(part(job, series, (body, Axis::X), sign)?);
-            motion.along.extend(part(job, series, (body, Axis::Pitch), -sign * point.z)?);
+            motion.along.extend(part(setting, series, (body, Axis::X), sign)?);
+            motion.along.extend(part(setting, series, (body, Axis::Pitch), -sign * point.z)?);
             if contact.normal == Normal::Coupled {
-                motion.across.extend(part(job, series, (body, Axis::Z), sign)?);
-                motion.across.extend(part(job, series, (body, Axis::Pitch), sign * point.x)?);
+                motion.across.extend(part(setting, series, (body, Axis::Z), sign)?);
+                motion.across.extend(part(setting, series, (body, Axis::Pitch), sign * point.x)?);
             }
         }
         Some(motion)
@@ -128,12 +128,12 @@ impl<'a> Motion<'a> {
 
 /// A coordinate's part in a rate; nothing of one that stays where it is.
 fn part<'a>(
-    job: &'a Job,
+    setting: &'a Setting,
     series: &'a Series,
     (body, axis): (usize, Axis),
     factor: f64,
 ) -> Option<Option<Part<'a>>> {
-    let scene = &job.scenario.scene;
+    let scene = &setting.scenario.scene;
     let body = scene.bodies.get(body)?;
     let rate = match body.part.coordinates()[axis as usize].1.freedom {
         _ if factor == 0.0 => return Some(None),

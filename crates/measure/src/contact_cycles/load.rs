@@ -1,6 +1,6 @@
 //! The mean normal force of a contact over a cycle, where a waveform presses it.
 
-use crate::job::Job;
+use crate::Setting;
 use stickslip_contact::Interface;
 use stickslip_drive::Waveform;
 use stickslip_drive::scene::{Normal, Varying};
@@ -30,17 +30,17 @@ enum Quantity {
 
 impl Load {
     /// That of contact `c`; none of a constant load, or where bodies press, or a block, or somebody in the course of the run.
-    pub(super) fn of(job: &Job, c: usize) -> Option<Self> {
-        let (varying, quantity) = match job.scenario.scene.contacts.get(c)?.part.normal {
+    pub(super) fn of(setting: &Setting, c: usize) -> Option<Self> {
+        let (varying, quantity) = match setting.scenario.scene.contacts.get(c)?.part.normal {
             Normal::Force(load) => (load, Quantity::Force),
             Normal::Indentation(load) => (load, Quantity::Indentation),
             Normal::Radius(load) => (load, Quantity::Radius),
             Normal::Coupled => return None,
         };
         let Varying::Follows(signal) = varying else { return None };
-        let waveform = &job.scenario.scene.waveforms.get(signal)?.part;
+        let waveform = &setting.scenario.scene.waveforms.get(signal)?.part;
         let is_known = waveform.generator().is_none() && waveform.interpolation().is_none();
-        is_known.then(|| Self { waveform: waveform.clone(), quantity, count: f64::from(job.count(c)) })
+        is_known.then(|| Self { waveform: waveform.clone(), quantity, count: f64::from(setting.count(c)) })
     }
 
     /// Mean force from one moment to a later one, s, of all identical contacts, N: Simpson's rule on every piece of the waveform, in

@@ -17,7 +17,7 @@ const ROUNDING: f64 = 1e-12;
 
 /// Energies at the end, J, and how well they balanced all the way.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Books {
+pub struct Books {
     places: [Option<usize>; 6],
     end: [f64; 6],
     /// Places of the contacts' friction work, and the work at the end, J.
@@ -35,7 +35,7 @@ pub(crate) struct Books {
 
 /// The books as the summary shows them.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub(crate) struct Balance {
+pub struct Balance {
     /// Work of followers, loads and gravity since the start.
     #[serde(rename = "input_J")]
     input: Real,
@@ -62,7 +62,7 @@ pub(crate) struct Balance {
 
 impl Books {
     /// Books of a model's channels.
-    pub(crate) fn new(channels: &[Channel]) -> Self {
+    pub fn new(channels: &[Channel]) -> Self {
         let names = ["input", "kinetic", "elastic", "friction", "damping", "error"];
         let place = |name| channels.iter().position(|c| c.name == format!("energy.{name}_J"));
         let friction = channels.iter().enumerate().filter(|(_, c)| c.name.ends_with(".friction_J"));
@@ -80,7 +80,7 @@ impl Books {
     }
 
     /// Reads a row of all channels.
-    pub(crate) fn read(&mut self, row: &[f64]) {
+    pub fn read(&mut self, row: &[f64]) {
         self.end = self.places.map(|place| place.and_then(|p| row.get(p)).copied().unwrap_or(f64::NAN));
         for (place, work) in &mut self.friction {
             *work = row.get(*place).copied().unwrap_or(f64::NAN);
@@ -97,7 +97,7 @@ impl Books {
     }
 
     /// Reads the row of an event.
-    pub(crate) fn read_event(&mut self, row: &[f64]) {
+    pub fn read_event(&mut self, row: &[f64]) {
         self.read(row);
         let error = self.end[5].abs();
         if error.is_nan() || error > self.worst_at_events {
@@ -112,12 +112,12 @@ impl Books {
     }
 
     /// Friction work of contact `c`, J.
-    pub(crate) fn friction_of(&self, c: usize) -> f64 {
+    pub fn friction_of(&self, c: usize) -> f64 {
         self.friction.get(c).map_or(0.0, |(_, work)| *work)
     }
 
     /// As the summary shows them.
-    pub(crate) fn balance(&self) -> Balance {
+    pub fn balance(&self) -> Balance {
         let [input, kinetic, elastic, friction, damping, error] = self.end.map(Real);
         Balance {
             input,
@@ -135,13 +135,13 @@ impl Books {
     }
 }
 
-/// Whether the books of a run by a stepper are open, and by how much: by more than [`OPEN`] of the throughput with any stepper, or
-/// by more than [`TOLERANCES`] that it was asked for.
+/// Whether the books of a run by a stepper are open, and by how much: by more than `OPEN` of the throughput with any stepper, or
+/// by more than `TOLERANCES` that it was asked for.
 ///
 /// Each of the six energies is booked for itself: work put in by what drives, the rest from places, speeds, memories and
 /// integrals. Nothing makes the books close but steps that are exact, and no stepper's error estimate comes into them. `finest` is the
 /// rounding of the places where bodies start in natural displacements: no tolerance below it is met.
-pub(crate) fn warning(books: &Books, stepper: Stepper, is_asked: bool, finest: f64) -> Option<Warning> {
+pub fn warning(books: &Books, stepper: Stepper, is_asked: bool, finest: f64) -> Option<Warning> {
     let has_dense_output = matches!(stepper, Stepper::Event { .. });
     let missing = if has_dense_output { books.worst } else { books.worst_at_steps() };
     let (through, rounding) = (books.throughput, ROUNDING * books.largest);

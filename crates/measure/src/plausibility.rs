@@ -1,17 +1,17 @@
 //! What a scene comes to and hardly was meant to: told with its number and its reason, and never a refusal.
 //!
 //! The scenario's own warnings look at the file alone; these look at pressures, forces and frequencies that follow from it. In
-//! reading order: [`contacts`] (materials, pressures, shapes), [`forces`] (loads, stacks, masses), [`motion`] (strokes,
-//! resonances, tolerances), [`drivers`] (their cost).
+//! reading order: `contacts` (materials, pressures, shapes), `forces` (loads, stacks, masses), `motion` (strokes,
+//! resonances, tolerances), `drivers` (their cost).
 
 mod contacts;
 mod drivers;
 mod forces;
 mod motion;
 
-pub(crate) use motion::multiplied;
+pub use motion::multiplied;
 
-use crate::job::Job;
+use crate::Setting;
 use stickslip_drive::Stepper;
 use stickslip_drive::scene::{Freedom, Side};
 use stickslip_quantity::Real;
@@ -23,9 +23,9 @@ const MOST: usize = 20;
 /// Contacts that the dearer questions are asked of.
 const ASKED: usize = 256;
 
-/// Everything implausible about a job.
-pub(crate) fn of(job: &Job) -> Vec<Warning> {
-    let mut odd = Implausible { job, found: Vec::new(), left_out: 0, misnamed: Vec::new() };
+/// Everything implausible about a setting.
+pub fn of(setting: &Setting) -> Vec<Warning> {
+    let mut odd = Implausible { setting, found: Vec::new(), left_out: 0, misnamed: Vec::new() };
     odd.materials();
     odd.contacts();
     odd.loads();
@@ -39,7 +39,7 @@ pub(crate) fn of(job: &Job) -> Vec<Warning> {
     odd.tolerance();
     odd.steps();
     odd.endless();
-    let stepper = job.model.effective(job.scenario.plan.stepper);
+    let stepper = setting.model.effective(setting.scenario.plan.stepper);
     odd.frames(stepper);
     odd.drivers(stepper);
     odd.chatter(stepper);
@@ -51,9 +51,9 @@ pub(crate) fn of(job: &Job) -> Vec<Warning> {
     found
 }
 
-/// What is not bounded where a stepper takes a job in frames, whatever stepper its scenario names.
-pub(crate) fn of_frames(job: &Job, stepper: Stepper) -> Vec<Warning> {
-    let mut odd = Implausible { job, found: Vec::new(), left_out: 0, misnamed: Vec::new() };
+/// What is not bounded where a stepper takes a setting in frames, whatever stepper its scenario names.
+pub fn of_frames(setting: &Setting, stepper: Stepper) -> Vec<Warning> {
+    let mut odd = Implausible { setting, found: Vec::new(), left_out: 0, misnamed: Vec::new() };
     odd.frames(stepper);
     odd.drivers(stepper);
     odd.chatter(stepper);
@@ -61,7 +61,7 @@ pub(crate) fn of_frames(job: &Job, stepper: Stepper) -> Vec<Warning> {
 }
 
 struct Implausible<'a> {
-    job: &'a Job,
+    setting: &'a Setting,
     found: Vec<Warning>,
     left_out: usize,
     /// Materials whose moduli are not those of their names.
@@ -71,7 +71,7 @@ struct Implausible<'a> {
 impl Implausible<'_> {
     fn find(&mut self, kind: &'static str, path: &str, message: String, help: &str) {
         if self.found.len() < MOST {
-            self.found.push(self.job.scenario.warning(kind, path, message, help));
+            self.found.push(self.setting.scenario.warning(kind, path, message, help));
         } else {
             self.left_out += 1;
         }
@@ -79,21 +79,21 @@ impl Implausible<'_> {
 
     /// Indentation of contact `c` that is sure to come, m: the largest that is prescribed; where bodies press, that at the start.
     fn depth(&self, c: usize) -> f64 {
-        let depths = self.job.model.indentations(&self.job.start, c);
-        depths.map_or(0.0, |d| if self.job.is_coupled(c) { d.start } else { d.most })
+        let depths = self.setting.model.indentations(&self.setting.start, c);
+        depths.map_or(0.0, |d| if self.setting.is_coupled(c) { d.start } else { d.most })
     }
 
     /// Whether a side is free along x or z.
     fn is_free(&self, side: Side) -> bool {
         let Side::Body(body) = side else { return false };
-        let body = self.job.scenario.scene.bodies.get(body);
+        let body = self.setting.scenario.scene.bodies.get(body);
         body.is_some_and(|body| [body.part.x, body.part.z].iter().any(|c| c.freedom == Freedom::Free))
     }
 
     /// Mass of a side that is free along x or z, kg.
     fn free_mass(&self, side: Side) -> Option<f64> {
         let Side::Body(body) = side else { return None };
-        self.job.scenario.scene.bodies.get(body).filter(|_| self.is_free(side))?.part.mass
+        self.setting.scenario.scene.bodies.get(body).filter(|_| self.is_free(side))?.part.mass
     }
 }
 

@@ -16,15 +16,18 @@ const HALVINGS: u32 = 64;
 
 /// Which way a waveform goes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Sense {
+pub enum Sense {
+    /// Upwards.
     Rising,
+    /// Downwards.
     Falling,
+    /// Nowhere.
     Resting,
 }
 
 /// The stretches of a period, from its start.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Phases {
+pub struct Phases {
     /// Start of the period they were taken from, and length of all, s.
     start: f64,
     length: f64,
@@ -50,7 +53,7 @@ impl Phases {
     /// Those of a waveform's second period, or its first where it stops before; none without a period, or with too many turns in it.
     ///
     /// The first period of a flyback that is late has none of it.
-    pub(crate) fn of(waveform: &Waveform) -> Option<Self> {
+    pub fn of(waveform: &Waveform) -> Option<Self> {
         let (length, delay) = (waveform.period()?, waveform.timing().delay);
         let is_repeated = waveform.window().1 >= delay + 2.0 * length;
         let start = if is_repeated { delay + length } else { delay };
@@ -119,7 +122,7 @@ impl Phases {
     }
 
     /// Which way it goes just after a moment, s, and from when on that has to be asked again, s: a little before it turns.
-    pub(crate) fn sense_after(&self, t: f64) -> (Sense, f64) {
+    pub fn sense_after(&self, t: f64) -> (Sense, f64) {
         let (within, same) = ((t - self.start).rem_euclid(self.length), SAME * self.length);
         // What is as good as the end is the beginning.
         let within = if self.length - within <= same { 0.0 } else { within };
@@ -130,12 +133,12 @@ impl Phases {
     }
 
     /// Where in a period the waveform turns, s after its start, but for the start.
-    pub(crate) fn turns(&self) -> impl Iterator<Item = f64> {
+    pub fn turns(&self) -> impl Iterator<Item = f64> {
         self.stretches.iter().skip(1).map(|(begin, _)| *begin)
     }
 
     /// By how much it rises and falls within a period, in its own unit.
-    pub(crate) fn ways(&self) -> [f64; 2] {
+    pub fn ways(&self) -> [f64; 2] {
         self.ways
     }
 }

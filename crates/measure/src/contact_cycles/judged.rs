@@ -1,9 +1,9 @@
 //! Cycles of a contact as they end, with their regimes.
 
 use super::CycleFigures;
-use crate::job::Job;
+use crate::Setting;
+use crate::Thresholds;
 use stickslip_contact::{Interface, Profile};
-use stickslip_measure::Thresholds;
 
 /// Thresholds below this are those of a flat punch, which are 0.
 const ROUNDING: f64 = 1e-12;
@@ -22,28 +22,28 @@ pub struct JudgedCycle {
 
 /// What has been told of the cycles of a contact.
 #[derive(Debug, Clone, Default)]
-pub(crate) struct ContactCycles {
+pub struct ContactCycles {
     /// How many.
-    pub(crate) count: usize,
+    pub count: usize,
     /// The last.
-    pub(crate) last: Option<JudgedCycle>,
+    pub last: Option<JudgedCycle>,
     /// All of them, where a run is kept in memory.
-    pub(crate) all: Vec<JudgedCycle>,
+    pub all: Vec<JudgedCycle>,
     /// Thresholds of its profile as deep as it stood in the first: none under a load that varies, or of a damped contact.
-    pub(crate) thresholds: Option<Thresholds>,
+    pub thresholds: Option<Thresholds>,
 }
 
 impl ContactCycles {
     /// Takes the next cycle of contact `c`.
-    pub(crate) fn take(
+    pub fn take(
         &mut self,
-        job: &Job,
+        setting: &Setting,
         (c, law): (usize, &Interface),
         figures: CycleFigures,
     ) -> JudgedCycle {
         if self.count == 0 {
             let limits = thresholds(law.profile(), figures.depth);
-            self.thresholds = limits.filter(|_| job.has_law_without_time(c));
+            self.thresholds = limits.filter(|_| setting.has_law_without_time(c));
         }
         let is_loop = self.thresholds.is_some() && figures.is_closed;
         let regime = match figures.is_still {

@@ -19,8 +19,8 @@ const FLAT: f64 = 0.2;
 impl Implausible<'_> {
     /// Moduli far from what the names beside them mean.
     pub(super) fn materials(&mut self) {
-        let job = self.job;
-        for (name, modulus) in job.scenario.materials() {
+        let setting = self.setting;
+        for (name, modulus) in setting.scenario.materials() {
             let Some(kind) = substance(name) else { continue };
             let (low, high) = kind.modulus;
             if (low / APART..=high * APART).contains(&modulus) {
@@ -30,7 +30,7 @@ impl Implausible<'_> {
             self.misnamed.push(name);
             let path = format!("materials.{name}.youngs_modulus");
             // Softer than any solid it is already.
-            if job.scenario.warnings.iter().any(|odd| odd.kind == "modulus" && odd.path == path) {
+            if setting.scenario.warnings.iter().any(|odd| odd.kind == "modulus" && odd.path == path) {
                 continue;
             }
             let [own, low, high] = [modulus, low, high].map(|e| told(e, "Pa"));
@@ -41,18 +41,22 @@ impl Implausible<'_> {
 
     /// Contacts that hold nothing, pressures that nothing bears, and balls pressed in too far.
     pub(super) fn contacts(&mut self) {
-        let job = self.job;
-        for (c, (name, law)) in job.model.contacts().enumerate() {
+        let setting = self.setting;
+        for (c, (name, law)) in setting.model.contacts().enumerate() {
             let d = self.depth(c);
             let path = format!("contacts.{name}.friction");
-            let given =
-                job.scenario.scene.contacts.get(c).map_or(0.0, |contact| contact.part.interface.friction());
+            let given = setting
+                .scenario
+                .scene
+                .contacts
+                .get(c)
+                .map_or(0.0, |contact| contact.part.interface.friction());
             if given > law.friction() {
                 let message = format!(
                     "a friction of {given:e} holds less than rounding makes of the forces and places beside it: it counts as none"
                 );
                 self.find("friction", &path, message, "a larger friction, or 0 where none is meant");
-            } else if law.friction() == 0.0 && !job.is_coupled(c) {
+            } else if law.friction() == 0.0 && !setting.is_coupled(c) {
                 // A contact that its bodies press bears them all the same.
                 let message = "without friction nothing holds: it slides under any force, and loses nothing";
                 self.find("friction", &path, message.to_owned(), "is that what was meant?");
@@ -68,8 +72,8 @@ impl Implausible<'_> {
         // A list of heights has no area to press on.
         let Some(peak) = law.peak_pressure(d) else { return };
         let mean = law.normal_force(d) / (PI * law.profile().radius(d).powi(2));
-        let job = self.job;
-        let materials = job.scenario.materials_of(c).unwrap_or_default();
+        let setting = self.setting;
+        let materials = setting.scenario.materials_of(c).unwrap_or_default();
         let weaker = materials
             .into_iter()
             .filter(|name| !self.misnamed.contains(name))
@@ -95,8 +99,8 @@ impl Implausible<'_> {
     }
 
     fn ball(&mut self, c: usize, (name, law): (&str, &Interface), d: f64) {
-        let job = self.job;
-        let Some((radius, is_paraboloid)) = job.scenario.ball_of(c) else { return };
+        let setting = self.setting;
+        let Some((radius, is_paraboloid)) = setting.scenario.ball_of(c) else { return };
         let share = law.profile().radius(d) / radius;
         if share > FLAT {
             let (theory, word) = if is_paraboloid {
