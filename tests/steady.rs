@@ -174,6 +174,7 @@ const ASKED: &str = "figures.steady_motion=true";
 
 /// Against the search itself, at a thousandth of the tolerance: differences over 1e-5 of runs at 1e-9 leave 1e-4 of a multiplier. The impact drive and the climber have not settled in their own runs.
 #[test]
+#[ignore = "takes long: .ci/full"]
 fn info_and_a_run_tell_the_steady_motion() {
     for name in ["p1", "impact_drive", "vertical_climber", "driven_stage"] {
         let out = tempdir().unwrap();

@@ -561,6 +561,7 @@ fn the_map_of_the_first_loading_is_4_41_and_sums_to_4_42() {
 }
 
 #[test]
+#[ignore = "takes long: .ci/full"]
 fn the_map_of_any_history_sums_to_its_friction_work() {
     let mut random = Random(41);
     let mut worst: f64 = 0.0;

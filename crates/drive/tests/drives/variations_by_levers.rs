@@ -88,6 +88,7 @@ fn drawn(seed: u64) -> Scene {
 
 /// Each place of twelve drawn stages: motions of the stage and energies of the run, to 1e-7 where differences are good to 1e-8.
 #[test]
+#[ignore = "takes long: .ci/full"]
 fn drawn_stages_vary_by_where_their_parts_lie() {
     let (mut told, mut sharp) = ([0; 2], [0; 2]);
     for seed in 0..12 {

@@ -190,6 +190,7 @@ pub(crate) fn apart(of: &dyn Fn(f64) -> Scene, until: f64) -> Result<(f64, f64),
 
 /// Random drives, as in `random_drives_vary_as_their_differences_say`, every number that they have.
 #[test]
+#[ignore = "takes long: .ci/full"]
 fn random_drives_vary_by_their_numbers_as_differences_say() {
     let (mut told, mut sharp, mut worst) = (0, 0, 0.0_f64);
     for seed in 0..30 {

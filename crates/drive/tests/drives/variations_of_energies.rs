@@ -79,6 +79,7 @@ pub(crate) fn apart(of: &dyn Fn(f64) -> Scene, until: f64) -> Option<(f64, f64)>
 /// Thirty random drives by every number that they have: energies vary as differences of the books say, to 1e-7 of the largest slope or of
 /// μF_N u_c where those are good to 1e-8. The books tell friction by what was swept, and nothing of a balance.
 #[test]
+#[ignore = "takes long: .ci/full"]
 fn energies_of_random_drives_vary_as_their_books_say() {
     let (mut told, mut sharp, mut worst) = (0, 0, 0.0_f64);
     for seed in 0..30 {

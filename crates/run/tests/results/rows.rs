@@ -60,6 +60,7 @@ fn rows_under_a_coupled_normal_are_those_of_fixed_steps() {
 }
 
 #[test]
+#[ignore = "takes long: .ci/full"]
 fn rows_under_a_following_force_are_those_of_fixed_steps() {
     for count in [16, 64] {
         against_verlet("row_force", &["c0", "c1"], count, 0.4e-6);

@@ -47,6 +47,7 @@ fn mean(values: &[f64]) -> f64 {
 
 /// The settled step is the mean of 10 000 further periods, within its error.
 #[test]
+#[ignore = "takes long: .ci/full"]
 fn settled_steps_hold_for_ten_thousand_periods() {
     for (file, cycles) in
         [(example("p1"), 20), (example("ruby_drive"), 8), (example("vibrated_slider"), 60), (stage(), 12)]

@@ -265,6 +265,7 @@ fn a_branch_ends_where_the_load_is_what_friction_holds() -> Checked {
 
 /// Near the load that friction holds much happens in a period, and the branch goes on to that load.
 #[test]
+#[ignore = "takes long: .ci/full"]
 fn a_branch_does_not_turn_back_where_multipliers_are_small() -> Checked {
     let branch = SWEPT.branch(LOAD, [0.0, 0.06517])?;
     is_sound(&branch)?;
@@ -314,6 +315,7 @@ fn branches_go_on_where_events_come_and_go() -> Checked {
 /// 12 one of -110, which is near neither -1 nor 1 on the way. There is no doubling, no branching and no break, but the touch itself: at
 /// that place the branch ends, whether motions with the touch are met there or not: that is a matter of last digits.
 #[test]
+#[ignore = "takes long: .ci/full"]
 fn a_touch_beside_the_motion_is_none_of_its_own() -> Checked {
     let path = "waveforms.table.sine.amplitude";
     let (mut places, mut touches) = (Vec::new(), Vec::new());

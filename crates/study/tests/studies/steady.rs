@@ -176,6 +176,7 @@ fn the_impact_drive_fades_as_its_multiplier_says() -> Checked {
 }
 
 #[test]
+#[ignore = "takes long: .ci/full"]
 fn the_climber_grows_as_its_multiplier_says() -> Checked {
     turns_as_told("vertical_climber.json", false, 40.0)
 }
@@ -332,6 +333,7 @@ fn a_shakedown_is_named() -> Checked {
 /// where a whole number of bounces lasts a period both are 1, but for the root of what gradients are off. Some runs tell a gradient, some
 /// differences.
 #[test]
+#[ignore = "takes long: .ci/full"]
 fn a_body_that_bounces_by_itself_is_neither_stable_nor_not() -> Checked {
     let cone = r#"{"cone": {"slope": 0.01}}"#;
     let ball = r#"{"paraboloid": {"radius": "0.5 mm"}}"#;
@@ -438,6 +440,7 @@ fn of_what_holds_and_is_led_along_nothing_is_claimed() -> Checked {
 /// turns; on the way there a beat fades, and passes near itself every few dozen periods. At 1e-8 and 1e-10 they end on five steps, of
 /// 408.302, -171.837, 275.318, 168.479 and 83.333 nm.
 #[test]
+#[ignore = "takes long: .ci/full"]
 fn the_climber_ends_where_plain_runs_do() -> Checked {
     let job = job("vertical_climber.json", &[])?;
     let found = steady::find(&job, &Options::default())?;
