@@ -302,6 +302,9 @@ impl<'m> Run<'m> {
             let equations = Equations::on(self.model, state, state.layout(self.model), false);
             record::fill(&equations, state, state.t, &|i| state.y[i], row);
         };
+        if (self.begun || self.resumed) && self.state.is_level() {
+            return fill(&self.state, row);
+        }
         let mut state = self.state.clone();
         if !self.begun
             && !self.resumed
@@ -314,9 +317,6 @@ impl<'m> Run<'m> {
                 way.write_now(&mut state, &mut First(row));
             }
             return;
-        }
-        if state.is_level() {
-            return fill(&state, row);
         }
         level(self.model, &self.plan, &mut state);
         fill(&state, row);
