@@ -1,7 +1,7 @@
 //! Goldens of the examples, by the command that users have for theirs: they guard against change. What is right is shown by closed forms
 //! elsewhere. `tests/golden/README.md` tells how they are made and renewed.
 
-use crate::program::{code, listing, reseal, stderr, stdout, stickslip};
+use crate::program::{code, listing, reseal, sha256, stderr, stdout, stickslip};
 use serde_json::{Value, json};
 use std::path::{Path, PathBuf};
 use std::process::Output;
@@ -112,8 +112,14 @@ impl Specimen {
         let mut is = was.clone();
         is["bodies"]["slider"]["mass"] = json!(0.02 * factor);
         std::fs::write(self.file("scenario.json"), is.to_string()).unwrap();
+        let summary = std::fs::read_to_string(self.file("summary.json")).unwrap();
+        let hash = |value: &str| sha256(value.as_bytes());
+        let resealed = summary.replace(&hash(&scenario), &hash(&is.to_string()));
+        assert_ne!(summary, resealed);
+        std::fs::write(self.file("summary.json"), resealed).unwrap();
         let found = self.changed(&self.file("recipe.json"), change);
         std::fs::write(self.file("scenario.json"), scenario).unwrap();
+        std::fs::write(self.file("summary.json"), summary).unwrap();
         found
     }
 }
@@ -170,6 +176,14 @@ fn a_falsified_golden_is_noticed() {
     noticed("recipe.json", &|text| text[..20].to_owned(), "p1: damaged: ");
     noticed("summary.json", &|text| text[..200].to_owned(), "p1: damaged: ");
     noticed("trace.csv", &|text| text.replacen('0', "x", 1), "p1: damaged: ");
+    noticed(
+        "scenario.json",
+        &|text| text.replacen("0.02", "0.021", 1),
+        "is not the scenario that was recorded",
+    );
+    std::fs::remove_file(specimen.file("recipe.json")).unwrap();
+    let (code, said) = check(&specimen.root());
+    assert!(code == 1 && said.starts_with("p1: damaged: "), "{said}");
 }
 
 #[test]
@@ -249,4 +263,22 @@ fn machines_read_what_was_found() {
     std::fs::write(specimen.scenario(), text.replace("\"20 g\"", "\"21 g\"")).unwrap();
     let report = report();
     assert_eq!(report.matches("<failure message=\"differs; the scenario has changed").count(), 1, "{report}");
+}
+
+/// Steps upwards from a link led out of what it points to, and the next check found nothing.
+#[test]
+#[cfg(unix)]
+fn goldens_behind_a_link_find_their_scenarios() {
+    let room = tempdir().unwrap();
+    let file = room.path().join("p1.json");
+    std::fs::copy(project().join("scenarios/p1.json"), &file).unwrap();
+    std::fs::create_dir_all(room.path().join("real/far/away")).unwrap();
+    let link = room.path().join("link");
+    std::os::unix::fs::symlink("real/far/away", &link).unwrap();
+    let out = link.join("golden");
+    let set = "run.cycles=2";
+    let output =
+        golden(&["record", file.to_str().unwrap(), "--set", set, "--out", out.to_str().unwrap()], &out);
+    assert_eq!((code(&output), stderr(&output)), (0, String::new()));
+    assert_eq!(check(&out), (0, "p1: identical\n".to_owned()));
 }

@@ -210,7 +210,11 @@ impl Comparison {
             (Some(first), Verdict::Differs) => {
                 format!("first difference at t = {} s: {}", time(first.time.0), first.what)
             }
-            (None, Verdict::Differs) => "a difference, in what has no time".to_owned(),
+            (None, Verdict::Differs) => match (self.figures.differ.first(), self.figures.missing.first()) {
+                (Some(figure), _) => format!("figure {}: {} in A, {} in B", figure.name, figure.a, figure.b),
+                (None, Some(name)) => format!("figure {name} is missing in B"),
+                (None, None) => "not the same bytes, or a difference in what has no time".to_owned(),
+            },
         }
     }
 

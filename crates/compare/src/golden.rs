@@ -16,7 +16,7 @@ use stickslip_run::complaint::words;
 use stickslip_run::files::SCENARIO;
 use stickslip_run::folder::Folder;
 use stickslip_run::guard;
-use stickslip_run::{Job, Refusal};
+use stickslip_run::{Job, Refusal, hash};
 use thiserror::Error;
 
 /// The file by which a golden is told from other folders.
@@ -133,7 +133,8 @@ impl Goldens {
     /// # Errors
     /// There are none, or none of one of these names.
     pub fn names(&self, wanted: &[String]) -> Result<Vec<String>, GoldenError> {
-        let is_golden = |name: &String| self.root.join(name).join(RECIPE).is_file();
+        // One that has lost its recipe is a golden as well: a damaged one.
+        let is_golden = |name: &String| !name.starts_with('.') && self.root.join(name).is_dir();
         let entries = fs::read_dir(&self.root).into_iter().flatten().flatten();
         let mut names: Vec<String> =
             entries.filter_map(|entry| entry.file_name().into_string().ok()).collect();
@@ -160,9 +161,8 @@ impl Goldens {
         if folder.join(RECIPE).exists() {
             return Err(GoldenError::Exists { root: self.root.clone(), name });
         }
-        let at = |path: &Path| {
-            std::path::absolute(path).map_err(|source| GoldenError::File { path: path.to_owned(), source })
-        };
+        let at =
+            |path: &Path| real(path).map_err(|source| GoldenError::File { path: path.to_owned(), source });
         let recipe = Recipe { format: FORMAT, file: relative(&at(&self.root)?, &at(file)?), set, ignore };
         Ok(Golden { name, folder, recipe })
     }
@@ -209,13 +209,8 @@ impl Golden {
     /// The file is gone, or refused.
     pub fn job(&self, out: &Path) -> Result<Job, GoldenError> {
         let root = self.folder.parent().unwrap_or(Path::new(""));
-        // By names alone: the folder of the goldens may not be there yet.
-        let file = root.join(&self.recipe.file);
-        let file = if self.folder.exists() {
-            file
-        } else {
-            std::path::absolute(&file).map_or(file, |file| plain(&file))
-        };
+        let file = real(root)
+            .map_or_else(|_| root.join(&self.recipe.file), |root| plain(&root.join(&self.recipe.file)));
         if !file.exists() {
             return Err(GoldenError::Gone(file));
         }
@@ -242,6 +237,20 @@ impl Golden {
             differences("", Some(&parse(&was)), Some(&parse(&job.resolved)), &mut changes);
         }
         changes
+    }
+
+    /// Whether the recorded scenario is the one that was recorded, of this hash.
+    ///
+    /// # Errors
+    /// It is another one, or cannot be read.
+    pub fn check_scenario(&self, sha256: &str) -> Result<(), GoldenError> {
+        let path = self.folder.join(SCENARIO);
+        let message = match guard::text(&path) {
+            Ok(text) if hash(&text) == sha256 => return Ok(()),
+            Ok(_) => "is not the scenario that was recorded".to_owned(),
+            Err(error) => words(&error),
+        };
+        Err(GoldenError::Recipe { path, message })
     }
 
     /// Keeps an excerpt of results as the golden, in place of what was there.
@@ -283,6 +292,16 @@ fn differences(key: &str, was: Option<&Value>, is: Option<&Value>, found: &mut V
             found.push(format!("{key} was {}, is {}", shown(was), shown(is)));
         }
     }
+}
+
+/// An absolute path in which links are followed as far as there is anything: steps upwards lead out of what they point to. The last part
+/// of a file stays as it is named.
+fn real(path: &Path) -> io::Result<PathBuf> {
+    let path = std::path::absolute(path)?;
+    let mut ancestors = path.ancestors().skip(usize::from(path.is_file()));
+    let found = ancestors.find_map(|there| Some((there, there.canonicalize().ok()?)));
+    let whole = found.and_then(|(there, real)| Some(real.join(path.strip_prefix(there).ok()?)));
+    Ok(whole.unwrap_or(path))
 }
 
 /// A path without steps upwards in its middle.

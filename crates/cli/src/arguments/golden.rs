@@ -20,7 +20,7 @@ steps, and its effect cannot be told from a real one. With --own-tolerance the f
 
 What `check` prints, a line a scenario:
   NAME: identical   the rows and the events have the same bytes
-  NAME: equal       no difference is larger than allowed, with the largest
+  NAME: equal       no difference is larger than allowed, with the largest; a changed value in a scenario is never equal
   NAME: differs     with the first difference; DIR/NAME/difference.png shows what differs most
   NAME: gone        its file is not there
   NAME: damaged     its golden is not what was recorded

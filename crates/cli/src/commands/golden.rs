@@ -16,6 +16,7 @@ use stickslip_console::progress::Progress;
 use stickslip_console::verdict::Verdict;
 use stickslip_figures::Look;
 use stickslip_figures::comparison::{Form, draw};
+use stickslip_run::Job;
 use stickslip_run::complaint::words;
 use stickslip_run::folder::{self, sweep};
 use tempfile::TempDir;
@@ -82,6 +83,10 @@ fn record(arguments: &RecordArguments) -> Result<Verdict, Fault> {
     let set: Vec<String> = arguments.set.iter().map(|(path, value)| format!("{path}={value}")).collect();
     let plan = |file: &PathBuf| {
         let mut golden = goldens.plan(file, set.clone(), arguments.ignore.clone())?;
+        if !file.exists() {
+            // Told as `run` tells it, with the files that are there.
+            Job::prepare(file, &[], Path::new(""))?;
+        }
         let (stepper, of, value) = golden.job(Path::new(""))?.stepper();
         if (stepper, of) == ("event", "tolerance") && value > TOLERANCE && !arguments.own_tolerance {
             golden.recipe.set.push(format!("run.stepper.event.tolerance={TOLERANCE:e}"));
@@ -118,8 +123,11 @@ fn check(arguments: &CheckArguments) -> Result<Verdict, Fault> {
             .zip(&found)
             .map(|(name, finding)| (name.as_str(), (!is_good(finding)).then(|| line(finding))))
             .collect();
-        folder::write(file, junit::suite(&cases).as_bytes())
-            .map_err(|source| GoldenError::File { path: file.clone(), source })?;
+        let text = junit::suite(&cases);
+        // A pipe, a device or a link is written through, not replaced.
+        let is_other = fs::symlink_metadata(file).is_ok_and(|found| !found.is_file());
+        let written = if is_other { fs::write(file, text) } else { folder::write(file, text.as_bytes()) };
+        written.map_err(|source| GoldenError::File { path: file.clone(), source })?;
     }
     Ok(found.iter().map(verdict).max().unwrap_or(Verdict::Done))
 }
@@ -151,7 +159,8 @@ fn accept(arguments: &AcceptArguments) -> Result<Verdict, Fault> {
     }
     let (accepted, kept) = workshop.keep(&wanted.iter().collect::<Vec<_>>());
     if accepted.is_empty() {
-        say(format_args!("nothing to accept"));
+        let nothing = if worst.max(kept) == Verdict::Done { "nothing to accept" } else { "nothing accepted" };
+        say(format_args!("{nothing}"));
     } else {
         goldens.log(&accepted, &arguments.reason)?;
     }
@@ -196,7 +205,8 @@ impl Workshop {
             run_job(&job, Beginning::Plain, &Conduct { look: &look, interrupt, progress, realtime: false });
         match report.verdict {
             Verdict::Done => Ok((golden.changes(&job), job.folder)),
-            verdict => Err(Fault::Run(verdict, report.error)),
+            // What it has left behind goes with this command.
+            verdict => Err(Fault::Run(verdict, without_place(&report.error, &golden.name))),
         }
     }
 
@@ -234,6 +244,7 @@ impl Workshop {
         let picture = golden.folder.join(PICTURE);
         sweep(&golden.folder, &[PICTURE]);
         let recorded = Results::read(&golden.folder).map_err(GoldenError::Damaged)?;
+        golden.check_scenario(recorded.text("/scenario_sha256"))?;
         let (changes, folder) = self.run(golden, place)?;
         let results = Results::read(&folder).map_err(GoldenError::Damaged)?;
         let terms = Terms { ignore: golden.recipe.ignore.clone(), ..Terms::default() };
@@ -244,7 +255,7 @@ impl Workshop {
         if !changes.is_empty() {
             outcome = Outcome::Differs;
         }
-        if outcome == Outcome::Differs {
+        if comparison.verdict == Outcome::Differs {
             // One that cannot be drawn costs the check nothing else.
             let drawn = draw((&recorded, &results), &comparison, &rows, Form::Png)
                 .map_err(|error| error.to_string())
@@ -259,6 +270,17 @@ impl Workshop {
         let _ = fs::remove_dir_all(folder);
         Ok(Finding { outcome, words: words.join("; ") })
     }
+}
+
+/// What a run says of its end, but for its name and for where its results are.
+fn without_place(said: &str, name: &str) -> String {
+    let said = said.strip_prefix(&format!("{name}: ")).unwrap_or(said);
+    let lines = said.lines().map(|line| line.split("the results so far").next().unwrap_or_default());
+    lines
+        .map(|line| line.trim_end().trim_end_matches(';'))
+        .filter(|line| !line.is_empty())
+        .collect::<Vec<_>>()
+        .join("\n")
 }
 
 /// The first few changes of a scenario.

@@ -3,7 +3,7 @@
 use super::pace::Paced;
 use super::report::Report;
 use std::io;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use stickslip_console::interrupt::Interrupt;
 use stickslip_console::progress::Progress;
 use stickslip_figures::{Look, Sources};
@@ -98,9 +98,7 @@ pub(crate) fn write(
     summary.set_tables(drafts.iter().map(|draft| (draft.name.to_owned(), draft.seal.clone())).collect());
     drafts.into_iter().try_for_each(|draft| folder.stage(draft.name, draft.file))?;
     if summary.status == Status::Interrupted && is_complete(&job.folder) {
-        let mut name = job.folder.clone().into_os_string();
-        name.push(".interrupted");
-        folder.divert(Path::new(&name))?;
+        folder.divert(&aside(&job.folder))?;
     }
     let place = folder.path().to_owned();
     if outcome.failure.is_some() {
@@ -122,6 +120,20 @@ pub(crate) fn write(
     folder.publish()?;
     let report = Report::ended(job, (outcome, &summary), &place)?.without_pictures(job, undrawn);
     Ok(if gave_up { report.without_outlook(job) } else { report })
+}
+
+/// Where an interrupted run writes beside complete results: NAME.interrupted, or NAME.interrupted-2 … where that is something else.
+fn aside(folder: &Path) -> PathBuf {
+    let name = |k: u32| {
+        let mut name = folder.to_owned().into_os_string();
+        name.push(if k == 1 { ".interrupted".to_owned() } else { format!(".interrupted-{k}") });
+        PathBuf::from(name)
+    };
+    let is_free = |path: &PathBuf| match path.symlink_metadata() {
+        Ok(found) => found.is_dir() && !is_complete(path),
+        Err(_) => true,
+    };
+    (1..1000).map(name).find(is_free).unwrap_or_else(|| name(1000))
 }
 
 /// Draws the pictures; returns why some of them could not be written, which costs the run nothing else.
