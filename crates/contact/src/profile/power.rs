@@ -25,6 +25,7 @@ enum Root {
     Second,
     Third,
     Fourth,
+    Eighth,
     /// x^{1/n} = x^q (1 + δ ln x), where q is the double nearest to 1/n and δ what it lacks.
     // Without δ the error grows with |ln x|: up to 7ε for x = 1e-12 and n = 2.5, with it up to ε.
     Any {
@@ -84,6 +85,7 @@ impl Power {
             2.0 => Root::Second,
             3.0 => Root::Third,
             4.0 => Root::Fourth,
+            8.0 => Root::Eighth,
             _ => {
                 let q = 1.0 / n;
                 Root::Any { q, delta: math::mul_add(-q, n, 1.0) / n }
@@ -132,6 +134,7 @@ impl Power {
             Root::Second => x.sqrt(),
             Root::Third => math::cbrt(x),
             Root::Fourth => x.sqrt().sqrt(),
+            Root::Eighth => x.sqrt().sqrt().sqrt(),
             // Of a height next to none nothing is left, and its logarithm is none.
             Root::Any { .. } if x == 0.0 => 0.0,
             Root::Any { q, delta } => math::powf(x, q) * (1.0 + delta * math::ln(x)),
@@ -166,6 +169,10 @@ impl Kind for Power {
             Root::Second => a * a,
             Root::Third => a * a * a,
             Root::Fourth => (a * a) * (a * a),
+            Root::Eighth => {
+                let fourth = (a * a) * (a * a);
+                fourth * fourth
+            }
             Root::Any { .. } => math::powf(a, self.exponent),
         };
         power / self.scale

@@ -84,8 +84,8 @@ impl Drive {
     }
 }
 
-/// Round-off of a step: a few last places of the places it is a difference of, and of powers that are right to 0.7 of one.
-const NOTHING: f64 = 8.0 * f64::EPSILON;
+/// Round-off of a step: a few last places of the places it is a difference of.
+const NOTHING: f64 = 4.0 * f64::EPSILON;
 
 /// Exponent n and a drive on it: cone, paraboloid, power 8. M = 2n/(n+1) a d.
 fn drives() -> [(f64, Drive); 3] {

@@ -34,7 +34,7 @@ fn the_work_of_a_short_flank_is_met() {
 }
 
 /// Sixteen springs that slip one by one under a foot on parabolas, against the method of Runge and Kutta of 4e5 steps, which tolerances of
-/// 1e-8 and 1e-9 meet to 3e-7. At 1e-5 the way was 3e-3 off; it is 4.0e-4.
+/// 1e-8 and 1e-9 meet to 3e-7. At 1e-5 the way was 3e-3 off.
 #[test]
 fn springs_that_slip_on_the_way_are_not_stepped_over() {
     let period = 0.2e-3;
@@ -43,15 +43,24 @@ fn springs_that_slip_on_the_way_are_not_stepped_over() {
     let mut scene = foot_and_slider(drive, 0.02, ball);
     scene.contacts[0].part.engine = EngineChoice::Springs { count: 16, span: None };
     let duration = 10.0 * period;
-    let way = |plan: &Plan| {
+    let way_of = |plan: &Plan, mass: f64| {
+        let mut scene = scene.clone();
+        scene.bodies[1].part.mass = scene.bodies[1].part.mass.map(|own| own * mass);
         let (model, _, trace) = trace(&scene, plan, 0.1 * period);
         (column(&model, &trace, "slider.x_m"), model.contact_natural(0).unwrap().displacement)
     };
+    let way = |plan: &Plan| way_of(plan, 1.0);
     let (exact, unit) = way(&plan(Stepper::Rk4 { step: duration / 4e5 }, duration));
     for tolerance in [1e-5, 1e-6] {
-        let (found, _) = way(&event(tolerance, duration));
-        let off = found.iter().zip(&exact).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max) / unit;
+        // Where steps end, rounding has its part in it: the middle one of five counts.
+        let mut offs = [0, 1, 2, 3, 4].map(|k| {
+            let (found, _) = way_of(&event(tolerance, duration), 1.0 + 1e-13 * f64::from(k));
+            found.iter().zip(&exact).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max) / unit
+        });
+        println!("{offs:?}");
+        offs.sort_by(f64::total_cmp);
+        let off = offs[2];
         println!("{tolerance:e}: {off:.1e} u_c off");
-        assert!(off < 5e-4, "{tolerance:e}: {off:e}");
+        assert!(off < 4e-4, "{tolerance:e}: {off:e}");
     }
 }
