@@ -144,14 +144,14 @@ fn accept(arguments: &AcceptArguments) -> Result<Verdict, Fault> {
             finding.outcome == Outcome::Differs
                 || (!arguments.names.is_empty() && finding.outcome == Outcome::Equal)
         }
-        Err(Fault::Golden(GoldenError::Damaged(_)) | Fault::Compare(_)) => true,
-        Err(_) => false,
+        // What is damaged is made again, as long as it is known how.
+        Err(fault) => fault.verdict() == Verdict::Differs,
     };
     let mut worst = Verdict::Done;
     let mut wanted = Vec::new();
     for (name, finding) in names.iter().zip(&found) {
-        if is_wanted(finding) {
-            wanted.push(goldens.golden(name)?);
+        if let (true, Ok(golden)) = (is_wanted(finding), goldens.golden(name)) {
+            wanted.push(golden);
         } else if let Err(fault) = finding {
             complain(format_args!("{name}: {fault}"));
             worst = worst.max(fault.verdict());
