@@ -4,11 +4,41 @@ use crate::program::{Table, code, listing, run, scenario, stderr, stdout, sticks
 use serde_json::{Value, json};
 use std::collections::BTreeSet;
 use std::path::Path;
-use stickslip_run::definitions;
+use stickslip_quantity::Definition;
 use tempfile::tempdir;
 
+/// What the page docs/definitions.md says of columns and keys.
+pub(crate) fn definitions() -> Vec<Definition> {
+    let page = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs/definitions.md");
+    let page = std::fs::read_to_string(page).unwrap();
+    let (mut file, mut all) = ("", Vec::new());
+    for line in page.lines() {
+        if let Some(name) = line.strip_prefix("## ") {
+            file = name;
+        } else if let Some((name, text)) = line.strip_prefix("| `").and_then(|rest| rest.split_once("` | ")) {
+            let (name, text) = (name.to_owned().into(), text.trim_end_matches(" |").to_owned().into());
+            all.push(Definition { file: file.to_owned().leak(), name, text });
+        }
+    }
+    all
+}
+
+/// The page is what the program prints, and every number has a text.
+#[test]
+fn the_page_is_what_explain_prints() {
+    let page = stdout(&stickslip().arg("explain").output().unwrap());
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs/definitions.md");
+    if std::env::var_os("STICKSLIP_WRITE").is_some() {
+        std::fs::write(&path, &page).unwrap();
+    }
+    assert_eq!(std::fs::read_to_string(path).unwrap(), page);
+    let all = definitions();
+    assert!(all.len() > 600, "{}", all.len());
+    assert!(all.iter().all(|one| one.text.len() > 3), "{:?}", all.iter().find(|one| one.text.len() < 4));
+}
+
 fn defined(file: &str, name: &str) -> bool {
-    definitions().any(|definition| definition.defines(file, name))
+    definitions().iter().any(|definition| definition.defines(file, name))
 }
 
 /// Keys that hold values, as paths; names of parts stay what they are.
@@ -308,11 +338,11 @@ fn every_figure_of_a_loop_is_defined() {
     let timing = ["--period", "1 ms", "--for", "20 ms", "--floor", "20 ms", "--json", "--quiet"];
     let told = answers(&[&["realtime", file.to_str().unwrap(), "--out", &folder], &timing[..]].concat());
     assert_eq!(lacking("realtime.json", &told), Vec::<String>::new());
-    let known = definitions().filter(|definition| definition.file == "realtime.json");
+    let known = definitions().into_iter().filter(|definition| definition.file == "realtime.json");
     let mut found = BTreeSet::new();
     keys(&told[0], "", &mut found);
     // And nothing is defined that is not there, but for lists that are empty.
-    for definition in known.filter(|known| !["denied", "inputs"].contains(&known.name)) {
+    for definition in known.filter(|known| !["denied", "inputs"].contains(&known.name.as_ref())) {
         assert!(found.iter().any(|name| definition.defines("realtime.json", name)), "{}", definition.name);
     }
 }

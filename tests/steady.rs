@@ -1,12 +1,12 @@
 //! `stickslip steady`: what it says, what it writes, how it ends.
 
+use crate::definitions::definitions;
 use crate::program::{Table, code, listing, number, scenario, stderr, stdout, stickslip};
 use serde_json::Value;
 use std::collections::BTreeSet;
 use std::fs;
 use std::path::Path;
 use std::process::Output;
-use stickslip_run::definitions;
 use tempfile::tempdir;
 
 /// A drive that never slips grossly: the search goes on for as long as it may.
@@ -98,8 +98,8 @@ fn every_key_is_defined_and_every_definition_met() {
     let mut met = BTreeSet::new();
     keys(&found("impact_drive", out.path(), &[]), "", &mut met);
     keys(&found("vertical_climber", out.path(), &["--periods", "100"]), "", &mut met);
-    let of_file = definitions().filter(|definition| definition.file == "steady.json");
-    let mut defined: BTreeSet<String> = of_file.map(|definition| definition.name.to_owned()).collect();
+    let of_file = definitions().into_iter().filter(|definition| definition.file == "steady.json");
+    let mut defined: BTreeSet<String> = of_file.map(|definition| definition.name.into_owned()).collect();
     // A search that has nothing to add says nothing.
     assert!(defined.remove("notes"));
     // So few periods do not tell what an unstable motion ends on.

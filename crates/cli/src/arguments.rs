@@ -116,8 +116,8 @@ pub(crate) enum Command {
     /// that name.
     #[command(after_long_help = EXPLAIN_EXAMPLES)]
     Explain {
-        /// What to explain
-        #[arg(value_name = "KEY|COLUMN|FIGURE", required = true)]
+        /// What to explain; without a name all columns and figures are listed, in Markdown
+        #[arg(value_name = "KEY|COLUMN|FIGURE")]
         names: Vec<String>,
     },
     /// List the materials that contacts may name without describing them: elastic constants, each with its source
@@ -180,7 +180,7 @@ Examples:
   stickslip explain ball.stick_m          a column of trace.csv
   stickslip explain steady.step_m         a figure of summary.json
 
-All columns and figures stand on the page docs/definitions.md.";
+Without a name it lists all columns and figures, which are also the page docs/definitions.md.";
 
 const COMPLETIONS_EXAMPLES: &str = "\
 Examples:

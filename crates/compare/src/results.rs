@@ -5,15 +5,16 @@ use super::soundness::{Extent, Soundness};
 use serde_json::Value;
 use std::io;
 use std::path::{Path, PathBuf};
+use stickslip_quantity::columns;
 use stickslip_run::SealedTable;
 use stickslip_run::complaint::words;
-use stickslip_run::files::{EVENTS, STEP_HEAD, STEPS, TRACE};
+use stickslip_run::files::{EVENTS, STEPS, TRACE};
 use stickslip_run::frame::{Frame, FrameError};
 use stickslip_run::rows::Rows;
 use stickslip_run::synopsis::{Synopsis, SynopsisError};
 use thiserror::Error;
 
-/// Name of the lengths of the steps among the figures, and their place in [`STEP_HEAD`].
+/// Name of the lengths of the steps among the figures, and their place in [`columns::STEPS`].
 pub(crate) const LENGTHS: &str = "lengths_m";
 const LENGTH: usize = 3;
 
@@ -225,10 +226,10 @@ impl Results {
 /// Lengths of the steps of a run, m.
 fn step_lengths(table: &SealedTable) -> Result<Vec<f64>, FrameError> {
     let mut rows = Rows::open(table)?;
-    rows.check_head(STEP_HEAD)?;
+    rows.check_head(columns::STEPS.names)?;
     let mut lengths = Vec::new();
     while rows.advance()? {
-        lengths.push(rows.number(LENGTH, STEP_HEAD[LENGTH])?);
+        lengths.push(rows.number(LENGTH, columns::STEPS.names[LENGTH])?);
     }
     Ok(lengths)
 }

@@ -1,6 +1,7 @@
 //! The energy books of a run.
 
 use crate::warning::Warning;
+use schemars::JsonSchema;
 use serde::Serialize;
 use stickslip_drive::{Accuracy, Channel, Stepper};
 use stickslip_quantity::Real;
@@ -34,28 +35,33 @@ pub struct Books {
 }
 
 /// The books as the summary shows them.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct Balance {
-    /// Work of followers, loads and gravity since the start.
+    /// work of followers, loads, preloads and gravity, at the end
     #[serde(rename = "input_J")]
     input: Real,
+    /// kinetic energy, at the end
     #[serde(rename = "kinetic_J")]
     kinetic: Real,
+    /// stored energy, at the end
     #[serde(rename = "elastic_J")]
     elastic: Real,
+    /// work of friction
     #[serde(rename = "friction_J")]
     friction: Real,
+    /// work of dampers
     #[serde(rename = "damping_J")]
     damping: Real,
+    /// what the books miss, at the end
     #[serde(rename = "error_J")]
     error: Real,
-    /// Largest magnitude of the error.
+    /// most that the books miss at any row or event
     #[serde(rename = "largest_error_J")]
     largest_error: Real,
-    /// Largest of |input|, kinetic energy, change of elastic energy and heat at any time.
+    /// energy that went through the books: what the error is held against
     #[serde(rename = "throughput_J")]
     throughput: Real,
-    /// Largest error over throughput; none where nothing moved but for rounding.
+    /// its share of the throughput
     #[serde(skip_serializing_if = "Option::is_none")]
     largest_error_relative: Option<Real>,
 }

@@ -1,19 +1,23 @@
 //! What makes results worth less than they look.
 
+use schemars::JsonSchema;
 use serde::Serialize;
 use std::fmt;
 
 /// Something that makes results worth less than they look.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, JsonSchema)]
 pub struct Warning {
-    /// What it is about, as one word for machines, such as `energy_books`; it never changes its meaning.
+    /// what a warning is about, one word for machines. Of the scenario, among others: `mass`, `stiffness`, `capacitance`,
+    /// `stroke`, `modulus` out of proportion; `pressure` beyond yield; `damping_time` beyond a tenth of the period; `flank`
+    /// below ten passages of a shear wave; `load` beyond friction. Of the run: `energy_books`, `error_estimate`, `flight`,
+    /// `angle` beyond 0.1 rad, `rolling` beyond the contact radius, `through_ground` for a fall below all contacts
     pub kind: &'static str,
-    /// Key path in the scenario of what is odd about it; none of what came out in the run.
+    /// the place in the scenario that it is about
     #[serde(skip_serializing_if = "Option::is_none")]
     pub path: Option<String>,
-    /// What there is to say, with its number.
+    /// what is odd, or what the results are not worth
     pub message: String,
-    /// What to try.
+    /// what to try
     #[serde(skip_serializing_if = "Option::is_none")]
     pub help: Option<String>,
 }

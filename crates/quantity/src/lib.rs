@@ -3,15 +3,17 @@
 //! * [`Real`] – a number of a result, which JSON writes even where it is not finite;
 //! * [`Prefix`] and [`quantity()`] – numbers with units, as people read them;
 //! * [`names`] – what the name of a channel or figure says;
-//! * [`definitions()`] – what columns, figures and keys are.
+//! * [`columns`] – the columns of all tables;
+//! * [`report()`] – what the numbers of a report are, from the comments of its fields.
 
+pub mod columns;
 mod definitions;
 pub mod names;
 mod prefix;
 mod real;
 mod text;
 
-pub use definitions::{Definition, definitions, definitions_page};
+pub use definitions::{Columns, Definition, page, report};
 pub use prefix::{Prefix, takes_prefix};
 pub use real::Real;
 pub use text::{apart, quantity};

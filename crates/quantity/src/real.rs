@@ -1,6 +1,8 @@
 //! Numbers in JSON.
 
+use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::{Serialize, Serializer};
+use std::borrow::Cow;
 
 /// A number in JSON. Where it is not finite it is null, which every reader of JSON takes: JSON has no such numbers, and a
 /// string in the place of one breaks who expects it. A summary notes where that happens.
@@ -10,6 +12,20 @@ pub struct Real(pub f64);
 impl Serialize for Real {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         if self.0.is_finite() { serializer.serialize_f64(self.0) } else { serializer.serialize_none() }
+    }
+}
+
+impl JsonSchema for Real {
+    fn schema_name() -> Cow<'static, str> {
+        "Real".into()
+    }
+
+    fn inline_schema() -> bool {
+        true
+    }
+
+    fn json_schema(_: &mut SchemaGenerator) -> Schema {
+        json_schema!({ "type": ["number", "null"] })
     }
 }
 

@@ -12,6 +12,7 @@
 use crate::pace::Stop;
 use crate::plant::{Input, Takes};
 use crate::wire::{self, Misfit, Stamp};
+use schemars::JsonSchema;
 use serde::Serialize;
 use std::net::SocketAddr;
 
@@ -50,35 +51,35 @@ pub struct Patience {
 }
 
 /// What came.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, JsonSchema)]
 pub struct Received {
-    /// Good packets.
+    /// packets or lines that were taken, or that a later one of the same frame followed
     pub good: u64,
-    /// Of these, followed by another one in the same frame.
+    /// of these, followed by another one in the same frame
     pub superseded: u64,
-    /// Refused: too long or too short.
+    /// refused: too long or too short
     pub wrong_length: u64,
-    /// Refused: no packet, another version, or another number of values.
+    /// refused: no packet, another version, or another number of values
     pub foreign: u64,
-    /// Refused: another scenario's.
+    /// refused: another scenario's
     pub other_scenario: u64,
-    /// Refused: the number of the last one again.
+    /// refused: the number of the last one again
     pub repeated: u64,
-    /// Refused: a smaller number than the last one's.
+    /// refused: a smaller number than the last one's
     pub out_of_order: u64,
-    /// Refused: a value or time stamp that is not finite, or a value out of its range.
+    /// refused: a value or time stamp that is not finite, or a value out of its range
     pub out_of_range: u64,
-    /// Refused: of another client than the one that has the inputs.
+    /// refused: of another client than the one that has the inputs
     pub other_client: u64,
-    /// Frames in which somebody was writing into shared memory whenever it was looked at.
+    /// frames in which somebody was writing into shared memory whenever it was looked at
     pub torn_frames: u64,
-    /// Frames in which no good packet came.
+    /// frames in which nothing good came
     pub stale_frames: u64,
-    /// Most of these in a row.
+    /// most of them in a row
     pub most_stale: u64,
-    /// How often a client took over, the first one counted.
+    /// clients that had the inputs, one after the other
     pub owners: u64,
-    /// How often the silence allowed was over.
+    /// times that `--silence` came into force
     pub silences: u64,
 }
 

@@ -12,44 +12,46 @@ use crate::memory::MemoryError;
 use crate::pace::{Overrun, Pace, Stop, Timing};
 use crate::probe::{Probe, RowsProbe};
 use crate::session::Ended;
+use schemars::JsonSchema;
 use serde::Serialize;
 
 /// What a loop came to.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct Report {
-    /// Name of the scenario.
+    /// name of the scenario
     pub scenario: String,
-    /// Its number in packets, in hexadecimal digits.
+    /// its number in packets, in hexadecimal digits
     pub scenario_number: String,
-    /// The stepper, in words.
+    /// the stepper, in words
     pub stepper: String,
-    /// Length of a frame, s.
+    /// length of a frame
     pub period_s: f64,
-    /// Frames asked for.
+    /// frames asked for
     pub frames_asked: u64,
-    /// Frames computed.
+    /// frames computed
     pub frames: u64,
-    /// Simulated time, s.
+    /// simulated time
     pub simulated_s: f64,
-    /// On the wall from the first deadline on, s.
+    /// on the wall from the first deadline on
     pub wall_s: f64,
-    /// Whether frames waited for their deadlines.
+    /// whether frames waited for their deadlines
     pub paced: bool,
-    /// How long before each deadline the loop watched the clock, s.
+    /// how long before each deadline the loop watched the clock
     pub spin_s: f64,
-    /// What was done about overruns.
+    /// what was done about overruns, `skip` (deadlines that had passed were left out) or `stop`; null without a clock
     pub overrun_policy: Option<&'static str>,
-    /// How it ended: `complete`, `interrupted`, `overrun`, `silence`, `memory`, `stopped`, or `no_input`.
+    /// how it ended: `complete`, `interrupted`, `overrun`, `silence`, `memory` (another process made the shared memory
+    /// shorter), `stopped` or `no_input`
     pub ended: &'static str,
-    /// Why the drive stopped itself, or what became of the shared memory.
+    /// why the drive stopped itself, or what became of the shared memory; null where neither was
     pub error: Option<String>,
-    /// Whether it is complete and no frame overran.
+    /// whether it is complete and no frame ended after the next deadline
     pub kept: bool,
-    /// Frames that ended after the next deadline.
+    /// frames that ended after the next deadline
     pub overruns: u64,
-    /// Deadlines left out.
+    /// deadlines that had passed and were left out
     pub deadlines_left_out: u64,
-    /// Most in a row.
+    /// most of them in a row
     pub most_left_out: u64,
     /// From waking until the outputs were out.
     pub execution: Times,
@@ -59,21 +61,21 @@ pub struct Report {
     pub empty_execution: Option<Times>,
     /// Wake-up latency of the empty loop.
     pub empty_latency: Option<Times>,
-    /// Frames of the empty loop.
+    /// its frames
     pub empty_frames: u64,
-    /// Names of inputs, in the order of packets.
+    /// names of inputs, in the order of packets
     pub inputs: Vec<String>,
-    /// Names of outputs, in the order of packets.
+    /// names of outputs, in the order of packets
     pub outputs: Vec<String>,
     /// What came in.
     pub received: Received,
-    /// Outputs that did not go out.
+    /// outputs that did not go out
     pub outputs_unsent: u64,
-    /// Frames for which the log had no room.
+    /// frames for which the log had no room
     pub log_lost: u64,
-    /// Frames for which the recording of inputs had no room.
+    /// frames for which the recording of inputs had no room
     pub recording_lost: u64,
-    /// What the system did not grant.
+    /// what the system did not grant, in words
     pub denied: Vec<String>,
     /// What frames took before the start, unpaced.
     pub probe: Option<ProbeTimes>,
@@ -82,41 +84,43 @@ pub struct Report {
 }
 
 /// A histogram in a few numbers, µs.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
 pub struct Times {
-    /// Half were no longer.
+    /// median, µs: half were no longer. Of `execution` from waking until the outputs were out, of `latency` from the deadline until the
+    /// loop woke, null without a clock; `empty_execution` and `empty_latency` are those of an empty loop of the same period before the
+    /// start, null where none was run
     pub median_us: f64,
-    /// 999 of 1 000 were no longer.
+    /// µs, 999 of 1 000 were no longer
     pub p99_9_us: f64,
-    /// 9 999 of 10 000 were no longer.
+    /// µs, 9 999 of 10 000 were no longer
     pub p99_99_us: f64,
-    /// None was longer.
+    /// the longest, µs
     pub worst_us: f64,
-    /// The mean.
+    /// mean, µs
     pub mean_us: f64,
 }
 
 /// What frames took before the start.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
 pub struct ProbeTimes {
-    /// How many.
+    /// frames that were tried before the start, without a clock; null where none were
     pub frames: u64,
-    /// Median, µs.
+    /// half of them took no longer
     pub median_us: f64,
-    /// 99 of 100 were no longer, µs.
+    /// 99 of 100 took no longer
     pub p99_us: f64,
-    /// The longest, µs.
+    /// the longest
     pub worst_us: f64,
 }
 
 /// What frames took on rows of springs.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct RowTimes {
-    /// Springs of a row.
+    /// springs of the rows that were tried in place of the contacts; null where none were
     pub springs: Vec<usize>,
-    /// 99 of 100 frames were no longer, µs.
+    /// 99 of 100 frames on each took no longer
     pub p99_us: Vec<f64>,
-    /// Springs for which a straight line through these comes to the period; none where that is not to be seen from them.
+    /// springs for which a straight line through these comes to the period; null where that is not to be seen from them
     pub fit_in_period: Option<u64>,
 }
 

@@ -1,9 +1,9 @@
 //! `memory.csv` read back: the memory curves of the contacts at some moments.
 
-use crate::files::MEMORY_HEAD;
 use crate::frame::FrameError;
 use crate::rows::Rows;
 use crate::seal::SealedTable;
+use stickslip_quantity::columns::MEMORY;
 
 /// The curve of a contact at a moment.
 #[derive(Debug, Clone, PartialEq)]
@@ -92,19 +92,19 @@ struct Corners {
 impl Corners {
     fn open(table: &SealedTable) -> Result<Self, FrameError> {
         let mut rows = Rows::open(table)?;
-        rows.check_head(MEMORY_HEAD)?;
+        rows.check_head(MEMORY.names)?;
         Ok(Self { rows })
     }
 
     fn time(&self) -> Result<f64, FrameError> {
-        self.rows.number(0, MEMORY_HEAD[0])
+        self.rows.number(0, MEMORY.names[0])
     }
 
     /// d, u, h and p, m.
     fn corner(&self) -> Result<[f64; 4], FrameError> {
         let mut corner = [0.0; 4];
         for (i, value) in corner.iter_mut().enumerate() {
-            *value = self.rows.number(i + 2, MEMORY_HEAD[i + 2])?;
+            *value = self.rows.number(i + 2, MEMORY.names[i + 2])?;
         }
         Ok(corner)
     }
@@ -129,7 +129,7 @@ mod tests {
         let line = |t: u32, contact: &str, h: u32| format!("{t},{contact},1,0.5,{h},0.{h}\n");
         let lines =
             (0..10).flat_map(|t| [line(t, "a", 0), line(t, "a", 1), line(t, "b", 0), line(t, "b", 1)]);
-        std::fs::write(file.path(), format!("{}\n{}", MEMORY_HEAD.join(","), lines.collect::<String>()))
+        std::fs::write(file.path(), format!("{}\n{}", MEMORY.names.join(","), lines.collect::<String>()))
             .unwrap();
         let of = |curve: &MemoryCurve| (curve.time, curve.contact.clone());
         let some: Vec<_> = read(&file.path().to_owned().into(), 5).unwrap().iter().map(of).collect();

@@ -3,34 +3,11 @@
 use crate::sheet::{Sheet, Written};
 use std::io;
 use stickslip_measure::contact_cycles::JudgedCycle;
+use stickslip_quantity::columns::CYCLES;
 use tempfile::NamedTempFile;
 
 /// Place of `closed` among the values, after both times.
 const CLOSED: usize = 2;
-/// Names of the columns.
-pub(crate) const HEAD: [&str; 20] = [
-    "contact",
-    "cycle",
-    "start_s",
-    "end_s",
-    "closed",
-    "displacement_amplitude_m",
-    "force_amplitude_N",
-    "half_opening_m",
-    "dissipated_J",
-    "damping_J",
-    "mean_normal_force_N",
-    "energy_ratio",
-    "system_free_ratio",
-    "slip_ratio",
-    "energy_coefficient_of_friction",
-    "stiffness_after_maximum_N_m",
-    "stiffness_after_minimum_N_m",
-    "secant_after_maximum_N_m",
-    "secant_after_minimum_N_m",
-    "regime",
-];
-
 /// The table as its run goes on: cycles in the order in which they end. Forces and work are those of all identical contacts
 /// together; what a cycle does not have is left empty.
 pub(crate) struct CyclesTable {
@@ -40,7 +17,7 @@ pub(crate) struct CyclesTable {
 
 impl CyclesTable {
     pub(crate) fn new(file: NamedTempFile) -> Self {
-        Self { sheet: Sheet::new(file, HEAD), is_empty: true }
+        Self { sheet: Sheet::new(file, CYCLES.names.iter().copied()), is_empty: true }
     }
 
     /// Writes a cycle of a contact by name, with its number, from 1.

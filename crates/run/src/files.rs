@@ -2,25 +2,26 @@
 
 use crate::folder::Folder;
 use crate::seal::SealedTable;
+use stickslip_quantity::{Columns, columns};
 
 /// Rows over time.
-pub const TRACE: &str = "trace.csv";
+pub const TRACE: &str = columns::TRACE.file;
 /// Events, with the row after each.
-pub const EVENTS: &str = "events.csv";
+pub const EVENTS: &str = columns::EVENTS.file;
 /// What every spring does over time, where that is asked for.
-pub const SPRINGS: &str = "springs.csv";
+pub const SPRINGS: &str = columns::SPRINGS.file;
 /// The memory curves at some moments, where they are asked for.
-pub const MEMORY: &str = "memory.csv";
+pub const MEMORY: &str = columns::MEMORY.file;
 /// Stress and displacement under the contacts at some moments, where they are asked for.
-pub const FIELDS: &str = "fields.csv";
+pub const FIELDS: &str = columns::FIELDS.file;
 /// Where friction has done its work by then, over the radius.
-pub const FRICTION: &str = "friction.csv";
+pub const FRICTION: &str = columns::FRICTION.file;
 /// What goes on inside the contacts, each where it is asked for.
 pub const INSIDES: [&str; 4] = [SPRINGS, MEMORY, FIELDS, FRICTION];
 /// Every cycle of contacts that come back.
-pub const CYCLES: &str = "cycles.csv";
+pub const CYCLES: &str = columns::CYCLES.file;
 /// Every step of a drive.
-pub const STEPS: &str = "steps.csv";
+pub const STEPS: &str = columns::STEPS.file;
 /// The scenario as it was run.
 pub const SCENARIO: &str = "scenario.json";
 /// What the run came to.
@@ -40,31 +41,16 @@ pub const BRANCH: &str = "branch.json";
 /// The same of a branch that was interrupted: a finished one stays beside it.
 pub const PARTIAL_BRANCH: &str = "branch-partial.json";
 
-/// Columns of [`SPRINGS`].
-pub(crate) const SPRING_HEAD: &[&str] =
-    &["time_s", "contact", "x_m", "stretch_m", "state", "g_m", "fx_N", "fz_N", "limit_N"];
-/// Columns of [`MEMORY`].
-pub(crate) const MEMORY_HEAD: &[&str] = &["time_s", "contact", "d_m", "u_m", "h_m", "p_m"];
-/// Columns of [`FIELDS`].
-pub(crate) const FIELD_HEAD: &[&str] =
-    &["time_s", "contact", "r_m", "p_Pa", "tau_Pa", "u_m", "slip_m", "w_m", "state", "error_Pa", "error_m"];
-/// Columns of [`FRICTION`].
-pub(crate) const FRICTION_HEAD: &[&str] = &["time_s", "contact", "r_m", "work_J_m2", "way_m"];
-
-/// Columns of [`STEPS`]: number, both times, length, where the body was at first, the least and the largest place within.
-pub const STEP_HEAD: &[&str] = &["period", "start_s", "end_s", "length_m", "x_m", "least_m", "largest_m"];
-/// The tables whose columns are the same in every run, with these; of `events.csv` the ones before those of the trace.
-pub fn heads() -> [(&'static str, &'static [&'static str]); 7] {
-    [
-        (EVENTS, &["source", "kind"]),
-        (SPRINGS, SPRING_HEAD),
-        (MEMORY, MEMORY_HEAD),
-        (FIELDS, FIELD_HEAD),
-        (FRICTION, FRICTION_HEAD),
-        (CYCLES, &crate::cycles_table::HEAD),
-        (STEPS, STEP_HEAD),
-    ]
-}
+/// The tables whose columns are the same in every run; of `events.csv` the columns before those of the trace.
+pub const TABLES: [Columns; 7] = [
+    columns::EVENTS,
+    columns::SPRINGS,
+    columns::MEMORY,
+    columns::FIELDS,
+    columns::FRICTION,
+    columns::CYCLES,
+    columns::STEPS,
+];
 
 /// Where the tables of the insides lie, if they were written.
 #[derive(Debug, Clone)]

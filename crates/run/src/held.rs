@@ -8,7 +8,7 @@ use stickslip_drive::scene::Named;
 use stickslip_drive::{
     BytesError, Channel, Command, CommandError, InputError, Record, Run, RunError, Shape, State, Waveform,
 };
-use stickslip_quantity::{definitions, names};
+use stickslip_quantity::{columns::TRACE, names};
 use thiserror::Error;
 
 self_cell!(
@@ -168,9 +168,7 @@ impl Held {
     pub fn channels(&self) -> Vec<Quantity> {
         let known = |channel: Channel| Quantity {
             unit: names::unit(&channel.name),
-            text: definitions()
-                .find(|definition| definition.defines("trace.csv", &channel.name))
-                .map_or("", |definition| definition.text),
+            text: TRACE.text(&channel.name),
             name: channel.name,
         };
         self.job().model.channels().into_iter().map(known).collect()

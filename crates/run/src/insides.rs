@@ -2,7 +2,6 @@
 
 mod fields;
 
-use crate::files::{MEMORY, MEMORY_HEAD, SPRING_HEAD, SPRINGS};
 use crate::folder::Folder;
 use crate::job::Job;
 use crate::sheet::{Sheet, Written};
@@ -10,6 +9,8 @@ use fields::FieldTables;
 use std::io;
 use stickslip_contact::{Memory, Segment, SpringState};
 use stickslip_drive::{Moments, Schedule};
+use stickslip_quantity::Columns;
+use stickslip_quantity::columns::{MEMORY, SPRINGS};
 
 /// Writes what the scenario asks for.
 pub(crate) struct Insides<'a> {
@@ -32,12 +33,12 @@ impl<'a> Insides<'a> {
     pub(crate) fn new(job: &'a Job, folder: &Folder) -> io::Result<Self> {
         let schedule =
             |moments: &Moments| Schedule::new(moments.clone(), job.start.time(), job.scenario.plan.duration);
-        let open = |name: &str, moments: &Moments, head: &[&str]| {
-            let sheet = Sheet::new(folder.draft(name)?, head.iter().copied());
+        let open = |table: Columns, moments: &Moments| {
+            let sheet = Sheet::new(folder.draft(table.file)?, table.names.iter().copied());
             Ok::<_, io::Error>(Looks { sheet, schedule: schedule(moments) })
         };
-        let springs = job.scenario.springs.as_ref().map(|asked| open(SPRINGS, &asked.moments, SPRING_HEAD));
-        let memory = job.scenario.memory.as_ref().map(|asked| open(MEMORY, &asked.moments, MEMORY_HEAD));
+        let springs = job.scenario.springs.as_ref().map(|asked| open(SPRINGS, &asked.moments));
+        let memory = job.scenario.memory.as_ref().map(|asked| open(MEMORY, &asked.moments));
         let fields = job.scenario.fields.as_ref().map(|asked| {
             Ok::<_, io::Error>((FieldTables::new(job, asked, folder)?, schedule(&asked.moments)))
         });
@@ -100,7 +101,7 @@ impl<'a> Insides<'a> {
 
     /// Closes the tables.
     pub(crate) fn finish(self) -> io::Result<Vec<(&'static str, Written)>> {
-        let looks = [(SPRINGS, self.springs), (MEMORY, self.memory)];
+        let looks = [(SPRINGS.file, self.springs), (MEMORY.file, self.memory)];
         let looks = looks.into_iter().filter_map(|(name, looks)| Some((name, looks?)));
         let mut written =
             looks.map(|(name, looks)| Ok((name, looks.sheet.finish()?))).collect::<io::Result<Vec<_>>>()?;

@@ -65,7 +65,6 @@ pub mod warning;
 
 pub use columns::Columns;
 pub use excess::Excess;
-pub use files::heads;
 pub use held::{Held, HeldError, Port, Quantity};
 pub use job::{Job, Refusal};
 pub use kept::Kept;
@@ -80,6 +79,14 @@ pub use stickslip_drive::{Unrecorded, Watcher};
 pub use stickslip_measure::{
     ENERGY, Extreme, Periods, Series, Setting, Track, Tracks, Trail, Warning, contact_path,
 };
-pub use stickslip_quantity::{Definition, Real, apart, definitions, definitions_page, quantity};
+pub use stickslip_quantity::{Definition, Real, apart, quantity};
 pub use summary::Summary;
 pub use synopsis::{NO_RESULTS, SynopsisError, check_published};
+
+/// What every column of a run's tables and every key of `summary.json` is.
+#[must_use]
+pub fn definitions() -> Vec<Definition> {
+    let tables = std::iter::once(stickslip_quantity::columns::TRACE).chain(files::TABLES);
+    let tables = tables.flat_map(|table| table.definitions());
+    tables.chain(stickslip_quantity::report::<Summary>(files::SUMMARY)).collect()
+}

@@ -1,10 +1,10 @@
 //! What a run would leave behind, estimated before it starts.
 
-use crate::files::{FIELD_HEAD, MEMORY_HEAD, SPRING_HEAD};
 use crate::theory::LINE_WIDTH;
 use std::sync::Arc;
 use stickslip_contact::{Curve, Interface, Memory, Springs};
 use stickslip_drive::{Model, State};
+use stickslip_quantity::columns::{FIELDS, MEMORY, SPRINGS};
 use stickslip_scenario::{Scenario, ScenarioError};
 
 /// Most numbers that a table may have: of the rows and what is kept of them up to 2 GB of memory, and each table some
@@ -50,7 +50,7 @@ pub(crate) fn grids(
     let grids: Vec<_> = contacts.map(grid).collect();
     let springs: usize = grids.iter().flatten().map(|grid| grid.count()).sum();
     let moments = asked.moments.count(scenario.plan.duration);
-    let (lines, most) = (springs as f64 * moments, MOST_VALUES as f64 / SPRING_HEAD.len() as f64);
+    let (lines, most) = (springs as f64 * moments, MOST_VALUES as f64 / SPRINGS.names.len() as f64);
     if lines <= most {
         return Ok(grids);
     }
@@ -66,7 +66,7 @@ pub(crate) fn check_fields(scenario: &Scenario) -> Result<(), ScenarioError> {
     let Some(asked) = &scenario.fields else { return Ok(()) };
     let moments = asked.moments.count(scenario.plan.duration);
     let lines = moments * (asked.radii * scenario.scene.contacts.len()) as f64;
-    let most = MOST_VALUES as f64 / FIELD_HEAD.len() as f64;
+    let most = MOST_VALUES as f64 / FIELDS.names.len() as f64;
     if lines <= most {
         return Ok(());
     }
@@ -84,7 +84,7 @@ pub(crate) fn check_curves(scenario: &Scenario) -> Result<(), ScenarioError> {
     let Some(asked) = &scenario.memory else { return Ok(()) };
     let curves = asked.moments.count(scenario.plan.duration) * scenario.scene.contacts.len() as f64;
     let lines = curves * Curve::DEFAULT_CAPACITY as f64;
-    let most = MOST_VALUES as f64 / MEMORY_HEAD.len() as f64;
+    let most = MOST_VALUES as f64 / MEMORY.names.len() as f64;
     if lines <= most {
         return Ok(());
     }

@@ -1,12 +1,12 @@
 //! `fields.csv` and `friction.csv` read back: what there was over the radius, moment by moment and contact by contact.
 
-use crate::files::{FIELD_HEAD, FRICTION_HEAD};
 use crate::frame::FrameError;
 use crate::limits::MOST_VALUES;
 use crate::rows::Rows;
 use crate::seal::SealedTable;
 use crate::springs::spring_state;
 use stickslip_contact::SpringState;
+use stickslip_quantity::columns::{FIELDS, FRICTION};
 
 /// What there was of a contact at a moment, over the distance r from its axis.
 #[derive(Debug, Clone, PartialEq)]
@@ -29,7 +29,7 @@ const STATE: usize = 8;
 /// # Errors
 /// A file that cannot be read, other columns, or a cell that is not what it should be.
 pub fn fields(table: &SealedTable) -> Result<Vec<OverRadius>, FrameError> {
-    read(table, FIELD_HEAD, (STATE, true))
+    read(table, FIELDS.names, (STATE, true))
 }
 
 /// Reads `friction.csv`: r, work per area, way.
@@ -37,7 +37,7 @@ pub fn fields(table: &SealedTable) -> Result<Vec<OverRadius>, FrameError> {
 /// # Errors
 /// As [`fields`].
 pub fn friction(table: &SealedTable) -> Result<Vec<OverRadius>, FrameError> {
-    read(table, FRICTION_HEAD, (FRICTION_HEAD.len(), false))
+    read(table, FRICTION.names, (FRICTION.names.len(), false))
 }
 
 fn read(

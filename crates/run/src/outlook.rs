@@ -1,54 +1,59 @@
 //! What a drive would settle on, told before a run and beside it.
 
+use schemars::JsonSchema;
 use serde::Serialize;
 use stickslip_quantity::Real;
 use stickslip_quantity::quantity;
 
 /// The motion of a drive that repeats itself every period, as whoever has looked for it tells it: `study` does.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 #[serde(untagged)]
 pub enum Outlook {
     /// It is there.
     Found(Repetition),
     /// It was not found.
     NotFound {
-        /// Why.
+        /// why it was not found at little cost, beside a run a fifth of its steps; the others are left out then
         fault: String,
     },
 }
 
 /// A motion that repeats itself every period.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct Repetition {
-    /// Way of the figures' body along x in a period, m.
+    /// way of the body of the figures along x in a period of the steady motion, [found directly](steady.md), as if waveforms
+    /// never ended
     #[serde(rename = "step_m")]
     pub step: Real,
-    /// How far the step may be off, m.
+    /// how far that step may be off: an estimate, [doubled](steady.md#bound)
     #[serde(rename = "step_error_m")]
     pub error: Real,
-    /// Step over period, m/s.
+    /// step over period
     #[serde(rename = "speed_m_s")]
     pub speed: Real,
-    /// Whether a run that is disturbed a little comes back; none where a disturbance stays as it is.
+    /// whether a run that is disturbed a little comes back to it; left out where a disturbance neither fades nor grows, of a
+    /// shakedown unless it grows, and where that is not known
     #[serde(skip_serializing_if = "Option::is_none")]
     pub stable: Option<bool>,
-    /// Periods of the figures' waveform in a period of the motion: the common one of all waveforms may be longer.
+    /// periods of the figures' waveform in a period of the motion, which is the common one of all waveforms; left out where it
+    /// is 1
     #[serde(skip_serializing_if = "is_one")]
     pub periods: u64,
-    /// Largest magnitude of a Floquet multiplier: what is left of a disturbance after a period; 0 without any.
+    /// largest magnitude of a Floquet multiplier: what is left of a disturbance after a period
     pub radius: Real,
-    /// Periods of the drive to a beat of the disturbance that stays longest.
+    /// periods of the drive to a beat of the disturbance that stays longest; left out where it does not turn
     #[serde(rename = "beat_periods", skip_serializing_if = "Option::is_none")]
     pub beat: Option<Real>,
-    /// Periods in which that disturbance falls, or grows, by e.
+    /// periods in which that disturbance falls, or grows, by e
     #[serde(rename = "fold_periods", skip_serializing_if = "Option::is_none")]
     pub fold: Option<Real>,
-    /// What becomes of that disturbance, in words.
+    /// what becomes of that disturbance, in words
     pub words: String,
-    /// Contacts whose memories were led along: nothing is known of their disturbances.
+    /// contacts whose memories were led along: disturbances of what they remember may stay longer
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub carried: Vec<String>,
-    /// Contacts that never slip grossly.
+    /// contacts that never slip grossly: the motion is one of a whole family, and what they slide in a period counts as its
+    /// error
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub shaken_down: Vec<String>,
 }

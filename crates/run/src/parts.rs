@@ -1,7 +1,9 @@
 //! Things by name, as JSON has them.
 
+use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::ser::SerializeMap;
 use serde::{Serialize, Serializer};
+use std::borrow::Cow;
 
 /// Things by name, in the scenario's order.
 #[derive(Debug)]
@@ -24,5 +26,15 @@ impl<T: Serialize> Serialize for Parts<T> {
             map.serialize_entry(name, part)?;
         }
         map.end()
+    }
+}
+
+impl<T: JsonSchema> JsonSchema for Parts<T> {
+    fn schema_name() -> Cow<'static, str> {
+        format!("Parts_of_{}", T::schema_name()).into()
+    }
+
+    fn json_schema(generator: &mut SchemaGenerator) -> Schema {
+        json_schema!({ "type": "object", "additionalProperties": generator.subschema_for::<T>() })
     }
 }

@@ -1,16 +1,17 @@
 //! Seals: by them readers tell whether a table is the one that its run wrote, whole and unchanged.
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};
 use std::fmt::Write;
 use std::path::PathBuf;
 
 /// What a summary says of a table beside it.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, JsonSchema, Deserialize)]
 pub struct Seal {
-    /// Lines below the names of the columns.
+    /// lines of the table, without its head
     pub rows: u64,
-    /// SHA-256 of the file, in hexadecimal digits.
+    /// its SHA-256; readers refuse another
     pub sha256: String,
 }
 

@@ -1,11 +1,11 @@
 //! `springs.csv` read back: what the springs of each contact did over time.
 
-use crate::files::SPRING_HEAD;
 use crate::frame::FrameError;
 use crate::rows::Rows;
 use crate::seal::SealedTable;
 use std::collections::HashMap;
 use stickslip_contact::SpringState;
+use stickslip_quantity::columns::SPRINGS;
 
 /// The springs of a contact.
 #[derive(Debug, Clone, PartialEq)]
@@ -26,11 +26,11 @@ pub struct Springs {
 /// A file that cannot be read, other columns, or a line that does not fit those before it.
 pub fn read(table: &SealedTable) -> Result<Vec<Springs>, FrameError> {
     let mut rows = Rows::open(table)?;
-    rows.check_head(SPRING_HEAD)?;
+    rows.check_head(SPRINGS.names)?;
     let mut contacts: Vec<Springs> = Vec::new();
     let mut places: HashMap<String, usize> = HashMap::new();
     while rows.advance()? {
-        let (t, x) = (rows.number(0, SPRING_HEAD[0])?, rows.number(2, SPRING_HEAD[2])?);
+        let (t, x) = (rows.number(0, SPRINGS.names[0])?, rows.number(2, SPRINGS.names[2])?);
         let contact = rows.text(1);
         let place = places.get(contact).copied().unwrap_or_else(|| {
             places.insert(contact.to_owned(), contacts.len());

@@ -1,9 +1,9 @@
 //! `steps.csv`: every step of a drive.
 
-use crate::files::STEP_HEAD;
 use crate::sheet::{Sheet, Written};
 use std::io;
 use stickslip_measure::Stride;
+use stickslip_quantity::columns::STEPS;
 use tempfile::NamedTempFile;
 
 /// The table as its run goes on.
@@ -14,7 +14,7 @@ pub(crate) struct StepsTable {
 
 impl StepsTable {
     pub(crate) fn new(file: NamedTempFile) -> Self {
-        Self { sheet: Sheet::new(file, STEP_HEAD.iter().copied()), count: 0 }
+        Self { sheet: Sheet::new(file, STEPS.names.iter().copied()), count: 0 }
     }
 
     /// Writes the next step, that of a period between two times, s.

@@ -20,6 +20,7 @@ use crate::seal::Seal;
 use crate::selection::TakenEvents;
 use crate::states::legend;
 use crate::warning;
+use schemars::JsonSchema;
 use serde::Serialize;
 use serde_json::Value;
 use std::io;
@@ -44,30 +45,33 @@ const NAMED: usize = 5;
 const UNWRITTEN_ADVICE: &str = "make room, choose another place with --out, or write fewer rows";
 
 /// The summary of a run. Everything but `timing` is the same whenever the same scenario is run.
-#[derive(Debug, Serialize)]
+#[derive(Debug, Serialize, JsonSchema)]
 pub struct Summary {
+    /// the scenario's
     #[serde(skip_serializing_if = "String::is_empty")]
     title: String,
     program: Program,
-    /// SHA-256 of the resolved scenario beside the summary.
+    /// SHA-256 of scenario.json beside the summary
     scenario_sha256: String,
     stepper: Stepper,
-    /// How the run ended.
+    /// `done`, `stopped` (by itself, before its time) or `interrupted`
     pub status: Status,
     /// Why the run did not come to its end, and what to try.
     #[serde(skip_serializing_if = "Option::is_none")]
     error: Option<Stop>,
-    /// Time reached.
+    /// time reached
     #[serde(rename = "simulated_s")]
     pub simulated: Real,
-    /// Periods after which the run ended before its time, as it was asked to, because steps had become constant.
+    /// periods after which the run ended, as run.until_steady asked
     #[serde(rename = "steady_after_periods", skip_serializing_if = "Option::is_none")]
     pub steady_after: Option<usize>,
     counts: Counts,
-    /// What the numbers mean that stand for states, where they do.
+    /// what the number of a state of trace.csv and events.csv means, with output.states as numbers
     #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("x-name" = "CODE"))]
     states: Option<Parts<&'static str>>,
     /// By name.
+    #[schemars(extend("x-name" = "CONTACT"))]
     pub contacts: Parts<ContactSummary>,
     /// Steps of the drive; none without a free body driven by a periodic waveform.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -78,18 +82,20 @@ pub struct Summary {
     energy: Balance,
     /// Driver electronics by the names of their stacks.
     #[serde(skip_serializing_if = "Parts::is_empty")]
+    #[schemars(extend("x-name" = "ACTUATOR"))]
     drivers: Parts<DriverSummary>,
     /// What the results are not worth, and what is odd about their scenario; empty where there is nothing to say.
     pub warnings: Vec<Warning>,
-    /// What is missing, and why.
+    /// what is missing, and why
     #[serde(skip_serializing_if = "Vec::is_empty")]
     notes: Vec<String>,
-    /// Files beside the summary.
+    /// files beside the summary
     files: Vec<String>,
     /// What the tables among them hold, by their names: readers refuse others.
     #[serde(skip_serializing_if = "Parts::is_empty")]
+    #[schemars(extend("x-name" = "FILE"))]
     tables: Parts<Seal>,
-    /// Whether the tables end before the run did, for they could not be written any further.
+    /// whether the tables end before the run did, for lack of room
     #[serde(skip_serializing_if = "std::ops::Not::not")]
     cut: bool,
     /// What differs from run to run.
@@ -97,7 +103,7 @@ pub struct Summary {
 }
 
 /// How a run ended.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum Status {
     /// At its time, or when its steps had become constant, if it was to end then.
@@ -108,24 +114,31 @@ pub enum Status {
     Interrupted,
 }
 
-#[derive(Debug, Serialize)]
+#[derive(Debug, Serialize, JsonSchema)]
 struct Program {
+    /// the program that computed the results
     name: &'static str,
+    /// its version
     version: &'static str,
 }
 
-#[derive(Debug, Serialize)]
+#[derive(Debug, Serialize, JsonSchema)]
 struct Stepper {
+    /// the stepper that was taken
     name: &'static str,
+    /// its tolerance: local error per step, relative to the scales of the contacts
     #[serde(skip_serializing_if = "Option::is_none")]
     tolerance: Option<Real>,
+    /// its step, where that is fixed
     #[serde(rename = "step_s", skip_serializing_if = "Option::is_none")]
     step: Option<Real>,
 }
 
-#[derive(Debug, Serialize)]
+#[derive(Debug, Serialize, JsonSchema)]
 struct Stop {
+    /// why the run did not come to its end
     message: String,
+    /// what to try
     advice: &'static str,
 }
 
@@ -143,24 +156,30 @@ impl Stop {
     }
 }
 
-#[derive(Debug, Serialize)]
+#[derive(Debug, Serialize, JsonSchema)]
 struct Counts {
+    /// accepted steps
     steps: u64,
+    /// steps whose error estimate missed the tolerance, taken again
     rejected: u64,
+    /// evaluations of all forces
     evaluations: u64,
+    /// located events
     events: u64,
-    /// Those in `events.csv`; told only where there are others.
+    /// events in events.csv, where output.events, a window or thinning left some out, or rows of springs told of gross slip
+    /// that no event located
     #[serde(skip_serializing_if = "Option::is_none")]
     events_written: Option<u64>,
-    /// Until when all that were asked for are there, where they were thinned.
+    /// time until which events.csv has all that were asked for; ever fewer of those that follow
     #[serde(rename = "events_whole_until_s", skip_serializing_if = "Option::is_none")]
     events_whole_until: Option<Real>,
-    /// Stretches by the whole law where events accumulated; told only where there are any.
+    /// stretches by halved steps where events accumulated
     #[serde(skip_serializing_if = "is_none")]
     detours: u64,
-    /// Steps of these taken although their estimate missed the tolerance; told only where there are any.
+    /// steps of these that missed the tolerance
     #[serde(skip_serializing_if = "is_none")]
     missed: u64,
+    /// rows of trace.csv
     rows: u64,
 }
 
@@ -179,10 +198,12 @@ fn is_none(count: &u64) -> bool {
     *count == 0
 }
 
-#[derive(Debug, Serialize)]
+#[derive(Debug, Serialize, JsonSchema)]
 struct Timing {
+    /// wall-clock time of the run
     #[serde(rename = "wall_s")]
     wall: Real,
+    /// simulated time over the wall-clock time of stepping
     simulated_s_per_s: Real,
 }
 

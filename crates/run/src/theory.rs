@@ -23,8 +23,15 @@ pub use state::{LoadedSpring, contact_word};
 pub use subject::{Subject, TheoryError};
 pub use walk::{Frame, FrictionCourse, FrictionStep, Moment, Stop, Walk};
 pub(crate) use write::LINE_WIDTH;
-pub use write::{Beside, CONTACT, TABLES, heads, json, write};
+pub use write::{Beside, CONTACT, TABLES, json, table_files, write};
 
 /// How far fields, springs and profiles are shown where nothing else is asked for, of the largest contact radius: the surface is
 /// displaced beyond the contact, too.
 pub const BEYOND: f64 = 1.5;
+
+/// What every key of `contact.json` and every column of the tables beside it is.
+#[must_use]
+pub fn definitions() -> Vec<stickslip_quantity::Definition> {
+    let tables = TABLES.iter().flat_map(stickslip_quantity::Columns::definitions);
+    stickslip_quantity::report::<write::Report<'_>>(CONTACT).into_iter().chain(tables).collect()
+}

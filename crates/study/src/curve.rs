@@ -29,6 +29,7 @@ pub use motion::{Course, Motion, Motionless};
 pub use peak::{Peak, Seen};
 pub use point::Point;
 pub use range::Range;
+pub(crate) use table::definitions;
 pub use table::{Way, all_files, csv, json, write};
 pub use variation::Variation;
 

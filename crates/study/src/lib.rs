@@ -14,6 +14,7 @@ pub mod curve;
 mod each;
 mod figure;
 mod grip;
+mod info;
 mod interruptible;
 mod line;
 mod number;
@@ -28,4 +29,23 @@ pub use figure::{Figure, FigureError};
 pub use line::{Ended, Line, LineFault, Lines};
 pub use number::{NumberError, ValueError};
 
+pub use info::Info;
 pub use report::summary;
+
+use std::collections::HashSet;
+use stickslip_quantity::{Definition, report as read};
+
+/// What every column and key of runs and studies is, and what `info --json` prints.
+#[must_use]
+pub fn definitions() -> Vec<Definition> {
+    let mut all = stickslip_run::definitions();
+    all.extend(read::<Info>("info --json"));
+    all.extend(stickslip_run::theory::definitions());
+    all.extend(read::<steady::Report>(stickslip_run::files::STEADY));
+    all.extend(steady::continuation::definitions());
+    all.extend(curve::definitions());
+    all.extend(sensitivity::definitions());
+    let mut met = HashSet::new();
+    all.retain(|one| met.insert((one.file, one.name.clone())));
+    all
+}

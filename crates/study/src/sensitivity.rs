@@ -23,6 +23,7 @@ pub use error::SensitivityError;
 pub use figure::Figure;
 pub use quantity::Quantity;
 pub use sample::Missing;
+pub(crate) use table::definitions;
 pub use table::{all_files, csv, json, write};
 
 use bench::{Bench, Silent};

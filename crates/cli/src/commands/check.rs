@@ -1,6 +1,7 @@
 //! `stickslip check`: everything that a run would refuse, and no run.
 
 use crate::arguments::CheckArguments;
+use schemars::JsonSchema;
 use serde::Serialize;
 use std::path::Path;
 use stickslip_console::answer::warn;
@@ -10,20 +11,25 @@ use stickslip_run::{Job, Refusal};
 use stickslip_scenario::Report;
 
 /// What is found of a file, for machines.
-#[derive(Debug, Serialize)]
+#[derive(Debug, Serialize, JsonSchema)]
 struct Finding<'a> {
+    /// the file as it was named
     file: &'a Path,
+    /// whether a run would take it
     ok: bool,
-    /// The first of the errors.
+    /// the first of `errors`, with the same keys
     #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(with = "Option<bool>")]
     error: Option<Fault>,
     /// Everything that is wrong and no consequence of something else, in the order of the file; at most twenty.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     errors: Vec<Fault>,
-    /// Whether there is more wrong than is told.
+    /// `true` where more is known to be wrong than the twenty that are told
     #[serde(skip_serializing_if = "std::ops::Not::not")]
     more: bool,
-    /// Stages that were left out because of what is wrong, or not gone through to their ends: more may be wrong there.
+    /// what was not judged, or not all of it, because of the errors: `form` (keys, units, ranges), `meaning` (what parts are to
+    /// each other), `equilibrium` (whether there is one to start from), `limits` (rows, lines and memory of a run); more may be
+    /// wrong there
     #[serde(skip_serializing_if = "Vec::is_empty")]
     unjudged: Vec<&'static str>,
     /// What is allowed and probably not meant.
@@ -32,27 +38,31 @@ struct Finding<'a> {
 }
 
 /// What is wrong, and where. Lines and columns count from 1, columns in characters.
-#[derive(Debug, Default, Serialize)]
+#[derive(Debug, Default, Serialize, JsonSchema)]
 struct Fault {
-    /// What a warning is about, in one word.
+    /// of warnings: what it is about, one word for machines
     #[serde(skip_serializing_if = "Option::is_none")]
     kind: Option<&'static str>,
-    /// The table that line and column count in, where one is to blame that the scenario names.
+    /// the table that line and column count in, where one that the scenario names is to blame
     #[serde(skip_serializing_if = "Option::is_none")]
     table: Option<String>,
-    /// The argument of `--set` that line and column count in, where one is to blame.
+    /// the argument of --set that line and column count in, where one is to blame
     #[serde(rename = "override", skip_serializing_if = "Option::is_none")]
     assignment: Option<String>,
+    /// line, from 1
     #[serde(skip_serializing_if = "Option::is_none")]
     line: Option<usize>,
+    /// column in characters, from 1
     #[serde(skip_serializing_if = "Option::is_none")]
     column: Option<usize>,
-    /// Characters that are to blame.
+    /// characters that are to blame
     #[serde(skip_serializing_if = "Option::is_none")]
     width: Option<usize>,
-    /// Key path; empty for the file as a whole.
+    /// key path such as `contacts.ball.friction`; empty for the file as a whole
     path: String,
+    /// what was expected and what came
     message: String,
+    /// what to try
     #[serde(skip_serializing_if = "Option::is_none")]
     help: Option<String>,
 }
@@ -125,4 +135,9 @@ impl Fault {
             help: report.help.clone(),
         }
     }
+}
+
+/// What every key of `check --json` is.
+pub(super) fn definitions() -> Vec<stickslip_quantity::Definition> {
+    stickslip_quantity::report::<Finding<'_>>("check --json")
 }

@@ -12,7 +12,7 @@ use stickslip_figures::theory;
 use stickslip_run::complaint::words;
 use stickslip_run::folder::{Folder, sweep};
 use stickslip_run::theory::{
-    Beside, CONTACT, Corner, History, Sheet, Subject, TABLES, Tangential, TheoryError, Walk, json, write,
+    Beside, CONTACT, Corner, History, Sheet, Subject, Tangential, TheoryError, Walk, json, table_files, write,
 };
 use stickslip_run::{Job, Refusal};
 use thiserror::Error;
@@ -116,7 +116,7 @@ fn files(
     let folder = Folder::make(out).map_err(failed)?;
     // A command that was killed has left its drafts.
     let stale = theory::all_files();
-    let tables = TABLES.iter().map(|name| (*name).to_owned()).chain([CONTACT.to_owned()]);
+    let tables = table_files().into_iter().map(str::to_owned).chain([CONTACT.to_owned()]);
     sweep(out, &tables.chain(stale.iter().cloned()).collect::<Vec<_>>());
     Ok(write(folder, &sheet, walk, Beside { pictures: &pictures, stale, notes }).map_err(failed)?)
 }

@@ -1,51 +1,53 @@
-//! `stickslip explain NAME`: keys of scenarios from the schema, columns, figures and their symbols from the table of definitions.
+//! `stickslip explain NAME`: keys of scenarios from the schema, columns, numbers of reports and their symbols from what defines them.
 
+use super::check;
 use stickslip_console::answer::{complain, say};
 use stickslip_console::verdict::Verdict;
-use stickslip_run::definitions;
+use stickslip_quantity::{Definition, columns, page, report};
 use stickslip_scenario::{explained, suggestion};
 
-/// Explains every name, or says that nothing has it.
+/// Explains every name, or says that nothing has it; without a name prints the page of all definitions.
 pub(crate) fn explain(names: &[String]) -> Verdict {
-    let mut verdict = Verdict::Done;
-    for name in names {
-        let mut found = false;
-        for definition in definitions().filter(|definition| definition.is(name)) {
-            found = true;
-            say(format_args!("{}  {}\n    {}", definition.file, definition.name, definition.text));
-        }
-        for (path, text) in explained(name) {
-            found = true;
-            say(format_args!("scenario  {path}\n    {text}"));
-        }
-        // What holds others is explained by them.
-        let held: Vec<_> = definitions().filter(|definition| !found && definition.is_within(name)).collect();
-        for definition in held {
-            found = true;
-            say(format_args!("{}  {}\n    {}", definition.file, definition.name, definition.text));
-        }
-        // A symbol such as u_c or E* is none's name; what it is stands first.
-        let symbols = definitions().filter(|definition| !found && definition.has_symbol(name));
-        let symbols: Vec<_> = symbols.collect();
-        for definition in &symbols {
-            say(format_args!("{}  {}\n    {}", definition.file, definition.name, definition.text));
-        }
-        // Nor is a state such as slip; where it is told stands with it.
-        let is_known = found || !symbols.is_empty();
-        let sayers: Vec<_> = definitions().filter(|definition| !is_known && definition.says(name)).collect();
-        for definition in &sayers {
-            say(format_args!("{}  {}\n    {}", definition.file, definition.name, definition.text));
-        }
-        if !is_known && sayers.is_empty() {
-            let known = definitions().filter_map(|definition| definition.name.rsplit('.').next());
-            let help = suggestion(name, known).filter(|help| help.starts_with("did you mean"));
-            let help = help.unwrap_or_else(|| {
-                "docs/definitions.md lists columns and figures, stickslip schema the keys of scenarios"
-                    .to_owned()
-            });
-            complain(format_args!("nothing is called \"{}\"\n   help: {help}", name.escape_debug()));
-            verdict = Verdict::BadInput;
-        }
+    let all = definitions();
+    if names.is_empty() {
+        say(format_args!("{}", page(&all).trim_end()));
     }
-    verdict
+    let known = names.iter().map(|name| explain_one(name, &all));
+    if known.fold(true, |all, known| all && known) { Verdict::Done } else { Verdict::BadInput }
+}
+
+/// All that the program prints.
+fn definitions() -> Vec<Definition> {
+    let mut all = stickslip_study::definitions();
+    all.extend(check::definitions());
+    all.extend(columns::VALIDATE.definitions());
+    all.extend(report::<stickslip_realtime::Report>("realtime.json"));
+    all
+}
+
+/// Whether anything has a name: what is called so, else what holds others by that name, else symbols and states, which are names of
+/// nothing.
+fn explain_one(name: &str, all: &[Definition]) -> bool {
+    let print = |fits: &dyn Fn(&Definition) -> bool| {
+        let found = all.iter().filter(|definition| fits(definition));
+        found.map(|one| say(format_args!("{}  {}\n    {}", one.file, one.name, one.text))).count() > 0
+    };
+    let mut found = print(&|definition| definition.is(name));
+    for (path, text) in explained(name) {
+        found = true;
+        say(format_args!("scenario  {path}\n    {text}"));
+    }
+    found = found
+        || print(&|definition| definition.is_within(name))
+        || print(&|definition| definition.has_symbol(name))
+        || print(&|definition| definition.says(name));
+    if !found {
+        let known = all.iter().filter_map(|definition| definition.name.rsplit('.').next());
+        let help = suggestion(name, known).filter(|help| help.starts_with("did you mean"));
+        let help = help.unwrap_or_else(|| {
+            "stickslip explain lists columns and figures, stickslip schema the keys of scenarios".to_owned()
+        });
+        complain(format_args!("nothing is called \"{}\"\n   help: {help}", name.escape_debug()));
+    }
+    found
 }

@@ -2,6 +2,7 @@
 
 use crate::job::Job;
 use crate::parts::Parts;
+use schemars::JsonSchema;
 use serde::Serialize;
 use stickslip_contact::Interface;
 use stickslip_drive::facts;
@@ -9,91 +10,96 @@ use stickslip_drive::scene::Side;
 use stickslip_quantity::Real;
 
 /// A contact.
-#[derive(Debug, Serialize)]
+#[derive(Debug, Serialize, JsonSchema)]
 pub struct ContactInfo {
-    /// First and second body.
+    /// first and second body
     pub between: [String; 2],
-    /// Names of their materials.
+    /// names of their materials
     pub materials: [String; 2],
-    /// The profile, in words.
+    /// word for the profile
     pub profile: String,
-    /// Number of identical contacts.
+    /// number of identical contacts
     pub count: u32,
-    /// E*, Pa.
+    /// E*, effective modulus: 1/E* = (1-ν₁²)/E₁ + (1-ν₂²)/E₂ (4.13)
     #[serde(rename = "normal_modulus_Pa")]
     pub normal_modulus: Real,
-    /// G*, Pa.
+    /// G*, effective shear modulus: 1/G* = (2-ν₁)/(4G₁) + (2-ν₂)/(4G₂), G = E/(2(1+ν)) (4.13)
     #[serde(rename = "tangential_modulus_Pa")]
     pub tangential_modulus: Real,
-    /// Dundurs' β, [(1-2ν₁)/G₁ - (1-2ν₂)/G₂] / [2(1-ν₁)/G₁ + 2(1-ν₂)/G₂] (Dundurs, J. Appl. Mech. 36, 650, 1969).
+    /// β = [(1-2ν₁)/G₁ - (1-2ν₂)/G₂] / [2(1-ν₁)/G₁ + 2(1-ν₂)/G₂]; 0 of similar bodies (Dundurs 1969)
     pub dundurs_beta: Real,
-    /// Whether β is 0, which makes the theory exact.
+    /// whether β is 0, which makes the theory exact
     pub elastically_similar: bool,
-    /// By how much of itself the normal stiffness at a given contact radius is too low if nothing slips: artanh(β)/β - 1.
+    /// artanh(β)/β - 1, by how much of itself the normal stiffness at a given radius is too low at most, [derived
+    /// here](figures.md#similarity)
     pub neglected_stiffness: Real,
-    /// What β means for the results, in words.
+    /// both in words
     pub similarity: String,
-    /// μ.
+    /// μ, coefficient of friction
     pub friction: Real,
-    /// κ = μE*/G*.
+    /// κ = μE*/G*, displacement per height of the memory curve: u_c = κd
     pub stick_slope: Real,
     /// At t = 0.
+    #[schemars(extend("x-name" = "LOAD"))]
     pub start: Pressed,
     /// At the smallest indentation of a load that varies.
     #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("x-name" = "LOAD"))]
     pub least: Option<Pressed>,
     /// At the largest.
     #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("x-name" = "LOAD"))]
     pub most: Option<Pressed>,
 }
 
 /// What depends on the indentation. Forces, radius and pressure are those of one contact, stiffnesses of all `count`.
-#[derive(Debug, Serialize)]
+#[derive(Debug, Serialize, JsonSchema)]
 pub struct Pressed {
-    /// F_N of one contact.
+    /// F_N, normal force of one contact: 2E*∫₀^a (d - g(x)) dx (4.26)
     #[serde(rename = "normal_force_N")]
     pub normal_force: Real,
-    /// d; negative: open.
+    /// d, indentation; below 0 the contact is open
     #[serde(rename = "indentation_m")]
     pub indentation: Real,
-    /// a.
+    /// a, contact radius, where g(a) = d (4.26)
     #[serde(rename = "contact_radius_m")]
     pub radius: Real,
-    /// Infinite at tips and edges; none for a list of springs.
+    /// p_max, largest pressure; infinite at tips and edges, not told of a list of springs
     #[serde(rename = "peak_pressure_Pa", skip_serializing_if = "Option::is_none")]
     pub peak_pressure: Option<Real>,
-    /// u_c = κd.
+    /// u_c = κd, where gross slip of a first loading begins (4.28)
     #[serde(rename = "gross_slip_displacement_m")]
     pub gross_slip: Real,
-    /// S₀ of the quasi-static, damped limit without load.
+    /// S₀, stroke up to which an ideal drive makes no step: flyback in no time, slow way back, all ringing damped, no load on
+    /// the slider
     #[serde(rename = "zero_step_stroke_m")]
     pub zero_step_stroke: Real,
     /// What the constant load on the slider makes of it.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub loaded: Option<Loaded>,
-    /// μF_N of all contacts.
+    /// μF_N, what all count contacts hold at most without damping; the stuck springs of a damped one bear βG*ṡ beside G*s
     #[serde(rename = "limit_force_N")]
     pub limit_force: Real,
-    /// ∂F_x/∂u of all contacts in full stick; 0 without friction.
+    /// ∂F_x/∂u of all count contacts where all of them sticks: count · 2G*a
     #[serde(rename = "tangential_stiffness_N_m")]
     pub tangential_stiffness: Real,
-    /// ∂F_N/∂d of all contacts.
+    /// ∂F_N/∂d of all count contacts: count · 2E*a
     #[serde(rename = "normal_stiffness_N_m")]
     pub normal_stiffness: Real,
-    /// Of the stuck contacts alone between their two bodies; none where neither is free.
+    /// √(k/m)/2π, with k the tangential stiffness and m the reduced mass of its two bodies; not told where neither is free
     #[serde(rename = "contact_resonance_Hz", skip_serializing_if = "Option::is_none")]
     pub resonance: Option<Real>,
 }
 
 /// A constant load on a body that depends on one contact only.
-#[derive(Debug, Clone, Copy, Serialize)]
+#[derive(Debug, Clone, Copy, Serialize, JsonSchema)]
 pub struct Loaded {
-    /// Loads and gravity along x.
+    /// constant loads and gravity along x on the slider, where it has no other contact
     #[serde(rename = "force_N")]
     pub force: Real,
-    /// |force|/μF_N.
+    /// its magnitude over μF_N of all count contacts
     pub share: Real,
-    /// S₀ where the load opposes the steps; none where the contact does not hold it.
+    /// S₀ where this load opposes the steps; not told where the contact does not hold it
     #[serde(rename = "zero_step_stroke_m", skip_serializing_if = "Option::is_none")]
     pub zero_step_stroke: Option<Real>,
 }

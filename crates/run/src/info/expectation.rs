@@ -3,6 +3,7 @@
 use crate::job::Job;
 use crate::kept::draws_from_series;
 use crate::selection::expected;
+use schemars::JsonSchema;
 use serde::Serialize;
 use stickslip_drive::facts::{ExpectedEvents, fixed_steps, rows};
 use stickslip_measure::Series;
@@ -19,33 +20,33 @@ const BASE: f64 = 20e6;
 const OVERHEAD: f64 = 1.6;
 
 /// What a run to its end is expected to write and to hold.
-#[derive(Debug, Serialize)]
+#[derive(Debug, Serialize, JsonSchema)]
 pub struct Expectation {
-    /// Steps of a stepper at fixed step.
+    /// steps of a stepper of fixed step
     #[serde(skip_serializing_if = "Option::is_none")]
     pub steps: Option<Real>,
     /// Events.
     pub events: Events,
-    /// Rows of the trace.
+    /// rows of trace.csv
     pub rows: Real,
-    /// Columns of the trace.
+    /// its columns
     pub columns: usize,
-    /// Size of `trace.csv`, B.
+    /// about the size of trace.csv, in bytes
     #[serde(rename = "trace_B")]
     pub trace: Real,
-    /// Size of `events.csv`, B.
+    /// about the size of events.csv, in bytes
     #[serde(rename = "events_B")]
     pub events_file: Real,
-    /// Lines of `springs.csv`.
+    /// lines of springs.csv
     #[serde(skip_serializing_if = "Option::is_none")]
     pub spring_lines: Option<Real>,
-    /// Size of `springs.csv`, B.
+    /// about its size, in bytes
     #[serde(rename = "springs_B", skip_serializing_if = "Option::is_none")]
     pub springs_file: Option<Real>,
-    /// Curves in `memory.csv`; an open contact has none.
+    /// curves in memory.csv; an open contact has none
     #[serde(skip_serializing_if = "Option::is_none")]
     pub memory_curves: Option<Real>,
-    /// Lines of `fields.csv`, and of `friction.csv`.
+    /// lines of fields.csv, and of friction.csv
     #[serde(skip_serializing_if = "Option::is_none")]
     pub field_lines: Option<Real>,
     /// Events in `events.csv`, estimated.
@@ -54,17 +55,17 @@ pub struct Expectation {
     /// What of it grows with the run: rows and events that pictures are drawn from, B.
     #[serde(skip)]
     pub(crate) kept: Real,
-    /// Memory that the program takes, B.
+    /// about the memory that the program takes, in bytes
     #[serde(rename = "memory_B")]
     pub memory: Real,
 }
 
 /// Events of the whole run.
-#[derive(Debug, Serialize)]
+#[derive(Debug, Serialize, JsonSchema)]
 pub struct Events {
-    /// Corners of waveforms, counted.
+    /// corners of waveforms: those of a period times the periods, whole or not
     pub corners: Real,
-    /// Events of contacts, estimated: within a factor of two on the examples, a guess elsewhere.
+    /// events of contacts and blocks, estimated: to a factor of two on the examples, elsewhere a guess
     pub contacts_estimate: Real,
     /// All in a period of the waveform of `figures`, on the average.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -72,11 +73,11 @@ pub struct Events {
 }
 
 /// Events in a period.
-#[derive(Debug, Serialize)]
+#[derive(Debug, Serialize, JsonSchema)]
 pub struct PerPeriod {
-    /// Name of the waveform.
+    /// the waveform of `figures`
     pub waveform: String,
-    /// How many, estimated.
+    /// all events in a period of it, on the average
     pub estimate: Real,
 }
 

@@ -2,6 +2,7 @@
 
 use crate::job::Job;
 use crate::parts::Parts;
+use schemars::JsonSchema;
 use serde::Serialize;
 use stickslip_drive::Waveform;
 use stickslip_drive::facts::{self, Follower, Mode, followers};
@@ -9,17 +10,18 @@ use stickslip_drive::scene::{Axis, Coordinate, Freedom, Scene};
 use stickslip_quantity::Real;
 
 /// A body.
-#[derive(Debug, Serialize)]
+#[derive(Debug, Serialize, JsonSchema)]
 pub struct BodyInfo {
-    /// Mass; none of a body that needs none.
+    /// m, mass; not told of a body that needs none
     #[serde(rename = "mass_kg", skip_serializing_if = "Option::is_none")]
     pub mass: Option<Real>,
     /// What each coordinate does, by name.
+    #[schemars(extend("x-name" = "AXIS"))]
     pub coordinates: Parts<Freed>,
 }
 
-/// What a coordinate does, in the scenario's words.
-#[derive(Debug, Serialize)]
+/// what `x`, `z` and `pitch` do: `fixed`, `free` (by an equation of motion), `balanced` (where forces balance, without mass)
+#[derive(Debug, Serialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Freed {
     /// Stays where it was drawn.
@@ -28,41 +30,43 @@ pub enum Freed {
     Free,
     /// Has no mass and is where forces balance.
     Balanced,
-    /// Follows this waveform.
+    /// the waveform that the coordinate follows
     Follows(String),
 }
 
 /// A waveform.
-#[derive(Debug, Serialize)]
+#[derive(Debug, Serialize, JsonSchema)]
 pub struct WaveformInfo {
-    /// Period; none of a waveform that does not repeat.
+    /// T, period; not told of what does not repeat
     #[serde(rename = "period_s", skip_serializing_if = "Option::is_none")]
     pub period: Option<Real>,
-    /// Smallest and largest frequency that may be commanded; none of a waveform that nobody commands.
+    /// smallest and largest frequency that may be commanded of a generator
     #[serde(rename = "commanded_Hz", skip_serializing_if = "Option::is_none")]
     pub commanded: Option<[Real; 2]>,
-    /// Smallest and largest value over all time, where it drives lengths …
+    /// smallest and largest value over all time, where it drives lengths
     #[serde(rename = "range_m", skip_serializing_if = "Option::is_none")]
     pub lengths: Option<[Real; 2]>,
-    /// … and where it drives forces.
+    /// smallest and largest value over all time, where it drives forces
     #[serde(rename = "range_N", skip_serializing_if = "Option::is_none")]
     pub forces: Option<[Real; 2]>,
-    /// What follows it.
+    /// what follows it
     pub drives: Vec<String>,
 }
 
 /// A normal mode with all contacts stuck.
-#[derive(Debug, Serialize)]
+#[derive(Debug, Serialize, JsonSchema)]
 pub struct ModeInfo {
-    /// With all contacts as deep as at t = 0; 0: nothing holds this motion.
+    /// frequency of a normal mode with all contacts stuck, as deep as at t = 0; 0: nothing holds this motion
     #[serde(rename = "frequency_Hz")]
     pub frequency: Real,
-    /// Of the mode of this place with all contacts at their smallest and largest indentation, where loads vary.
+    /// of the mode of this place at the smallest and the largest indentations, where loads vary
     #[serde(rename = "frequency_range_Hz", skip_serializing_if = "Option::is_none")]
     pub range: Option<[Real; 2]>,
-    /// Share of critical damping.
+    /// share of critical damping, φᵀCφ/(2ω φᵀMφ) of the undamped shape φ: exact where damping does not couple the modes, else
+    /// an estimate, which may be above 1
     pub damping_ratio: Real,
-    /// Displacements of the coordinates, the largest 1.
+    /// displacements in the mode, the largest of them 1
+    #[schemars(extend("x-name" = "COORDINATE"))]
     pub shape: Parts<Real>,
 }
 

@@ -2,6 +2,7 @@
 
 use crate::job::Job;
 use crate::parts::Parts;
+use schemars::JsonSchema;
 use serde::Serialize;
 use stickslip_drive::Waveform;
 use stickslip_drive::facts::zero_step_stroke;
@@ -16,33 +17,33 @@ use stickslip_scenario::{Ceramic, Piezo};
 const WHOLE: f64 = 2e-3;
 
 /// A stack.
-#[derive(Debug, Serialize)]
+#[derive(Debug, Serialize, JsonSchema)]
 pub struct PiezoInfo {
-    /// k; of a stack under charge control with the charge of strain k/(1 - kα²/C).
+    /// k, given or blocking force over stroke of the data sheet; k/(1 - kα²/C) of a reciprocal stack under charge control
     #[serde(rename = "stiffness_N_m")]
     pub stiffness: Real,
-    /// c.
+    /// c, given or √(k m)/Q with m the mass that it moves
     #[serde(rename = "damping_N_s_m")]
     pub damping: Real,
-    /// Quality factor that c was derived from, where the scenario does not give it.
+    /// Q, from which c follows where the scenario gives none
     #[serde(skip_serializing_if = "Option::is_none")]
     pub quality: Option<Real>,
-    /// Its own mass, where anything tells it …
+    /// its own mass, given or k/(2f)² of the resonance with both ends free
     #[serde(rename = "mass_kg", skip_serializing_if = "Option::is_none")]
     pub mass: Option<Real>,
-    /// … and what of it has been added to the bodies at its ends.
+    /// what of it has been added to the bodies at its ends
     #[serde(rename = "ends_kg", skip_serializing_if = "Option::is_none")]
     pub ends: Option<[Real; 2]>,
-    /// α.
+    /// α, given or stroke over voltage of the data sheet
     #[serde(rename = "stroke_per_volt_m_V", skip_serializing_if = "Option::is_none")]
     pub stroke_per_volt: Option<Real>,
-    /// C.
+    /// C, capacitance
     #[serde(rename = "capacitance_F", skip_serializing_if = "Option::is_none")]
     pub capacitance: Option<Real>,
-    /// Smallest step of its driver as a stroke.
+    /// smallest step of its driver as a stroke
     #[serde(rename = "resolution_m", skip_serializing_if = "Option::is_none")]
     pub resolution: Option<Real>,
-    /// kα²/C: what the charge that strain makes, left out unless the driver is `reciprocal`, comes to, as a part of the electrical energy.
+    /// kα²/C: share of the electrical energy that the charge of strain comes to, left out unless the driver is reciprocal
     #[serde(skip_serializing_if = "Option::is_none")]
     pub coupling: Option<Real>,
     /// What it is commanded.
@@ -50,46 +51,46 @@ pub struct PiezoInfo {
     /// Where a driver is asked for most.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub corner: Option<CornerInfo>,
-    /// What of that is worth a sentence.
+    /// what of this is worth a sentence
     pub words: Vec<String>,
 }
 
 /// What a stack is commanded, and what of it is left.
-#[derive(Debug, Serialize)]
+#[derive(Debug, Serialize, JsonSchema)]
 pub struct CommandInfo {
-    /// Smallest and largest free stroke.
+    /// smallest and largest free stroke that is commanded
     #[serde(rename = "stroke_m")]
     pub stroke: [Real; 2],
-    /// Smallest and largest voltage.
+    /// smallest and largest voltage that is commanded
     #[serde(rename = "voltage_V", skip_serializing_if = "Option::is_none")]
     pub voltage: Option<[Real; 2]>,
-    /// Force against a wall over all of the stroke.
+    /// k times the largest stroke: force against a wall
     #[serde(rename = "blocking_force_N")]
     pub blocking_force: Real,
-    /// What the driver leaves of the stroke when periods repeat, to about a thousandth of it.
+    /// what its driver leaves of the stroke when periods repeat, about
     #[serde(rename = "left_m", skip_serializing_if = "Option::is_none")]
     pub left: Option<[Real; 2]>,
 }
 
 /// The part of a period that asks most of the driver's current.
-#[derive(Debug, Serialize)]
+#[derive(Debug, Serialize, JsonSchema)]
 pub struct CornerInfo {
-    /// From when to when in the period.
+    /// the part of a period that asks most of the driver's current
     #[serde(rename = "between_s")]
     pub between: [Real; 2],
-    /// From which voltage to which.
+    /// voltages at its ends
     #[serde(rename = "voltage_V")]
     pub voltage: [Real; 2],
-    /// Current that it needs; null: a jump.
+    /// current C·|dV/dt| that it needs; null of a jump
     #[serde(rename = "needed_A")]
     pub needed: Real,
-    /// Current that there is; none without a limit.
+    /// current that there is
     #[serde(rename = "available_A", skip_serializing_if = "Option::is_none")]
     pub available: Option<Real>,
-    /// Rate of the voltage that there is.
+    /// I/C, the rate of the voltage that there is
     #[serde(rename = "slew_V_s", skip_serializing_if = "Option::is_none")]
     pub slew: Option<Real>,
-    /// Time that all of that change takes with it; none where the rate is that of one moment.
+    /// time that all of that change takes with it
     #[serde(rename = "takes_s", skip_serializing_if = "Option::is_none")]
     pub takes: Option<Real>,
 }

@@ -1,37 +1,39 @@
 //! How time is stepped, and what fixed steps could be.
 
 use crate::job::Job;
+use schemars::JsonSchema;
 use serde::Serialize;
 use stickslip_drive::Stepper;
 use stickslip_quantity::Real;
 
 /// How time is stepped, and what fixed steps could be.
-#[derive(Debug, Serialize)]
+#[derive(Debug, Serialize, JsonSchema)]
 pub struct Stepping {
-    /// Name of the stepper that the run takes.
+    /// the stepper that the run takes
     pub stepper: &'static str,
-    /// Its tolerance, …
+    /// its tolerance: local error per step, relative to the scales of the contacts
     #[serde(skip_serializing_if = "Option::is_none")]
     pub tolerance: Option<Real>,
-    /// … or its step.
+    /// its step, where that is fixed; the longest of a frame
     #[serde(rename = "step_s", skip_serializing_if = "Option::is_none")]
     pub step: Option<Real>,
-    /// Of frames, their length, …
+    /// length of a frame, of the stepper `frames`
     #[serde(rename = "frame_s", skip_serializing_if = "Option::is_none")]
     pub frame: Option<Real>,
-    /// … and the steps that a frame takes, without those that corners and contacts add.
+    /// steps that a frame takes without those that corners and contacts add
     #[serde(skip_serializing_if = "Option::is_none")]
     pub substeps: Option<Real>,
-    /// Simulated time.
+    /// simulated time
     #[serde(rename = "duration_s")]
     pub duration: Real,
-    /// Largest change of a step, relative, at which the run ends earlier.
+    /// largest relative change of a step at which the run ends earlier
     #[serde(skip_serializing_if = "Option::is_none")]
     pub until_steady: Option<Real>,
-    /// Longest stable step of velocity Verlet with all contacts stuck and as deep as they get; none where nothing swings.
+    /// longest stable step of velocity Verlet: 2/ω of the fastest mode with all contacts stuck and as deep as they get, or RC
+    /// of a driver
     #[serde(rename = "longest_verlet_step_s", skip_serializing_if = "Option::is_none")]
     pub longest_verlet: Option<Real>,
-    /// The same of the classical Runge–Kutta method.
+    /// the same of the classical Runge–Kutta method: 2√2/ω without damping, or 2.785·RC
     #[serde(rename = "longest_rk4_step_s", skip_serializing_if = "Option::is_none")]
     pub longest_rk4: Option<Real>,
 }

@@ -2,12 +2,13 @@
 
 use super::name;
 use crate::Job;
+use schemars::JsonSchema;
 use serde::Serialize;
 use stickslip_drive::scene::{Body, EngineChoice, Freedom, Named, Side};
 use stickslip_drive::{Expected, Method, Pressing, Treatment, Why};
 
 /// What is computed and what is not.
-#[derive(Debug, Default, Serialize)]
+#[derive(Debug, Default, Serialize, JsonSchema)]
 pub struct Usage {
     /// What a run computes.
     pub used: Vec<Item>,
@@ -16,14 +17,14 @@ pub struct Usage {
 }
 
 /// Something of these parts, and why it is computed or not.
-#[derive(Debug, Serialize)]
+#[derive(Debug, Serialize, JsonSchema)]
 pub struct Item {
-    /// What it is.
+    /// what a run computes
     pub what: &'static str,
+    /// of which parts of the scene; not told of the whole
     #[serde(skip_serializing_if = "Vec::is_empty")]
-    /// Of which parts of the scene; none where it is of the whole.
     pub of: Vec<String>,
-    /// Why.
+    /// why, or how
     pub why: String,
 }
 

@@ -1,13 +1,14 @@
 //! Stress and displacement under the contacts, and where friction works: `fields.csv` and `friction.csv`.
 
 use super::state_name;
-use crate::files::{FIELD_HEAD, FIELDS, FRICTION, FRICTION_HEAD};
 use crate::folder::Folder;
 use crate::job::Job;
 use crate::sheet::{Sheet, Written};
 use crate::theory::BEYOND;
 use std::io;
 use stickslip_contact::{Fields, FrictionMap, Interface, Memory, Segment};
+use stickslip_quantity::Columns;
+use stickslip_quantity::columns::{FIELDS, FRICTION};
 use stickslip_scenario::FieldsOutput;
 
 /// The two tables.
@@ -30,8 +31,8 @@ struct Followed<'a> {
 impl<'a> FieldTables<'a> {
     /// Opens the tables.
     pub(super) fn new(job: &'a Job, asked: &FieldsOutput, folder: &Folder) -> io::Result<Self> {
-        let open = |name: &str, head: &[&str]| {
-            Ok::<_, io::Error>(Sheet::new(folder.draft(name)?, head.iter().copied()))
+        let open = |table: Columns| {
+            Ok::<_, io::Error>(Sheet::new(folder.draft(table.file)?, table.names.iter().copied()))
         };
         let contacts = job.model.contacts().zip(job.start.memories()).enumerate();
         let follow = |(c, ((name, law), memory)): (usize, ((&'a str, &'a Interface), &Memory))| {
@@ -41,7 +42,7 @@ impl<'a> FieldTables<'a> {
             Followed { name, law, memory: memory.clone(), map: radii.map(FrictionMap::new) }
         };
         let contacts = contacts.map(follow).collect();
-        Ok(Self { contacts, fields: open(FIELDS, FIELD_HEAD)?, friction: open(FRICTION, FRICTION_HEAD)? })
+        Ok(Self { contacts, fields: open(FIELDS)?, friction: open(FRICTION)? })
     }
 
     /// Takes a path of contact `c`.
@@ -88,7 +89,7 @@ impl<'a> FieldTables<'a> {
 
     /// Closes the tables.
     pub(super) fn finish(self) -> io::Result<[(&'static str, Written); 2]> {
-        Ok([(FIELDS, self.fields.finish()?), (FRICTION, self.friction.finish()?)])
+        Ok([(FIELDS.file, self.fields.finish()?), (FRICTION.file, self.friction.finish()?)])
     }
 }
 

@@ -4,6 +4,7 @@ use super::fretting::Fretting;
 use crate::job::Job;
 use crate::outcome::Outcome;
 use crate::parts::Parts;
+use schemars::JsonSchema;
 use serde::Serialize;
 use stickslip_contact::Interface;
 use stickslip_drive::NaturalScale;
@@ -11,25 +12,30 @@ use stickslip_measure::tally::ContactTally;
 use stickslip_quantity::Real;
 
 /// A contact. Forces and work are those of all identical contacts together unless they say otherwise.
-#[derive(Debug, Serialize)]
+#[derive(Debug, Serialize, JsonSchema)]
 pub struct ContactSummary {
-    /// Number of identical contacts.
+    /// number of identical contacts
     count: u32,
-    /// Displacement at which gross slip starts, at t = 0.
+    /// u_c = μE*d/G* at t = 0: the displacement at which the last spring of a first loading slips
     #[serde(rename = "gross_slip_displacement_m")]
     gross_slip_displacement: Real,
     /// What the stepper's tolerance is relative to.
     scales: Scales,
-    /// Loads at t = 0.
+    /// Loads of one contact at t = 0.
     one: Load,
+    /// Loads of all of them.
     all: Load,
+    /// largest |F_x| of all count contacts at rows, events and ends of periods; of a damped contact, or under a load that
+    /// varies, its peak may lie between them
     #[serde(rename = "peak_fx_N")]
     peak_tangential: Real,
+    /// largest F_N of all of them during the run
     #[serde(rename = "peak_fn_N")]
     peak_normal: Real,
     /// Of a coupled contact.
     #[serde(skip_serializing_if = "Option::is_none")]
     normal: Option<NormalMotion>,
+    /// friction work of all count contacts during the run
     #[serde(rename = "friction_J")]
     friction: Real,
     similarity: SimilaritySummary,
@@ -39,49 +45,50 @@ pub struct ContactSummary {
 }
 
 /// How far the theory holds for the two bodies.
-#[derive(Debug, Serialize)]
+#[derive(Debug, Serialize, JsonSchema)]
 struct SimilaritySummary {
-    /// Dundurs' β; 0 for elastically similar bodies.
+    /// β = [(1-2ν₁)/G₁ - (1-2ν₂)/G₂] / [2(1-ν₁)/G₁ + 2(1-ν₂)/G₂]; 0 of similar bodies
     dundurs_beta: Real,
-    /// By how much of itself the normal stiffness at a given contact radius is too low if nothing slips.
+    /// artanh(β)/β - 1, by how much of itself the normal stiffness is too low at most
     neglected_stiffness: Real,
-    /// What that means, in words.
+    /// both in words
     means: String,
 }
 
-#[derive(Debug, Serialize)]
+#[derive(Debug, Serialize, JsonSchema)]
 struct Load {
+    /// F_N at t = 0: of one contact, or of all count of them
     #[serde(rename = "normal_force_N")]
     normal: Real,
-    /// μF_N.
+    /// μF_N at t = 0, of the same
     #[serde(rename = "limit_force_N")]
     limit: Real,
 }
 
 /// Natural scales at the deepest indentation that the scenario names.
-#[derive(Debug, Serialize)]
+#[derive(Debug, Serialize, JsonSchema)]
 struct Scales {
-    /// u_c.
+    /// the length that the stepper's tolerance is relative to: u_c of the largest load known
     #[serde(rename = "displacement_m")]
     displacement: Real,
-    /// μF_N.
+    /// the force that it is relative to: μF_N of that load, of all count contacts
     #[serde(rename = "force_N")]
     force: Real,
-    /// u_c ω.
+    /// the velocity that both make with the mass that moves
     #[serde(rename = "velocity_m_s")]
     velocity: Real,
 }
 
 /// What the bodies' motion does to a contact along the normal, over all rows and events.
-#[derive(Debug, PartialEq, Serialize)]
+#[derive(Debug, PartialEq, Serialize, JsonSchema)]
 struct NormalMotion {
-    /// Least and largest normal force.
+    /// smallest and largest F_N of a coupled contact
     #[serde(rename = "fn_N")]
     force: [Real; 2],
-    /// Least and largest indentation; negative: open.
+    /// smallest and largest d of it
     #[serde(rename = "d_m")]
     indentation: [Real; 2],
-    /// Share of the time in which the contact is open.
+    /// share of the time in which it is open
     open_share: Real,
 }
 

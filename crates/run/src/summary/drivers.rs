@@ -2,21 +2,22 @@
 
 use crate::job::Job;
 use crate::parts::Parts;
+use schemars::JsonSchema;
 use serde::Serialize;
 use stickslip_drive::State;
 use stickslip_piezo::Figures;
 use stickslip_quantity::Real;
 
 /// What a driver has done.
-#[derive(Debug, Serialize)]
+#[derive(Debug, Serialize, JsonSchema)]
 pub struct DriverSummary {
-    /// Energy that its source gave where it gave any: what came back is not taken off.
+    /// energy that the driver's source gave wherever it gave any; what came back is not taken off
     #[serde(rename = "drawn_J")]
     drawn: Real,
-    /// Largest |I|.
+    /// largest |I|, at the ends of steps, within short ones behind a resistance or a bandwidth, and after jumps
     #[serde(rename = "peak_current_A")]
     peak_current: Real,
-    /// Mean of |I|.
+    /// mean of |I|, C times the way of the voltage over the time
     #[serde(rename = "mean_current_A")]
     mean_current: Real,
     /// Shares of the time at each limit.
@@ -24,11 +25,15 @@ pub struct DriverSummary {
 }
 
 /// Shares of the time at each limit.
-#[derive(Debug, Serialize)]
+#[derive(Debug, Serialize, JsonSchema)]
 struct Shares {
+    /// share of the time at the largest current into the stack
     current_up: Real,
+    /// share of the time at the largest current out of it
     current_down: Real,
+    /// share of the time with the command below the window
     window_low: Real,
+    /// share of the time with the command above it
     window_high: Real,
 }
 

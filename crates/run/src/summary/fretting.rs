@@ -1,77 +1,83 @@
 //! Fretting loops.
 
+use schemars::JsonSchema;
 use serde::Serialize;
 use stickslip_measure::contact_cycles::{ContactCycles, JudgedCycle};
 use stickslip_quantity::Real;
 
 /// The last cycle of a contact that comes back along u.
-#[derive(Debug, Serialize)]
+#[derive(Debug, Serialize, JsonSchema)]
 pub struct Fretting {
-    /// Number of whole cycles.
+    /// number of whole cycles; what follows is of the last
     cycles: usize,
-    /// Start and end of the last.
+    /// its start and end
     #[serde(rename = "cycle_s")]
     cycle: [Real; 2],
-    /// Whether its force comes back as well: only then is it a loop, with ratios and a regime.
+    /// whether F_x comes back within a hundredth of its range: only then it is a loop
     pub closed: bool,
-    /// δ*, half of peak to peak.
+    /// δ* = (u_max - u_min)/2
     #[serde(rename = "displacement_amplitude_m")]
     displacement_amplitude: Real,
-    /// Q*, half of peak to peak.
+    /// Q* = (F_max - F_min)/2
     #[serde(rename = "force_amplitude_N")]
     force_amplitude: Real,
-    /// δ₀, half opening at the middle of the force's range: at F_x = 0 of a loop about that.
+    /// δ₀, half of the way between the places where F_x passes the middle of its range
     #[serde(rename = "half_opening_m", skip_serializing_if = "Option::is_none")]
     half_opening: Option<Real>,
-    /// E_d, all that the contact loses in the cycle, to friction and to its damping; none where damping's part is not known.
+    /// E_d, all that the contact loses in the cycle: friction work, and of a damped contact what its damping takes; not told
+    /// where other parts lose energy as well, for their share is not told apart
     #[serde(rename = "dissipated_J", skip_serializing_if = "Option::is_none")]
     pub dissipated: Option<Real>,
-    /// Friction's part of that, of a damped contact.
+    /// friction's part of E_d, of a damped contact
     #[serde(rename = "friction_J", skip_serializing_if = "Option::is_none")]
     friction: Option<Real>,
-    /// Damping's part, of a damped contact; none where other parts lose energy as well, from whose share it is not told apart.
+    /// damping's part of E_d, of a damped contact
     #[serde(rename = "damping_J", skip_serializing_if = "Option::is_none")]
     pub damping: Option<Real>,
-    /// A = E_d/E_t.
+    /// A = E_d/(4Q*δ*)
     #[serde(skip_serializing_if = "Option::is_none")]
     energy_ratio: Option<Real>,
-    /// B = E_d/(4Q*δ₀).
+    /// B = E_d/(4Q*δ₀); not told where δ₀ is rounding, as in full stick
     #[serde(skip_serializing_if = "Option::is_none")]
     system_free_ratio: Option<Real>,
-    /// D = δ₀/δ*.
+    /// D = δ₀/δ*
     #[serde(skip_serializing_if = "Option::is_none")]
     slip_ratio: Option<Real>,
-    /// μ_e = E_d/(4Pδ₀), P the mean normal force.
+    /// μ_e = E_d/(4Pδ₀), P the mean normal force; not told where δ₀ is rounding
     #[serde(skip_serializing_if = "Option::is_none")]
     energy_coefficient_of_friction: Option<Real>,
-    /// Tangential stiffness of the contact right after the reversal at the largest u, where all of it sticks.
+    /// tangent right after the reversal at the largest u: count · 2G*a
     #[serde(rename = "stiffness_after_maximum_N_m", skip_serializing_if = "Option::is_none")]
     stiffness_after_maximum: Option<Real>,
-    /// The same at the smallest u.
+    /// the same at the smallest u
     #[serde(rename = "stiffness_after_minimum_N_m", skip_serializing_if = "Option::is_none")]
     stiffness_after_minimum: Option<Real>,
-    /// Secant over the first tenth of the displacement range after the largest u, which slip has softened.
+    /// secant over the first tenth of the way back from the largest u
     #[serde(rename = "secant_after_maximum_N_m", skip_serializing_if = "Option::is_none")]
     secant_after_maximum: Option<Real>,
-    /// The same after the smallest u.
+    /// the same from the smallest u
     #[serde(rename = "secant_after_minimum_N_m", skip_serializing_if = "Option::is_none")]
     secant_after_minimum: Option<Real>,
     /// A, B and D of this profile at the limit between partial and gross slip on a rigid rig; only under a constant load and
     /// without damping.
     #[serde(skip_serializing_if = "Option::is_none")]
     thresholds: Option<Limits>,
-    /// "gross" where its force comes both ways to the limit of friction, "stick" or "partial".
+    /// `still` where u moves by no more than can be told from rest, `gross` where F_x comes both ways to the limit of friction,
+    /// `stick` where A is below 5e-4, else `partial`; but for `still` of a loop under a constant load without damping
     #[serde(skip_serializing_if = "Option::is_none")]
     pub regime: Option<&'static str>,
 }
 
 /// Where gross slip begins.
-#[derive(Debug, Serialize)]
+#[derive(Debug, Serialize, JsonSchema)]
 struct Limits {
+    /// A of this profile where gross slip begins, on a rigid rig
     #[serde(skip_serializing_if = "Option::is_none")]
     energy_ratio: Option<Real>,
+    /// B there; B of small loops is near 2/3 on any smooth profile, above the threshold of a worn one
     #[serde(skip_serializing_if = "Option::is_none")]
     system_free_ratio: Option<Real>,
+    /// D there
     #[serde(skip_serializing_if = "Option::is_none")]
     slip_ratio: Option<Real>,
 }

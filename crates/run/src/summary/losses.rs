@@ -3,6 +3,7 @@
 use super::period::Way;
 use crate::job::Job;
 use crate::outcome::Outcome;
+use schemars::JsonSchema;
 use serde::Serialize;
 use stickslip_drive::scene::Side;
 use stickslip_measure::foot::Foot;
@@ -12,16 +13,19 @@ use stickslip_quantity::Real;
 const SAME: f64 = 1e-3;
 
 /// What a step loses.
-#[derive(Debug, Serialize)]
+#[derive(Debug, Serialize, JsonSchema)]
 pub struct Losses {
-    /// `back_step_m` over |step| + `back_step_m`: the share of the body's forward motion that it falls back by. None where the step is 0
-    /// within its error.
+    /// back-step as a share of the body's forward motion: back_step_m / (|step_m| + back_step_m); left out where the step is 0
+    /// within its error
     #[serde(skip_serializing_if = "Option::is_none")]
     pub back_step: Option<Real>,
-    /// Largest motion against the step after an extreme, within the period and its repetition, m. Without a step: peak to peak.
+    /// back-step: the largest fall of x after a maximum within a period and its repetition, counted in the direction of the
+    /// step, max x(t1) - x(t2) over t1 <= t2; without a step the peak-to-peak motion. The mean of the last periods
     #[serde(rename = "back_step_m")]
     pub back_step_length: Real,
-    /// Peak-to-peak travel of the foot over a period, less |step|, m.
+    /// lost stroke: peak-to-peak travel of the foot over the last whole period, minus |step_m|; below 0 where the step exceeds
+    /// it. Of the foot that the waveform of the figures moves, itself or by a stack; left out, with the reason in steps.why,
+    /// without one such foot and where the waveform goes back as slowly as it goes forward
     #[serde(rename = "lost_stroke_m", skip_serializing_if = "Option::is_none")]
     pub lost_stroke: Option<Real>,
 }

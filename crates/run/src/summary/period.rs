@@ -4,6 +4,7 @@ use super::losses::{self, FootMotion, Losses};
 use crate::job::Job;
 use crate::outcome::Outcome;
 use crate::parts::Parts;
+use schemars::JsonSchema;
 use serde::Serialize;
 use stickslip_drive::scene::{Scene, Varying};
 use stickslip_measure::Extreme;
@@ -13,13 +14,15 @@ use stickslip_quantity::Real;
 
 /// The last whole period of the waveform of the figures. Forth is the way on which the waveform takes longer; of two that take
 /// as long, the way of the step.
-#[derive(Debug, Serialize)]
+#[derive(Debug, Serialize, JsonSchema)]
 pub struct LastPeriod {
+    /// start of the last whole period
     #[serde(rename = "from_s")]
     from: Real,
+    /// its end
     #[serde(rename = "to_s")]
     to: Real,
-    /// How far the body came.
+    /// how far the body came in it
     #[serde(rename = "step_m")]
     pub(super) step: Real,
     /// What the step loses.
@@ -35,60 +38,64 @@ pub struct LastPeriod {
     /// Where the work of the drive went.
     pub(super) work: PeriodWork,
     /// The contacts of the body.
+    #[schemars(extend("x-name" = "CONTACT"))]
     pub(super) contacts: Parts<ContactPeriod>,
 }
 
 /// One way of the waveform.
-#[derive(Debug, Serialize)]
+#[derive(Debug, Serialize, JsonSchema)]
 pub struct Way {
-    /// How long it takes.
+    /// how long the waveform goes forth: its slower way, of two as slow that of the step, or without a step the rising one
     #[serde(rename = "time_s")]
     pub(super) time: Real,
-    /// How far the waveform goes, with its sign; none of one that is no length.
+    /// how far it goes forth, with its sign
     #[serde(rename = "stroke_m", skip_serializing_if = "Option::is_none")]
     pub(super) stroke: Option<Real>,
-    /// How far the body goes meanwhile.
+    /// how far the body goes meanwhile, and while the waveform rests
     #[serde(rename = "travel_m")]
     pub(super) travel: Real,
 }
 
 /// Work of a period: drive = load + friction + damping + stored, but for the errors of integration.
-#[derive(Debug, Serialize)]
+#[derive(Debug, Serialize, JsonSchema)]
 pub struct PeriodWork {
-    /// What the drive put in; none where a load on the body varies: it cannot be told from the drive.
+    /// what the drive put in: growth of energy.input_J, plus load_J; left out where a load varies
     #[serde(rename = "drive_J", skip_serializing_if = "Option::is_none")]
     pub(super) drive: Option<Real>,
-    /// Work against the constant loads on the body and its weight.
+    /// -F·step, work against the constant loads and the weight of the body, F their force along x
     #[serde(rename = "load_J", skip_serializing_if = "Option::is_none")]
     pub(super) load: Option<Real>,
+    /// work of friction
     #[serde(rename = "friction_J")]
     pub(super) friction: Real,
+    /// work of dampers
     #[serde(rename = "damping_J")]
     pub(super) damping: Real,
-    /// By how much kinetic and stored energy have grown.
+    /// growth of kinetic and stored energy
     #[serde(rename = "stored_J")]
     stored: Real,
-    /// Work against the load as a share of what the drive put in; none where either is not above 0.
+    /// load_J / drive_J, where both are above 0
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(super) efficiency: Option<Real>,
 }
 
 /// What a contact of the body did.
-#[derive(Debug, Serialize)]
+#[derive(Debug, Serialize, JsonSchema)]
 pub struct ContactPeriod {
-    /// Share of the way forth in which it slipped as a whole.
+    /// share of the way forth in which the contact slips as a whole
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(super) slip_share_forth: Option<Real>,
-    /// The same of the way back.
+    /// the same of the way back
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(super) slip_share_back: Option<Real>,
-    /// How often its sliding turned on the way forth.
+    /// how often u turns on the way forth, in full stick, too; out of gross slip it does not count
     pub(super) reversals_forth: u32,
-    /// From when the waveform turned forth, until the force swings by less than 5 % of the limit of friction; 0 if it never swung
-    /// by more. None if it still did at the last reversal before the waveform turned back.
+    /// from when the waveform turns forth until the force's last swing beyond 5 % of the limit of friction; left out where it
+    /// swings on
     #[serde(rename = "settling_s", skip_serializing_if = "Option::is_none")]
     pub(super) settling: Option<Real>,
-    /// The last swing on the way forth, half of peak to peak, as a share of the limit of friction.
+    /// last swing of the force on the way forth, half of peak to peak, over the limit of friction, the mean of that at both
+    /// turns of u
     pub(super) ringing_left: Real,
 }
 

@@ -7,6 +7,7 @@ use crate::job::Job;
 use crate::outcome::Outcome;
 use crate::outlook::Repetition;
 use crate::parts::Parts;
+use schemars::JsonSchema;
 use serde::Serialize;
 use stickslip_drive::Accuracy;
 use stickslip_drive::scene::{Freedom, Side, Varying};
@@ -32,34 +33,38 @@ pub(super) const NO_STEP: &str = "no step reported";
 const ROUNDING: f64 = 1e-9;
 
 /// Steps of the body named in `figures`, over the whole periods of the waveform named there.
-#[derive(Debug, Serialize)]
+#[derive(Debug, Serialize, JsonSchema)]
 pub struct DriveSummary {
+    /// the body that steps
     body: String,
+    /// the waveform whose periods make the steps
     waveform: String,
+    /// period T of the waveform
     #[serde(rename = "period_s")]
     period: Real,
-    /// Number of steps; `steps.csv` has every one of them.
+    /// number of steps, one for each whole period; steps.csv has every one of them
     periods: usize,
-    /// Length of the last.
+    /// length of the last: x at the end of its period minus x at the start
     #[serde(rename = "last_m")]
     last: Real,
-    /// Magnitude of the longest.
+    /// largest magnitude of the length of a step
     #[serde(rename = "longest_m")]
     longest: Real,
-    /// What the steps do.
+    /// `settled`, `not_settled`, `irregular`, `drifts` or `beats`: what the lengths do
     pub settling: SettlingSummary,
     /// The step that they have settled to; none where they have not.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub steady: Option<Steady>,
-    /// Way in the whole periods over their time, m/s.
+    /// way in the whole periods over their time
     #[serde(rename = "mean_speed_m_s")]
     pub mean_speed: Real,
+    /// x at the end of the run minus x at the start; what comes before and after whole periods counts
     #[serde(rename = "net_travel_m")]
     net_travel: Real,
     /// What happened in the last whole period.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub last_period: Option<LastPeriod>,
-    /// Why the last step is as long as it is, in sentences.
+    /// why the last step is as long as it is, in sentences
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub why: Vec<String>,
     /// What fixed steps promise of a step, m; none of a tolerance.
@@ -93,62 +98,65 @@ impl DriveSummary {
 }
 
 /// What the lengths of the steps do from period to period. Lengths are in m, changes and growth are those of one period.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
 #[serde(tag = "state", rename_all = "snake_case")]
 pub enum SettlingSummary {
     /// They stay what they are: the steady step says more.
     Settled,
     /// They are on their way, or too few to tell.
     NotSettled {
-        /// Last change; none of one step.
+        /// their change per period, at the end
         #[serde(skip_serializing_if = "Option::is_none")]
         change_m: Option<Real>,
-        /// Where it leads, if it goes on to fall as it does; none where that is farther than the steps have gone.
+        /// where they lead
         #[serde(skip_serializing_if = "Option::is_none")]
         limit_m: Option<Real>,
-        /// How far off that may be: by what two fits are apart, and three tenths of the way.
+        /// how far off that may be
         #[serde(skip_serializing_if = "Option::is_none")]
         limit_error_m: Option<Real>,
     },
     /// They change without a pattern, half of the last half of them by more than this to either side.
     Irregular {
-        /// Half of what lies between the longest and the shortest.
+        /// half of what lies between the longest and the shortest
         spread_m: Real,
     },
     /// They change in one direction, to no limit that could be told.
     Drifts {
-        /// Last change.
+        /// their change per period, at the end
         change_m: Real,
     },
     /// They swing about a mean.
     Beats {
-        /// Periods of the drive to a beat.
+        /// periods of a beat
         periods: Real,
-        /// By which share the beat grows, below 0 where it fades; none where that cannot be told yet.
+        /// by which share the beat grows per period; below 0 it fades
         #[serde(skip_serializing_if = "Option::is_none")]
         growth: Option<Real>,
-        /// The mean.
+        /// mean that the beat swings about
         about_m: Real,
-        /// Amplitude at the end.
+        /// its amplitude at the end
         amplitude_m: Real,
     },
 }
 
 /// The step of a drive that has settled.
-#[derive(Debug, Serialize)]
+#[derive(Debug, Serialize, JsonSchema)]
 pub struct Steady {
-    /// First period, from 0, from which every step lies within a thousandth of the limit of all.
+    /// period, from 0, from which on every step lies within a thousandth of the limit
     #[serde(rename = "from_period")]
     pub from: usize,
-    /// Number of periods averaged: those at the end that are as near to the limit as the last.
+    /// number of the last steps that the steady step is the mean of
     periods: usize,
-    /// Mean length of a step, m.
+    /// the steady step: their mean
     #[serde(rename = "step_m")]
     pub step: Real,
-    /// How far the mean of all later steps may lie from it, m.
+    /// how far the mean of all later steps may lie from it; at least as far as it is from the steady motion found directly,
+    /// where that is stable and within a thousandth, of fixed steps within a tenth; with `frames` at least what may be lost of
+    /// a stroke. What fixed steps miss by their length is not in it where no steady motion was found, nor what a tolerance
+    /// allows
     #[serde(rename = "error_m")]
     pub error: Real,
-    /// Standard deviation of the step.
+    /// standard deviation of those steps
     #[serde(rename = "repeatability_m", skip_serializing_if = "Option::is_none")]
     pub repeatability: Option<Real>,
     /// What a step loses.

@@ -2,47 +2,48 @@
 
 use super::state::contact_word;
 use super::{Subject, TheoryError};
+use schemars::JsonSchema;
 use serde::Serialize;
 use stickslip_contact::{ContactState, FirstLoading, Interface, NormalGiven, Outcome, TangentialGiven};
 use stickslip_quantity::Real;
 
 /// A first loading: two quantities given, the rest follows.
-#[derive(Debug, Clone, Serialize)]
+#[derive(Debug, Clone, Serialize, JsonSchema)]
 pub struct Loading {
-    /// d.
+    /// d, indentation of the first loading asked for
     #[serde(rename = "indentation_m")]
     pub d: Real,
-    /// a.
+    /// a, its contact radius
     #[serde(rename = "contact_radius_m")]
     pub a: Real,
-    /// `F_N`.
+    /// F_N, its normal force (4.26)
     #[serde(rename = "normal_force_N")]
     pub normal_force: Real,
-    /// u.
+    /// u, its displacement
     #[serde(rename = "displacement_m")]
     pub u: Real,
-    /// c.
+    /// c, its stick radius, where u = κ(d - g(c)) (4.27)
     #[serde(rename = "stick_radius_m")]
     pub c: Real,
-    /// `F_x` = μ[`F_N`(a) - `F_N`(c)], approach I, superposition (4.38).
+    /// F_x by superposition: μ[F_N(a) - F_N(c)] (4.38)
     #[serde(rename = "tangential_force_N")]
     pub tangential_force: Real,
-    /// `F_x` by the integral of the line load, approach II (4.39).
+    /// F_x by the integral of the line load, 2∫₀^a q_x(x) dx (4.39)
     #[serde(rename = "tangential_force_by_integral_N")]
     pub by_integral: Real,
-    /// Estimated error of the integral.
+    /// estimated error of that integral
     #[serde(rename = "tangential_force_by_integral_error_N")]
     pub integral_error: Real,
-    /// Friction work (4.42).
+    /// friction work of the loading (4.42)
     #[serde(rename = "friction_work_J")]
     pub friction_work: Real,
-    /// Elastic energy of the tangential deformation.
+    /// elastic energy of the tangential deformation
     #[serde(rename = "tangential_energy_J")]
     pub tangential_energy: Real,
-    /// Elastic energy of the normal deformation.
+    /// elastic energy of the normal deformation
     #[serde(rename = "normal_energy_J")]
     pub normal_energy: Real,
-    /// State of the whole contact: open, stick, partial, slip.
+    /// `open`, `stick`, `partial` or `slip`
     pub state: &'static str,
 }
 

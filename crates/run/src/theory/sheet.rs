@@ -1,18 +1,19 @@
 //! Constants and curves of a contact.
 
 use super::{Loading, Subject, TheoryError};
+use schemars::JsonSchema;
 use serde::Serialize;
 use stickslip_contact::{FirstLoading, Interface, NormalGiven, TangentialGiven};
 use stickslip_quantity::Real;
 
 /// What holds of a contact whatever happens to it, and how it is pressed.
-#[derive(Debug, Clone, Serialize)]
+#[derive(Debug, Clone, Serialize, JsonSchema)]
 pub struct Sheet {
-    /// Name of the scenario.
+    /// name of the scenario
     pub scenario: String,
-    /// SHA-256 of the resolved scenario.
+    /// SHA-256 of the resolved scenario
     pub scenario_sha256: String,
-    /// Name of the contact.
+    /// name of the contact; everything is of one of its count
     pub contact: String,
     /// What never changes.
     pub constants: Constants,
@@ -30,100 +31,100 @@ pub struct Sheet {
 }
 
 /// Constants of a contact.
-#[derive(Debug, Clone, Serialize)]
+#[derive(Debug, Clone, Serialize, JsonSchema)]
 pub struct Constants {
-    /// Names of the materials.
+    /// names of the materials
     pub materials: [String; 2],
-    /// Word for the profile.
+    /// word for the profile
     pub profile: String,
-    /// f(r), where it has a formula.
+    /// f(r), height of the profile, where it has a formula
     #[serde(skip_serializing_if = "Option::is_none")]
     pub f: Option<&'static str>,
-    /// g(x), where it has a formula.
+    /// g(x) = |x|∫₀^|x| f′(r)/√(x² - r²) dr (4.20), where it has a formula
     #[serde(skip_serializing_if = "Option::is_none")]
     pub g: Option<&'static str>,
-    /// Whether it has a shape in three dimensions, and so fields.
+    /// whether it has a shape in three dimensions, and so fields
     pub axisymmetric: bool,
-    /// E* (4.13).
+    /// E*, effective modulus: 1/E* = (1-ν₁²)/E₁ + (1-ν₂²)/E₂ (4.13)
     #[serde(rename = "normal_modulus_Pa")]
     pub normal_modulus: Real,
-    /// G* (4.13).
+    /// G*, effective shear modulus: 1/G* = (2-ν₁)/(4G₁) + (2-ν₂)/(4G₂), G = E/(2(1+ν)) (4.13)
     #[serde(rename = "tangential_modulus_Pa")]
     pub tangential_modulus: Real,
-    /// μ.
+    /// μ, coefficient of friction
     pub friction: Real,
-    /// κ = μE*/G*.
+    /// κ = μE*/G*
     pub stick_slope: Real,
-    /// Dundurs' β.
+    /// β, [Dundurs' second constant](figures.md#similarity)
     pub dundurs_beta: Real,
-    /// Whether β is 0, which makes the theory exact.
+    /// whether β is 0, which makes the theory exact
     pub elastically_similar: bool,
-    /// By how much of itself the normal stiffness at a given radius is too low if nothing slips.
+    /// artanh(β)/β - 1, [what the theory leaves out](figures.md#similarity) at most
     pub neglected_stiffness: Real,
-    /// What of the pair's elastic similarity the theory neglects, in words.
+    /// both in words
     pub similarity: String,
 }
 
 /// A contact at an indentation. Of one contact, however many identical ones the scenario has.
-#[derive(Debug, Clone, Serialize)]
+#[derive(Debug, Clone, Serialize, JsonSchema)]
 pub struct Pressed {
-    /// d; at most 0: nothing touches.
+    /// d, indentation; at most 0: nothing touches
     #[serde(rename = "indentation_m")]
     pub d: Real,
-    /// a.
+    /// a, contact radius, where g(a) = d (4.26)
     #[serde(rename = "contact_radius_m")]
     pub a: Real,
-    /// `F_N`.
+    /// F_N, normal force: 2E*∫₀^a (d - g(x)) dx (4.26)
     #[serde(rename = "normal_force_N")]
     pub normal_force: Real,
-    /// `u_c` = κd (4.28).
+    /// u_c = κd (4.28)
     #[serde(rename = "gross_slip_displacement_m")]
     pub gross_slip: Real,
-    /// μ`F_N`.
+    /// μF_N, what it holds at most; with damping F_x may be larger while it moves, by up to βG*m(c)|u̇|
     #[serde(rename = "limit_force_N")]
     pub limit_force: Real,
-    /// Infinite at tips and edges; none for a list of springs.
+    /// p_max, largest pressure; infinite at tips and edges, not told of a list of springs
     #[serde(rename = "peak_pressure_Pa", skip_serializing_if = "Option::is_none")]
     pub peak_pressure: Option<Real>,
-    /// ∂`F_x`/∂u of full stick, 2G*a.
+    /// 2G*a, ∂F_x/∂u where all of it sticks
     #[serde(rename = "tangential_stiffness_N_m")]
     pub tangential_stiffness: Real,
-    /// ∂`F_N`/∂d, 2E*a.
+    /// 2E*a, ∂F_N/∂d
     #[serde(rename = "normal_stiffness_N_m")]
     pub normal_stiffness: Real,
-    /// Elastic energy of the normal deformation.
+    /// elastic energy of the normal deformation: ∫₀^d F_N dd
     #[serde(rename = "normal_energy_J")]
     pub normal_energy: Real,
 }
 
 /// A point of the normal contact (4.26).
-#[derive(Debug, Clone, Copy, Serialize)]
+#[derive(Debug, Clone, Copy, Serialize, JsonSchema)]
 pub struct NormalRow {
-    /// d.
+    /// d, of a point of F_N(d); eleven up to the load asked for
     #[serde(rename = "indentation_m")]
     pub d: Real,
-    /// a.
+    /// a there
     #[serde(rename = "contact_radius_m")]
     pub a: Real,
-    /// `F_N`.
+    /// F_N there (4.26)
     #[serde(rename = "normal_force_N")]
     pub normal_force: Real,
-    /// ∂`F_N`/∂d.
+    /// ∂F_N/∂d there: 2E*a
     #[serde(rename = "normal_stiffness_N_m")]
     pub normal_stiffness: Real,
-    /// `u_c`.
+    /// u_c there
     #[serde(rename = "gross_slip_displacement_m")]
     pub gross_slip: Real,
 }
 
 /// A point of the first loading at this indentation, over its share of stick.
-#[derive(Debug, Clone, Serialize)]
+#[derive(Debug, Clone, Serialize, JsonSchema)]
 pub struct UniversalRow {
-    /// c/a.
+    /// c/a, of a point of the first loading under this load
     pub stick_share: Real,
-    /// u/`u_c`.
+    /// u/u_c there
     pub displacement_share: Real,
-    /// `F_x`/(μ`F_N`) (4.37).
+    /// F_x/(μF_N) there (4.37)
     pub force_share: Real,
     /// The loading itself.
     #[serde(flatten)]

@@ -6,46 +6,28 @@ use crate::folder::Folder;
 use crate::insides::state_name;
 use crate::seal::Seal;
 use crate::sheet::Sheet;
+use schemars::JsonSchema;
 use serde::Serialize;
 use std::io;
-use stickslip_quantity::Real;
+use stickslip_quantity::{Columns, Real, columns};
 
 /// All numbers; written last, with rows and SHA-256 of every table.
 pub const CONTACT: &str = "contact.json";
-/// The tables.
-pub const TABLES: [&str; 6] =
-    ["history.csv", "fields.csv", "line.csv", "friction.csv", "normal.csv", "universal.csv"];
-
-const HISTORY_HEAD: &[&str] =
-    &["corner", "share", "d_m", "u_m", "fn_N", "fx_N", "a_m", "c_m", "state", "elastic_J", "friction_J"];
-const FIELDS_HEAD: &[&str] =
-    &["corner", "r_m", "pressure_Pa", "shear_Pa", "displacement_m", "slip_m", "deflection_m", "state"];
-const LINE_HEAD: &[&str] = &[
-    "corner",
-    "x_m",
-    "length_m",
-    "g_m",
-    "kz_N_m",
-    "kx_N_m",
-    "qz_N_m",
-    "qx_N_m",
-    "limit_N_m",
-    "fz_N",
-    "fx_N",
-    "stretch_m",
-    "state",
+/// The tables; `contact: history.csv` is written as `history.csv`.
+pub const TABLES: [Columns; 6] = [
+    columns::CONTACT_HISTORY,
+    columns::CONTACT_FIELDS,
+    columns::CONTACT_LINE,
+    columns::CONTACT_FRICTION,
+    columns::CONTACT_NORMAL,
+    columns::CONTACT_UNIVERSAL,
 ];
 /// Numbers and words of a line of a spring.
-pub(crate) const LINE_WIDTH: usize = LINE_HEAD.len();
-const FRICTION_HEAD: &[&str] = &["corner", "share", "r_m", "work_J_m2", "way_m"];
-const NORMAL_HEAD: &[&str] = &["d_m", "a_m", "fn_N", "stiffness_N_m", "u_c_m"];
-const UNIVERSAL_HEAD: &[&str] =
-    &["c_a", "u_uc", "fx_mufn", "c_m", "u_m", "fx_N", "fx_by_integral_N", "friction_J"];
+pub(crate) const LINE_WIDTH: usize = columns::CONTACT_LINE.names.len();
 
-/// The tables and their columns.
-pub fn heads() -> [(&'static str, &'static [&'static str]); 6] {
-    let heads = [HISTORY_HEAD, FIELDS_HEAD, LINE_HEAD, FRICTION_HEAD, NORMAL_HEAD, UNIVERSAL_HEAD];
-    std::array::from_fn(|k| (TABLES[k], heads[k]))
+/// Names of the files of the tables.
+pub fn table_files() -> [&'static str; 6] {
+    TABLES.map(|table| table.file.trim_start_matches("contact: "))
 }
 
 /// What goes beside the tables.
@@ -62,52 +44,60 @@ pub struct Beside<'a> {
 /// Fills a table.
 type Fill<'a> = &'a dyn Fn(&mut Sheet);
 
-/// What `contact.json` says.
-#[derive(Serialize)]
-struct Report<'a> {
+/// All numbers, as `contact.json` has them; without what is empty.
+#[derive(Serialize, JsonSchema)]
+pub(super) struct Report<'a> {
     #[serde(flatten)]
     constants: &'a Constants,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
     corners: Vec<CornerReport>,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
     tables: Vec<TableReport>,
+    /// files beside contact.json
+    #[serde(skip_serializing_if = "Vec::is_empty")]
     files: Vec<String>,
+    /// what is missing, and why
     #[serde(skip_serializing_if = "Vec::is_empty")]
     notes: Vec<String>,
 }
 
-/// What a program says of it that prints JSON.
-#[derive(Serialize)]
-struct Answer<'a> {
-    #[serde(flatten)]
-    constants: &'a Constants,
-    #[serde(skip_serializing_if = "Vec::is_empty")]
-    corners: Vec<CornerReport>,
-}
-
-#[derive(Serialize)]
+#[derive(Serialize, JsonSchema)]
 struct CornerReport {
+    /// d, at a corner of the history; the first is where it begins
     #[serde(rename = "indentation_m")]
     d: Real,
+    /// u, at it
     #[serde(rename = "displacement_m")]
     u: Real,
+    /// F_N, at it
     #[serde(rename = "normal_force_N")]
     normal_force: Real,
+    /// F_x, at it
     #[serde(rename = "tangential_force_N")]
     force: Real,
+    /// a, at it
     #[serde(rename = "contact_radius_m")]
     a: Real,
+    /// c, at it: within it no spring slips
     #[serde(rename = "stick_radius_m")]
     c: Real,
+    /// `open`, `stick`, `partial` or `slip`, at it
     state: &'static str,
+    /// elastic energy of the tangential deformation, at it
     #[serde(rename = "tangential_energy_J")]
     elastic: Real,
+    /// friction work since the history began (4.40)
     #[serde(rename = "friction_work_J")]
     friction: Real,
 }
 
-#[derive(Serialize)]
+#[derive(Serialize, JsonSchema)]
 struct TableReport {
+    /// a table beside contact.json
     name: &'static str,
+    /// its lines, without its head
     rows: u64,
+    /// its SHA-256
     sha256: String,
 }
 
@@ -118,7 +108,8 @@ pub fn json(constants: &Constants, walk: Option<&Walk>) -> String {
         None => (constants, Vec::new()),
     };
     // Numbers and strings only: there is nothing that JSON could refuse.
-    serde_json::to_string(&Answer { constants, corners }).unwrap_or_default()
+    let report = Report { constants, corners, tables: Vec::new(), files: Vec::new(), notes: Vec::new() };
+    serde_json::to_string(&report).unwrap_or_default()
 }
 
 fn corners(walk: &Walk) -> Vec<CornerReport> {
@@ -145,8 +136,8 @@ pub fn write(
         &|sheet| universal(sheet, constants),
     ];
     let mut reports = Vec::new();
-    for ((name, head), fill) in heads().into_iter().zip(fills) {
-        let mut sheet = Sheet::new(folder.draft(name)?, head.iter().copied());
+    for ((table, name), fill) in TABLES.iter().zip(table_files()).zip(fills) {
+        let mut sheet = Sheet::new(folder.draft(name)?, table.names.iter().copied());
         fill(&mut sheet);
         let written = sheet.finish()?;
         if let Some(failure) = written.failure {
@@ -162,9 +153,10 @@ pub fn write(
     beside.pictures.iter().try_for_each(|(name, bytes)| folder.write(name, bytes))?;
     let mut files = folder.names();
     files.push(CONTACT.to_owned());
-    folder.forget(TABLES.iter().map(|name| (*name).to_owned()).chain(beside.stale).collect());
+    folder.forget(table_files().into_iter().map(str::to_owned).chain(beside.stale).collect());
+    let constants = &constants.without_curves();
     let report = Report {
-        constants: &constants.without_curves(),
+        constants,
         corners: corners(walk),
         tables: reports,
         files: files.clone(),

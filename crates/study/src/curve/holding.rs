@@ -9,6 +9,7 @@ mod held;
 mod table;
 
 pub use held::{Held, Holdless, Lost};
+pub(crate) use table::definitions;
 pub use table::{csv, json, write};
 
 use super::variation::{Overrides, body, not_here};

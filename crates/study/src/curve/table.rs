@@ -2,9 +2,11 @@
 
 use super::{Beyond, Curve, Landmark, Motion, Sense, Traced, Variation};
 use crate::published::{self, Names};
+use schemars::JsonSchema;
 use serde::Serialize;
 use std::fmt::Write;
 use std::io;
+use stickslip_quantity::{Definition, columns};
 use stickslip_run::files::{CURVE, PARTIAL_CURVE};
 use stickslip_run::folder::Folder;
 use stickslip_run::{Job, Real, Warning};
@@ -18,28 +20,40 @@ pub fn all_files() -> impl Iterator<Item = String> {
 }
 
 /// All numbers of a curve; written last.
-#[derive(Debug, Serialize)]
+#[derive(Debug, Serialize, JsonSchema)]
 pub(super) struct Report<'a, P> {
+    /// name of the scenario
     scenario: &'a str,
+    /// SHA-256 of the resolved scenario, as it is without what the curve varies
     scenario_sha256: &'a str,
+    /// name and version of the program
     program: &'a str,
+    /// `done`, or `interrupted`: then the file is `curve-partial.json`
     status: &'static str,
+    /// name of the curve; `vary` of a number by its path
     curve: &'static str,
+    /// what is varied; it heads the first column of `curve.csv`, with its unit
     varied: &'a str,
+    /// its SI unit; empty of a plain number
     unit: &'static str,
+    /// what it is in the scenario
     present: Option<Real>,
+    /// along which sense of x the drive steps without load, against which loads act
     #[serde(skip_serializing_if = "Option::is_none")]
     against: Option<&'static str>,
+    /// the same of the backward sense
     #[serde(skip_serializing_if = "Option::is_none")]
     against_backward: Option<&'static str>,
-    /// Name of the body that is loaded.
+    /// body that is loaded; of `holding-force`
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(super) on: Option<&'a str>,
     points: Vec<P>,
     #[serde(skip_serializing_if = "Vec::is_empty")]
     landmarks: Vec<LandmarkReport>,
+    /// names of all files that were written together
     #[serde(skip_serializing_if = "Vec::is_empty")]
     files: Vec<String>,
+    /// SHA-256 of the table
     #[serde(skip_serializing_if = "Option::is_none")]
     table_sha256: Option<String>,
 }
@@ -72,36 +86,52 @@ impl<'a, P: Serialize> Report<'a, P> {
     }
 }
 
-#[derive(Debug, Serialize)]
+#[derive(Debug, Serialize, JsonSchema)]
 struct PointReport<'a> {
+    /// what is varied, at this point
     value: Real,
+    /// of both senses (`--both`): `forward`, as the scenario is, or `backward`, its waveforms reversed in time
     #[serde(skip_serializing_if = "Option::is_none")]
     sense: Option<&'static str>,
+    /// what `--set` takes to make a scenario of this point
     set: Vec<String>,
     warnings: &'a [Warning],
     #[serde(flatten)]
     figures: Option<Figures>,
+    /// why there is no motion at this value
     #[serde(skip_serializing_if = "Option::is_none")]
     fault: Option<String>,
 }
 
 /// What is told of a place with a name.
-#[derive(Debug, Serialize)]
+#[derive(Debug, Serialize, JsonSchema)]
 struct LandmarkReport {
+    /// `zero_step` (S₀, largest amplitude without a step; with `beyond_by` largest amplitude with one), `stall` (least load
+    /// against which there is none), `best_speed`, `best_power` or `best_step`
     name: &'static str,
+    /// of both senses (`--both`): `forward`, as the scenario is, or `backward`, its waveforms reversed in time
     #[serde(skip_serializing_if = "Option::is_none")]
     sense: Option<&'static str>,
+    /// what is varied, there
     at: Option<Real>,
+    /// how far that may be off: half of the bracket in which it lies, and what the errors of the steps there add
     half_width: Option<Real>,
+    /// of S₀ where all points of the curve step: the smallest amplitude of them
     #[serde(skip_serializing_if = "Option::is_none")]
     below: Option<Real>,
+    /// of the largest amplitude with a step: `window` where the driver's window cuts the command beyond it, `current` where a
+    /// driver has a largest current, `other`
     #[serde(skip_serializing_if = "Option::is_none")]
     beyond_by: Option<&'static str>,
+    /// speed in m/s, power in W or step in m there; of best points only
     #[serde(skip_serializing_if = "Option::is_none")]
     value: Option<Real>,
+    /// points that were computed for it, beside those of the curve
     runs: u32,
+    /// true of S₀ where the drive steps back at smaller amplitudes, so that its step changes its sign there
     #[serde(skip_serializing_if = "std::ops::Not::not")]
     turns: bool,
+    /// why it is not known
     #[serde(skip_serializing_if = "Option::is_none")]
     fault: Option<String>,
 }
@@ -125,23 +155,36 @@ impl LandmarkReport {
 }
 
 /// What is told of a motion.
-#[derive(Debug, Serialize)]
+#[derive(Debug, Serialize, JsonSchema)]
 struct Figures {
+    /// step along x of the figures' body in a period of the figures' waveform, in steady motion; the mean of steps that swing
     #[serde(rename = "step_m")]
     step: Real,
+    /// how far the step may be off, an estimate: of what was left of the way to it, and of the run's tolerance; of steps that
+    /// swing how far the mean of endlessly many may lie from it, by 95 %
     #[serde(rename = "step_error_m")]
     error: Real,
+    /// by how much steps swing about their mean from period to period; 0 of steady ones
     #[serde(rename = "step_spread_m")]
     spread: Real,
+    /// mean speed along x: step over period
     #[serde(rename = "speed_m_s")]
     speed: Real,
+    /// load times mean speed, above 0 where the drive moves against the load, 0 where there is no step; of loads only
     #[serde(rename = "power_W", skip_serializing_if = "Option::is_none")]
     power: Option<Real>,
+    /// period of the figures' waveform
     #[serde(rename = "period_s")]
     period: Real,
+    /// `steady`, `no step` (steady, and the step is no longer than it may be off, or than a hundred-thousandth of u_c), `beats`
+    /// (steps swing about a mean) or `irregular`
     motion: &'static str,
+    /// |λ|, modulus of the largest Floquet multiplier: by how much a disturbance is smaller after a period; none of motions
+    /// that were waited for
     multiplier: Option<Real>,
+    /// periods in which that disturbance turns once; none where it does not
     beat_periods: Option<Real>,
+    /// periods that were computed
     work_periods: u32,
 }
 
@@ -285,4 +328,21 @@ fn report<'a>(ways: &[Way<'a>]) -> Option<Report<'a, PointReport<'a>>> {
         landmarks: landmarks.collect(),
         ..Report::of(&first.job, &first.variation, (first.kind.name(), is_cut), points.collect())
     })
+}
+
+/// What every key of `curve.json` and every column of `curve.csv` is.
+pub(crate) fn definitions() -> Vec<Definition> {
+    let [points, figures] = [
+        stickslip_quantity::report::<PointReport<'_>>(NAMES[0][0]),
+        stickslip_quantity::report::<Figures>(NAMES[0][0]),
+    ];
+    let columns =
+        points.into_iter().filter(|one| ["sense", "fault"].contains(&one.name.as_ref())).chain(figures);
+    let holding = super::holding::definitions();
+    columns::CURVE
+        .definitions()
+        .chain(columns)
+        .chain(stickslip_quantity::report::<Report<'_, PointReport<'_>>>(CURVE))
+        .chain(holding)
+        .collect()
 }

@@ -4,7 +4,7 @@ use super::SensitivityError;
 use serde_json::Value;
 use stickslip_drive::scene::Side;
 use stickslip_quantity::names;
-use stickslip_run::{Job, definitions};
+use stickslip_run::Job;
 use stickslip_scenario::suggestion;
 
 /// A figure.
@@ -94,8 +94,10 @@ pub(super) fn find(
             )),
         });
     }
-    let is_known = |file: &str| definitions().any(|definition| definition.defines(file, name));
-    if is_known("summary.json") || is_known("trace.csv") {
+    if stickslip_run::definitions()
+        .iter()
+        .any(|known| ["summary.json", "trace.csv"].iter().any(|file| known.defines(file, name)))
+    {
         return Err(SensitivityError::NotHere { name: name.to_owned(), file: job.name.clone() });
     }
     let told = leaves

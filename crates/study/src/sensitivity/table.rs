@@ -2,9 +2,11 @@
 
 use super::{Derivative, Missing, Sensitivity, Slope, Source, Split, Taken};
 use crate::published::{self, Names};
+use schemars::JsonSchema;
 use serde::Serialize;
 use std::fmt::Write;
 use std::io;
+use stickslip_quantity::{Definition, columns};
 use stickslip_run::Real;
 use stickslip_run::files::{PARTIAL_SENSITIVITY, SENSITIVITY};
 use stickslip_run::folder::Folder;
@@ -18,49 +20,76 @@ pub fn all_files() -> impl Iterator<Item = String> {
 }
 
 /// All numbers; written last.
-#[derive(Debug, Serialize)]
+#[derive(Debug, Serialize, JsonSchema)]
 struct Report<'a> {
+    /// name of the scenario
     scenario: &'a str,
+    /// SHA-256 of the resolved scenario
     scenario_sha256: &'a str,
+    /// name and version of the program
     program: &'a str,
+    /// `done`, or `interrupted`: then the file is `sensitivity-partial.json`
     status: &'static str,
+    /// local error per step of the runs, in natural scales
     tolerance: Real,
+    /// runs that were done beside that of the scenario as it stands
     runs: usize,
     figures: Vec<FigureReport<'a>>,
+    /// names of all files that were written together
     #[serde(skip_serializing_if = "Vec::is_empty")]
     files: Vec<String>,
+    /// SHA-256 of `sensitivity.csv`
     #[serde(skip_serializing_if = "Option::is_none")]
     table_sha256: Option<String>,
 }
 
-#[derive(Debug, Serialize)]
+#[derive(Debug, Serialize, JsonSchema)]
 struct FigureReport<'a> {
+    /// name of the figure: a number of summary.json, a channel at the end of the run, or one of steady motion
     name: &'a str,
+    /// its SI unit; empty of a plain number
     unit: &'a str,
+    /// what it is in the scenario as it stands, by the tolerance of the derivatives
     value: Real,
+    /// standard deviation of what is no smooth change in it between neighbouring runs; none where it could not be measured
     noise: Option<Real>,
     derivatives: Vec<Row<'a>>,
 }
 
 /// A slope, or why there is none.
-#[derive(Debug, Serialize)]
+#[derive(Debug, Serialize, JsonSchema)]
 pub(super) struct Row<'a> {
+    /// key path of the number that the derivative is with respect to
     quantity: &'a str,
+    /// its SI unit; empty of a plain number
     quantity_unit: &'a str,
+    /// what it is in the scenario
     quantity_value: Real,
+    /// `below` or `above` of slopes that hold on one side of the quantity's value; none of those that hold on both
     #[serde(skip_serializing_if = "Option::is_none")]
     side: Option<&'static str>,
+    /// change of the figure per change of the quantity
     derivative: Option<Real>,
+    /// how far that may be off: by what a coarser variation differs, or by bends that the extrapolation misses and by measured
+    /// noise
     derivative_error: Option<Real>,
+    /// unit of both
     unit: String,
+    /// by how many per cent the figure changes with one per cent of the quantity; none of figures that are 0
     elasticity: Option<Real>,
+    /// how far that may be off
     elasticity_error: Option<Real>,
+    /// where the derivative comes from: `variation` of the scenario's own run, or `differences` between runs
     #[serde(skip_serializing_if = "Option::is_none")]
     source: Option<&'static str>,
+    /// how far from its value the quantity was in the farthest run that counts, in its unit; none of a variation
     #[serde(skip_serializing_if = "Option::is_none")]
     reach: Option<Real>,
+    /// what differs between the sides: `kink` (the slopes), `jump` (the figure itself), `events` (one appears or vanishes),
+    /// `one_sided` (the other is refused, stops or has no such figure)
     #[serde(skip_serializing_if = "Option::is_none")]
     split: Option<&'static str>,
+    /// why there is none, or why both sides have their own
     #[serde(skip_serializing_if = "Option::is_none")]
     note: Option<String>,
 }
@@ -212,4 +241,16 @@ fn report<'a>(asked: &'a Sensitivity, taken: &Taken) -> Report<'a> {
         files: Vec::new(),
         table_sha256: None,
     }
+}
+
+/// What every key of `sensitivity.json` and every column of `sensitivity.csv` is.
+pub(crate) fn definitions() -> Vec<Definition> {
+    let slopes = stickslip_quantity::report::<Row<'_>>(NAMES[0][0])
+        .into_iter()
+        .filter(|one| !["reach", "split"].contains(&one.name.as_ref()));
+    columns::SENSITIVITY
+        .definitions()
+        .chain(slopes)
+        .chain(stickslip_quantity::report::<Report<'_>>(SENSITIVITY))
+        .collect()
 }

@@ -25,6 +25,7 @@ pub use bifurcation::{Bifurcation, Mark};
 pub use error::ContinuationError;
 pub use happened::Change;
 pub use standing::Point;
+pub(crate) use table::definitions;
 pub use table::{all_files, csv, json, write};
 
 use super::{Options, SteadyError, moment, named};

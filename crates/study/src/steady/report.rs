@@ -1,78 +1,117 @@
 //! What is told of a steady motion, as JSON.
 
 use super::{Aftermath, Ending, Kind, Multiplier, Steady, Way};
+use schemars::JsonSchema;
 use serde::Serialize;
 use stickslip_run::{Job, Real};
 
 /// What is told of a steady motion, as `steady.json` has it.
-#[derive(Debug, Clone, Serialize)]
+#[derive(Debug, Clone, Serialize, JsonSchema)]
 pub struct Report {
+    /// name of the scenario
     scenario: String,
+    /// SHA-256 of the resolved scenario
     scenario_sha256: String,
+    /// name and version of the program
     program: String,
+    /// local error per step, in natural scales
     tolerance: Real,
+    /// period, common to all waveforms
     period_s: Real,
+    /// way of the body of the figures along x in a period
     #[serde(skip_serializing_if = "Option::is_none")]
     step_m: Option<Real>,
+    /// how far the step may be off: an estimate, [doubled](steady.md#bound)
     #[serde(skip_serializing_if = "Option::is_none")]
     step_error_m: Option<Real>,
+    /// step over period
     #[serde(skip_serializing_if = "Option::is_none")]
     speed_m_s: Option<Real>,
+    /// whether a run that is disturbed a little comes back; left out where a disturbance neither fades nor grows, of a
+    /// shakedown unless it grows, as a run may end in another of its family, and where the memory of a contact that never slips
+    /// grossly is `carried`: of that no multipliers are told
     #[serde(skip_serializing_if = "Option::is_none")]
     stable: Option<bool>,
+    /// ρ, largest magnitude of a multiplier; 0 where there is none, null where they are not known
     radius: Real,
     multipliers: Vec<MultiplierReport>,
     #[serde(skip_serializing_if = "Option::is_none")]
     aftermath: Option<AftermathReport>,
+    /// the numbers that the map of a period is of
     unknowns: Vec<String>,
+    /// those of which no multiplier is told: memories come back with other knots when one of them is disturbed
     untold: Vec<String>,
+    /// number of ways along which nothing changes but the place
     drifts: usize,
+    /// contacts whose memories are no numbers of the map: they are led along, and multipliers do not know of them
     carried: Vec<String>,
+    /// contacts that never slip grossly: what they hold near the centre they hold for ever, and this motion is the nearest of a
+    /// whole family
     shaken_down: Vec<String>,
+    /// periods that were computed
     work_periods: u32,
     defects: Vec<DefectReport>,
-    /// Names of the files beside it.
+    /// names of the files beside it
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub files: Vec<String>,
-    /// What is to be known of the rest.
+    /// what is to be known of the rest
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub notes: Vec<String>,
 }
 
-#[derive(Debug, Clone, Serialize)]
+#[derive(Debug, Clone, Serialize, JsonSchema)]
 struct MultiplierReport {
+    /// real part of a Floquet multiplier, the largest first; of a pair one stands for both
     re: Real,
+    /// its imaginary part, at least 0
     im: Real,
+    /// |λ|, by which a disturbance has become larger after a period
     modulus: Real,
+    /// how far both parts, and |λ|, may be off: one as near to 1 as that `stays`
     error: Real,
+    /// what becomes of a disturbance: `forgotten` after a period, `fades`, `stays`, or `grows`
     kind: &'static str,
+    /// 2π/|arg λ|, periods of a beat; none where it does not turn
     #[serde(skip_serializing_if = "Option::is_none")]
     beat_periods: Option<Real>,
+    /// 1/|ln |λ||, periods in which it becomes e times smaller, or larger
     #[serde(skip_serializing_if = "Option::is_none")]
     fold_periods: Option<Real>,
+    /// the same in words
     words: String,
 }
 
-#[derive(Debug, Clone, Serialize)]
+#[derive(Debug, Clone, Serialize, JsonSchema)]
 struct AftermathReport {
+    /// what a run ends on that leaves an unstable motion, every number of it disturbed by a hundredth of a natural scale: it
+    /// `repeats` itself, `beats`, is `irregular`, is `underway` still, or `stops`
     ending: &'static str,
+    /// periods until then
     periods: usize,
+    /// after how many periods it repeats itself; 1: another steady motion
     #[serde(skip_serializing_if = "Option::is_none")]
     repeats_periods: Option<usize>,
+    /// periods of its beat
     #[serde(skip_serializing_if = "Option::is_none")]
     beat_periods: Option<Real>,
+    /// mean step of what repeats itself, else of the last half
     #[serde(skip_serializing_if = "Option::is_none")]
     step_m: Option<Real>,
+    /// the shortest of these steps
     #[serde(skip_serializing_if = "Option::is_none")]
     least_m: Option<Real>,
+    /// the longest of these steps
     #[serde(skip_serializing_if = "Option::is_none")]
     most_m: Option<Real>,
+    /// the same in words
     words: String,
 }
 
-#[derive(Debug, Clone, Serialize)]
+#[derive(Debug, Clone, Serialize, JsonSchema)]
 struct DefectReport {
+    /// largest change of a number in a period on the way, in natural scales
     size: Real,
+    /// how the state of that period was found: `plain`, where the one before got to, or `newton`
     way: &'static str,
 }
 

@@ -2,15 +2,20 @@
 
 use super::{Held, Holding, NAME, Point};
 use crate::curve::table::{Report, one_line, publish};
+use schemars::JsonSchema;
 use serde::Serialize;
 use std::fmt::Write;
 use std::io;
+use stickslip_quantity::Definition;
+use stickslip_run::files::CURVE;
 use stickslip_run::folder::Folder;
 use stickslip_run::{Real, Warning};
 
-#[derive(Debug, Serialize)]
+#[derive(Debug, Serialize, JsonSchema)]
 struct PointReport<'a> {
+    /// what is varied, at this point
     value: Real,
+    /// what `--set` takes to make a scenario of this point
     set: Vec<String>,
     warnings: &'a [Warning],
     along_x: WayReport,
@@ -18,16 +23,22 @@ struct PointReport<'a> {
 }
 
 /// What is told of loads one way.
-#[derive(Debug, Serialize)]
+#[derive(Debug, Serialize, JsonSchema)]
 struct WayReport {
+    /// of `holding-force`: the largest load on the figures' body, along +x or along -x, that the drive holds at rest
     #[serde(rename = "force_N")]
     force: Option<Real>,
+    /// how far that may be off: half of the bracket in which it lies, and how far a balance is known
     #[serde(rename = "half_width_N")]
     half_width: Option<Real>,
+    /// what gives way beyond: a body that slides away, comes loose or, free to pitch, slides or tips over
     #[serde(skip_serializing_if = "Option::is_none")]
     gives_way: Option<String>,
+    /// equilibria that were looked for
     #[serde(skip_serializing_if = "Option::is_none")]
     runs: Option<u32>,
+    /// why there is no such force: the drive does not even hold what acts without the load, or something else than friction
+    /// holds any
     #[serde(skip_serializing_if = "Option::is_none")]
     fault: Option<String>,
 }
@@ -107,4 +118,9 @@ fn report<'a>(holding: &'a Holding, points: &'a [Point]) -> Report<'a, PointRepo
     let mut report = Report::of(&holding.job, &holding.variation, (NAME, is_cut), told.collect());
     report.on = Some(holding.on());
     report
+}
+
+/// What every key of `curve.json` is.
+pub(crate) fn definitions() -> Vec<Definition> {
+    stickslip_quantity::report::<Report<'_, PointReport<'_>>>(CURVE)
 }

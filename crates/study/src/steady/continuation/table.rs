@@ -2,9 +2,11 @@
 
 use super::{Bifurcation, Branch, Change, Continuation, End, Mark, Point};
 use crate::published::{self, Names};
+use schemars::JsonSchema;
 use serde::Serialize;
 use std::fmt::Write;
 use std::io;
+use stickslip_quantity::{Definition, columns};
 use stickslip_run::Real;
 use stickslip_run::files::{BRANCH, PARTIAL_BRANCH};
 use stickslip_run::folder::Folder;
@@ -18,68 +20,110 @@ pub fn all_files() -> impl Iterator<Item = String> {
 }
 
 /// All numbers of a branch; written last.
-#[derive(Debug, Serialize)]
+#[derive(Debug, Serialize, JsonSchema)]
 struct Report<'a> {
+    /// name of the scenario
     scenario: &'a str,
+    /// SHA-256 of the resolved scenario, as it is where the branch starts
     scenario_sha256: &'a str,
+    /// name and version of the program
     program: &'a str,
+    /// `done`, or `interrupted`: then the file is `branch-partial.json`
     status: &'static str,
+    /// key path of what is varied; it heads the first column of `branch.csv`, with its unit
     varied: &'a str,
+    /// its SI unit; empty of a plain number
     unit: &'static str,
+    /// what it is in the scenario: where the branch starts
     present: Real,
+    /// where the range begins
     from: Real,
+    /// where the range ends
     to: Real,
+    /// local error per step of the runs
     tolerance: Real,
+    /// how exactly places are told, as a share of the range
     accuracy: Real,
+    /// place of the start among the points, counted from 0
     start: usize,
     points: Vec<PointReport>,
     marks: Vec<MarkReport>,
     ends: [EndReport; 2],
+    /// names of all files that were written together
     #[serde(skip_serializing_if = "Vec::is_empty")]
     files: Vec<String>,
+    /// SHA-256 of `branch.csv`
     #[serde(skip_serializing_if = "Option::is_none")]
     table_sha256: Option<String>,
 }
 
-#[derive(Debug, Serialize)]
+#[derive(Debug, Serialize, JsonSchema)]
 struct PointReport {
+    /// what is varied, at this motion; motions stand in their order along the branch
     value: Real,
+    /// which smooth piece of the branch: another one begins where an event of the period appears or vanishes
     piece: usize,
+    /// step along x of the figures' body in a period; none where no body is free along x
     step_m: Option<Real>,
+    /// how far the step may be off, an estimate of first order, doubled
     step_error_m: Option<Real>,
+    /// mean speed along x: step over period
     speed_m_s: Option<Real>,
+    /// period common to all waveforms
     period_s: Real,
+    /// whether a run that is disturbed a little comes back: no |λ| > 1; 1 or 0 in branch.csv
     stable: bool,
+    /// Floquet multipliers, real and imaginary part, the largest first; of a pair the one above
     multipliers: Vec<[Real; 2]>,
+    /// how many numbers the map of a period has
     unknowns: usize,
 }
 
-#[derive(Debug, Serialize)]
+#[derive(Debug, Serialize, JsonSchema)]
 struct MarkReport {
+    /// `fold` (the branch turns back), `period doubling` (λ = -1), `Neimark-Sacker` (a pair with |λ| = 1), `branching` (another
+    /// branch crosses), `break` (multipliers jump) or `event` (something appears in a period or vanishes)
     kind: &'static str,
+    /// what is varied, there
     value: Real,
+    /// how far that may be off: half of the bracket in which it lies
     half_width: Real,
+    /// step there
     step_m: Option<Real>,
+    /// whether motions are stable on the side of smaller and on that of larger values; of a fold before it and after it along
+    /// the branch
     stable: [bool; 2],
+    /// periods of the beat that neither fades nor grows; of Neimark-Sacker only
     #[serde(skip_serializing_if = "Option::is_none")]
     beat_periods: Option<Real>,
     #[serde(skip_serializing_if = "Vec::is_empty")]
     changes: Vec<ChangeReport>,
+    /// what happens, in words
     words: String,
 }
 
-#[derive(Debug, Serialize)]
+#[derive(Debug, Serialize, JsonSchema)]
 struct ChangeReport {
+    /// contact or block whose event it is
     source: String,
+    /// the event
     event: &'static str,
+    /// how often it happens in a period below the place
     below: usize,
+    /// how often above it
     above: usize,
 }
 
-#[derive(Debug, Serialize)]
+#[derive(Debug, Serialize, JsonSchema)]
 struct EndReport {
+    /// what is varied, at the first and at the last motion
     value: Real,
+    /// `range` (its end), `shakedown` (beyond, a contact never slips grossly: a whole family of motions), `slides away` (what
+    /// pulls a body is as much as friction holds: any speed does), `rounded` (rounding leaves nothing of what friction does in
+    /// a period), `lost` (no motion was found beyond), `refused` (the scenario allows no value beyond), `points` (as many as
+    /// were allowed) or `interrupted`
     kind: &'static str,
+    /// the same in words
     words: String,
 }
 
@@ -247,4 +291,14 @@ fn report<'a>(of: &'a Continuation, branch: &Branch, [tolerance, accuracy]: [f64
         files: Vec::new(),
         table_sha256: None,
     }
+}
+
+/// What every key of `branch.json` and every column of `branch.csv` is.
+pub(crate) fn definitions() -> Vec<Definition> {
+    let columns = stickslip_quantity::report::<PointReport>(NAMES[0][0]);
+    let columns = columns.into_iter().filter(|one| !["value", "multipliers"].contains(&one.name.as_ref()));
+    columns
+        .chain(columns::BRANCH.definitions())
+        .chain(stickslip_quantity::report::<Report<'_>>(BRANCH))
+        .collect()
 }
