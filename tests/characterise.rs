@@ -119,12 +119,16 @@ fn both_senses_are_written_together() {
     assert!(told.starts_with("forward\n") && told.contains("\nbackward\n"), "{told}");
     assert_eq!(listing(&out), ["curve.csv", "curve.json", "curve.png"]);
     let table = Table::read(&out.join("curve.csv"));
-    assert_eq!(table.column("sense"), ["forward", "forward", "forward", "backward", "backward", "backward"]);
+    assert_eq!(
+        table.column("direction"),
+        ["forward", "forward", "forward", "backward", "backward", "backward"]
+    );
     let steps: Vec<f64> = table.column("step_m").iter().map(|step| step.parse().unwrap()).collect();
     assert!(steps[2] > 0.0 && (steps[2] + steps[5]).abs() < 1e-6 * steps[2], "{steps:?}");
     let told: Value = serde_json::from_slice(&std::fs::read(out.join("curve.json")).unwrap()).unwrap();
-    let landmark =
-        |place: usize| (told["landmarks"][place]["sense"].clone(), told["landmarks"][place]["at"].as_f64());
+    let landmark = |place: usize| {
+        (told["landmarks"][place]["direction"].clone(), told["landmarks"][place]["at"].as_f64())
+    };
     let ((forth, there), (back, then)) = (landmark(0), landmark(1));
     assert_eq!((forth, back), ("forward".into(), "backward".into()));
     assert!((there.unwrap() / then.unwrap() - 1.0).abs() < 2e-3, "{there:?} {then:?}");

@@ -141,29 +141,29 @@ fn limits_are_told_together_with_what_else_is_wrong() {
 #[test]
 fn machines_are_told_what_was_not_judged() {
     let folder = tempdir().unwrap();
-    let unjudged = |arguments: &[&str]| {
+    let not_checked = |arguments: &[&str]| {
         let output = check(folder.path(), &[&["--json"], arguments].concat());
         let line: Value = serde_json::from_str(&stdout(&output)).unwrap();
-        line.get("unjudged").cloned()
+        line.get("not_checked").cloned()
     };
     broken(folder.path(), "0.2,", "-0.2,");
     let all = serde_json::json!(["form", "meaning", "equilibrium", "limits"]);
-    assert_eq!(unjudged(&["mine.json"]), Some(serde_json::json!(["limits"])));
-    assert_eq!(unjudged(&["nowhere.json"]), Some(all.clone()));
-    assert_eq!(unjudged(&["mine.json", "--set", "stickslip=2"]), Some(all.clone()));
+    assert_eq!(not_checked(&["mine.json"]), Some(serde_json::json!(["limits"])));
+    assert_eq!(not_checked(&["nowhere.json"]), Some(all.clone()));
+    assert_eq!(not_checked(&["mine.json", "--set", "stickslip=2"]), Some(all.clone()));
     // Memory is estimated when nothing else is wrong.
     let good = ["mine.json", "--set", "contacts.ball.friction=0.2"];
-    assert_eq!(unjudged(&good), None);
+    assert_eq!(not_checked(&good), None);
     assert_eq!(
-        unjudged(&[&good[..], &["--set", "output.every=1 ns"]].concat()),
+        not_checked(&[&good[..], &["--set", "output.every=1 ns"]].concat()),
         Some(serde_json::json!(["limits"]))
     );
     assert_eq!(
-        unjudged(&["mine.json", "--set", "run.start=equilibrium"]),
+        not_checked(&["mine.json", "--set", "run.start=equilibrium"]),
         Some(serde_json::json!(["equilibrium", "limits"]))
     );
     std::fs::write(folder.path().join("mine.json"), "{ \"stickslip\": 1, ").unwrap();
-    assert_eq!(unjudged(&["mine.json"]), Some(all));
+    assert_eq!(not_checked(&["mine.json"]), Some(all));
 }
 
 #[test]

@@ -136,7 +136,7 @@ fn every_figure_of_a_branch_is_defined() {
     let range = "waveforms.drive.sawtooth.stroke=30 nm..600 nm";
     let mut all = answers(&["steady", "--json", file, "--continue", range, "--out", out.to_str().unwrap()]);
     all.push(serde_json::from_slice(&std::fs::read(out.join("branch.json")).unwrap()).unwrap());
-    assert!(all.len() == 2 && all[0]["marks"][0]["changes"][0]["event"].is_string());
+    assert!(all.len() == 2 && all[0]["special_points"][0]["changes"][0]["event"].is_string());
     assert_eq!(
         (&all[0]["ends"][0]["kind"], &all[0]["ends"][1]["kind"]),
         (&json!("shakedown"), &json!("range"))
@@ -167,7 +167,7 @@ fn every_figure_of_a_curve_is_defined() {
     let unknown: Vec<_> = head.iter().filter(|column| !defined("curve.csv", column)).collect();
     assert!(unknown.is_empty() && head.len() == 13, "{unknown:?}");
     let all = ask(&["--curve", "holding-force", "--vary", "contacts.ball.friction=-0.1..0.2"]);
-    assert!(all[0]["points"][0]["along_x"]["fault"].is_string() && all[0]["on"] == "slider");
+    assert!(all[0]["points"][0]["along_x"]["fault"].is_string() && all[0]["body"] == "slider");
     assert_eq!(lacking("curve.json", &all), Vec::<String>::new());
     let head = Table::read(&out.join("curve.csv")).head;
     // What is varied by its path has the name that it has in the scenario.

@@ -53,7 +53,7 @@ fn what_is_skipped_is_told_with_its_reason() {
     let items = |key: &str| -> Vec<String> {
         let items = info["usage"][key].as_array().unwrap().iter();
         let of = |item: &Value| {
-            item.get("of").map(|of| {
+            item.get("parts").map(|of| {
                 of.as_array().unwrap().iter().map(|n| format!(" {}", n.as_str().unwrap())).collect::<String>()
             })
         };

@@ -243,7 +243,7 @@ fn open_books_are_warned_of_whatever_the_window() {
     let set = [stepper, "output.every=20 us", "plots=[]"];
     let warned = |name: &str, more: &[&str]| {
         let folder = run_example("p1", &out.path().join(name), &[&set[..], more].concat());
-        summary(&folder)["warnings"].to_string().contains("energy_books")
+        summary(&folder)["warnings"].to_string().contains("energy_balance")
     };
     assert!(warned("whole", &[]));
     assert!(warned("window", &[r#"output.window={"to": "40 us"}"#, "output.events=off"]));

@@ -28,7 +28,7 @@ fn kinds(folder: &Path) -> Vec<String> {
 fn open_energy_books_are_said_and_strictness_lets_them_not_pass() {
     let out = tempdir().unwrap();
     let folder = out.path().join("quickstart");
-    let both: [&[&str]; 2] = [&["energy_books"], &["step", "energy_books"]];
+    let both: [&[&str]; 2] = [&["energy_balance"], &["step", "energy_balance"]];
     for ((stepper, share), told_of) in
         [("{\"verlet\":{\"step\":\"5 us\"}}", "20.21 %"), ("{\"rk4\":{\"step\":\"100 us\"}}", "98.67 %")]
             .into_iter()
@@ -42,7 +42,7 @@ fn open_energy_books_are_said_and_strictness_lets_them_not_pass() {
         assert!(said.contains(&words) && said.contains("   help: take a shorter step"), "{said}");
         let told = summary(&folder);
         let warning = &told["warnings"][told_of.len() - 1];
-        assert_eq!((&warning["kind"], warning.get("path")), (&Value::from("energy_books"), None));
+        assert_eq!((&warning["kind"], warning.get("path")), (&Value::from("energy_balance"), None));
         let (message, help) = (warning["message"].as_str().unwrap(), warning["help"].as_str().unwrap());
         let books = format!("warning: quickstart: {message}\n   help: {help}\n");
         assert!(said.ends_with(&books) && (said == books) == (told_of.len() == 1), "{said}");
@@ -88,7 +88,7 @@ fn what_a_reference_does_not_see_of_its_energies_is_said() {
         let output = format!("output={every}");
         let stepper = "run.stepper={\"dopri5\":{\"tolerance\":1e-9}}";
         let output = strictly("sine_drive", out.path(), &[stepper, &output, "plots=[]"]);
-        assert_eq!((code(&output), kinds(&folder)), (3, vec!["energy_books".to_owned()]));
+        assert_eq!((code(&output), kinds(&folder)), (3, vec!["energy_balance".to_owned()]));
         said.push(stderr(&output));
     }
     assert!(
@@ -111,11 +111,11 @@ fn steps_taken_in_spite_of_their_estimate_are_counted() {
     assert!(stderr(&output).contains(" steps miss their tolerance: damped springs"), "{}", stderr(&output));
     let folder = out.path().join("flat_damped");
     assert_eq!(kinds(&folder), ["error_estimate"]);
-    assert!(number(&summary(&folder), "/counts/missed") >= 1.0);
+    assert!(number(&summary(&folder), "/counts/missed_tolerance") >= 1.0);
     // Without damping the law has no such line.
     let output = run(&file, out.path(), &[fine, "contacts.c.damping=\"0 s\""]);
     assert_eq!((code(&output), stderr(&output)), (0, String::new()));
-    assert_eq!(summary(&folder)["counts"].get("missed"), None);
+    assert_eq!(summary(&folder)["counts"].get("missed_tolerance"), None);
 }
 
 #[test]

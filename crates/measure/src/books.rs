@@ -155,12 +155,12 @@ pub fn warning(books: &Books, stepper: Stepper, is_asked: bool, finest: f64) -> 
     let (missed, of) = (quantity(Real(missing), "J"), quantity(Real(through), "J"));
     let warning = |share: String, more: String| {
         let said = format!("the energy books miss {share} of what went through them, {missed} of {of}{more}");
-        Some(Warning::new("energy_books", said).help(advice(stepper)))
+        Some(Warning::new("energy_balance", said).help(advice(stepper)))
     };
     let share = missing / through;
     if is_open(OPEN * through) && !share.is_finite() {
         let said = format!("the energy books do not close: {missed} is missing");
-        return Some(Warning::new("energy_books", said).help(advice(stepper)));
+        return Some(Warning::new("energy_balance", said).help(advice(stepper)));
     }
     if is_open(OPEN * through) {
         let share =

@@ -9,7 +9,7 @@ use std::fmt;
 pub struct Warning {
     /// what a warning is about, one word for machines. Of the scenario, among others: `mass`, `stiffness`, `capacitance`,
     /// `stroke`, `modulus` out of proportion; `pressure` beyond yield; `damping_time` beyond a tenth of the period; `flank`
-    /// below ten passages of a shear wave; `load` beyond friction. Of the run: `energy_books`, `error_estimate`, `flight`,
+    /// below ten passages of a shear wave; `load` beyond friction. Of the run: `energy_balance`, `error_estimate`, `flight`,
     /// `angle` beyond 0.1 rad, `rolling` beyond the contact radius, `through_ground` for a fall below all contacts
     pub kind: &'static str,
     /// the place in the scenario that it is about

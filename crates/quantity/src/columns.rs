@@ -32,7 +32,7 @@ columns! { TRACE, "trace.csv",
     "ACTUATOR.source_J": "work ∫f·I dt of the driver's source since the start, f what its output stage follows",
     "ACTUATOR.stored_J": "energy CV²/2 in the stack's capacitance; of a reciprocal driver less kαV(αV - e)",
     "ACTUATOR.lost_J": "work ∫(f - V)·I dt lost in the driver since the start: source less what the store has gained",
-    "ACTUATOR.worked_J": "work ∫k(αV - e)α dV of a stack since the start that its reciprocal driver pays: source less lost less what the store has gained",
+    "ACTUATOR.mechanical_J": "work ∫k(αV - e)α dV of a stack since the start that its reciprocal driver pays: source less lost less what the store has gained",
     "ACTUATOR.hysteresis.stroke_m": "free stroke behind the hysteresis of a stack",
     "ACTUATOR.creep.stroke_m": "free stroke behind its creep: what the stack follows",
     "ACTUATOR.inverse_creep.stroke_m": "stroke to be asked for so that creep makes the command of it",
@@ -90,7 +90,7 @@ columns! { FRICTION, "friction.csv",
     "contact": "the contact, one of its count",
     "r_m": "distance r from the axis",
     "work_J_m2": "work of friction per area at r since the start, ∫τ·d(slip), of the smooth profile: of a contact on a row of few springs it adds up to less than friction takes, in one scene with 32 by 29 %, with 128 by 6 %, with 1 024 by 0.2 %",
-    "way_m": "way that the surfaces have slid over each other at r since the start",
+    "slip_path_m": "path that the surfaces have slid over each other at r since the start",
 }
 
 columns! { CYCLES, "cycles.csv",
@@ -122,7 +122,7 @@ columns! { STEPS, "steps.csv",
     "end_s": "time at its end",
     "length_m": "length of the step: x of the body at the end of the period minus x at its start",
     "x_m": "x at the start of the period",
-    "least_m": "smallest x within the period, both ends included",
+    "smallest_m": "smallest x within the period, both ends included",
     "largest_m": "largest x within it",
 }
 
@@ -172,7 +172,7 @@ columns! { CONTACT_FRICTION, "contact: friction.csv",
     "share": "part of the way from the corner before",
     "r_m": "r, distance from the axis",
     "work_J_m2": "friction work per area at r so far, ∫τ·d(slip) (4.41)",
-    "way_m": "way slid at r so far",
+    "slip_path_m": "path slid at r so far",
 }
 
 columns! { CONTACT_NORMAL, "contact: normal.csv",
@@ -208,8 +208,8 @@ columns! { VALIDATE, "validate",
 }
 
 columns! { BRANCH, "branch.csv",
-    "multiplier": "|λ|, modulus of the largest Floquet multiplier",
-    "beat_periods": "periods in which that disturbance turns once; none where it does not",
+    "largest_multiplier": "|λ|, modulus of the largest Floquet multiplier",
+    "oscillation_periods": "drive periods in which that disturbance oscillates once; none where it does not",
 }
 
 columns! { CURVE, "curve.csv",

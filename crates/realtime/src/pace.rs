@@ -101,7 +101,7 @@ pub struct Timing {
     /// Deadlines left out.
     pub left_out: u64,
     /// Most deadlines left out in a row.
-    pub most_left_out: u64,
+    pub longest_skip: u64,
     /// Frames that took longest.
     pub slowest: Worst,
     /// Frames that the loop woke for latest.
@@ -120,7 +120,7 @@ impl Timing {
             execution: Histogram::new(),
             overruns: 0,
             left_out: 0,
-            most_left_out: 0,
+            longest_skip: 0,
             slowest: Worst::new(|slow| slow.execution),
             latest: Worst::new(|slow| slow.latency),
             wall: 0,
@@ -153,7 +153,7 @@ impl Timing {
         self.latest.look(slow);
         self.steps[usize::try_from(slow.work[STEPS]).unwrap_or(MOST_STEPS).min(MOST_STEPS - 1)] += 1;
         self.left_out += left_out;
-        self.most_left_out = self.most_left_out.max(left_out);
+        self.longest_skip = self.longest_skip.max(left_out);
     }
 }
 

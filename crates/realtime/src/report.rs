@@ -50,9 +50,9 @@ pub struct Report {
     /// frames that ended after the next deadline
     pub overruns: u64,
     /// deadlines that had passed and were left out
-    pub deadlines_left_out: u64,
+    pub deadlines_skipped: u64,
     /// most of them in a row
-    pub most_left_out: u64,
+    pub longest_skip: u64,
     /// From waking until the outputs were out.
     pub execution: Times,
     /// From the deadline until the loop woke.
@@ -146,7 +146,7 @@ pub struct Subject {
 impl Report {
     /// What a loop came to.
     pub fn new(subject: Subject, pace: &Pace, frames_asked: u64, ended: &Ended) -> Self {
-        let Timing { latency, execution, overruns, left_out, most_left_out, wall, .. } = &ended.timing;
+        let Timing { latency, execution, overruns, left_out, longest_skip, wall, .. } = &ended.timing;
         let (paced, empty) = (pace.overrun.is_some(), &ended.floor);
         let (word, error) = ending(ended);
         let frames = ended.timing.frames();
@@ -171,8 +171,8 @@ impl Report {
             error,
             kept: paced && complete && *overruns == 0,
             overruns: *overruns,
-            deadlines_left_out: *left_out,
-            most_left_out: *most_left_out,
+            deadlines_skipped: *left_out,
+            longest_skip: *longest_skip,
             execution: Times::of(execution),
             latency: paced.then(|| Times::of(latency)),
             empty_execution: (empty.frames() > 0).then(|| Times::of(&empty.execution)),

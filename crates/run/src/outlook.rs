@@ -21,7 +21,7 @@ pub enum Outlook {
 /// A motion that repeats itself every period.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct Repetition {
-    /// way of the body of the figures along x in a period of the steady motion, [found directly](steady.md), as if waveforms
+    /// displacement of the body of the figures along x in a period of the steady motion, [found directly](steady.md), as if waveforms
     /// never ended
     #[serde(rename = "step_m")]
     pub step: Real,
@@ -31,7 +31,7 @@ pub struct Repetition {
     /// step over period
     #[serde(rename = "speed_m_s")]
     pub speed: Real,
-    /// whether a run that is disturbed a little comes back to it; left out where a disturbance neither fades nor grows, of a
+    /// whether a run that is disturbed a little comes back to it; left out where a disturbance neither decays nor grows, of a
     /// shakedown unless it grows, and where that is not known
     #[serde(skip_serializing_if = "Option::is_none")]
     pub stable: Option<bool>,
@@ -40,17 +40,19 @@ pub struct Repetition {
     #[serde(skip_serializing_if = "is_one")]
     pub periods: u64,
     /// largest magnitude of a Floquet multiplier: what is left of a disturbance after a period
+    #[serde(rename = "largest_multiplier")]
     pub radius: Real,
-    /// periods of the drive to a beat of the disturbance that stays longest; left out where it does not turn
-    #[serde(rename = "beat_periods", skip_serializing_if = "Option::is_none")]
+    /// drive periods in which the slowest disturbance oscillates once; left out where it does not oscillate
+    #[serde(rename = "oscillation_periods", skip_serializing_if = "Option::is_none")]
     pub beat: Option<Real>,
-    /// periods in which that disturbance falls, or grows, by e
-    #[serde(rename = "fold_periods", skip_serializing_if = "Option::is_none")]
+    /// drive periods in which that disturbance decays, or grows, by a factor of e: its time constant
+    #[serde(rename = "time_constant_periods", skip_serializing_if = "Option::is_none")]
     pub fold: Option<Real>,
     /// what becomes of that disturbance, in words
+    #[serde(rename = "text")]
     pub words: String,
-    /// contacts whose memories were led along: disturbances of what they remember may stay longer
-    #[serde(skip_serializing_if = "Vec::is_empty")]
+    /// contacts whose slip memory is no unknown of the Poincaré map: disturbances of what they remember may decay more slowly
+    #[serde(rename = "memories_not_in_map", skip_serializing_if = "Vec::is_empty")]
     pub carried: Vec<String>,
     /// contacts that never slip grossly: the motion is one of a whole family, and what they slide in a period counts as its
     /// error

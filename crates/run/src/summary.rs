@@ -173,11 +173,11 @@ struct Counts {
     /// time until which events.csv has all that were asked for; ever fewer of those that follow
     #[serde(rename = "events_whole_until_s", skip_serializing_if = "Option::is_none")]
     events_whole_until: Option<Real>,
-    /// stretches by halved steps where events accumulated
-    #[serde(skip_serializing_if = "is_none")]
+    /// intervals of step doubling on the full force law, where events accumulated
+    #[serde(rename = "step_doublings", skip_serializing_if = "is_none")]
     detours: u64,
     /// steps of these that missed the tolerance
-    #[serde(skip_serializing_if = "is_none")]
+    #[serde(rename = "missed_tolerance", skip_serializing_if = "is_none")]
     missed: u64,
     /// rows of trace.csv
     rows: u64,

@@ -96,9 +96,9 @@ mod tests {
 
     #[test]
     fn a_warning_is_words_for_people_and_a_kind_for_machines() {
-        let warning = Warning::new("energy_books", "20 % are missing").help("shorter steps");
+        let warning = Warning::new("energy_balance", "20 % are missing").help("shorter steps");
         assert_eq!(warning.to_string(), "20 % are missing\n   help: shorter steps");
         let json = serde_json::to_string(&warning).unwrap();
-        assert_eq!(json, r#"{"kind":"energy_books","message":"20 % are missing","help":"shorter steps"}"#);
+        assert_eq!(json, r#"{"kind":"energy_balance","message":"20 % are missing","help":"shorter steps"}"#);
     }
 }

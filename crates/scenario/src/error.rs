@@ -22,7 +22,7 @@ pub(crate) struct Beyond {
     /// More is known to be wrong.
     pub(crate) more: bool,
     /// Not everything was judged: more may be wrong.
-    pub(crate) unjudged: bool,
+    pub(crate) not_checked: bool,
     /// Stages that were left out, or not gone through to their ends.
     pub(crate) left_out: Vec<Stage>,
 }
@@ -145,7 +145,7 @@ impl ScenarioError {
                 }
             }
             beyond.more |= one.beyond.more;
-            beyond.unjudged |= one.beyond.unjudged;
+            beyond.not_checked |= one.beyond.not_checked;
             beyond.left_out.extend(one.beyond.left_out);
         }
         let place = |report: &Report| report.excerpt.as_ref().map(|excerpt| (excerpt.line, excerpt.column));
@@ -166,7 +166,7 @@ impl ScenarioError {
 
     /// Whether not everything could be judged, so that there may be more wrong than is told.
     pub fn may_have_more(&self) -> bool {
-        self.0.beyond.unjudged
+        self.0.beyond.not_checked
     }
 
     /// The first report by itself.
@@ -195,7 +195,7 @@ impl fmt::Display for ScenarioError {
         if self.0.beyond.more {
             write!(f, "\n\nand more: these are {}", self.reports().count())?;
         }
-        if self.0.beyond.unjudged {
+        if self.0.beyond.not_checked {
             f.write_str("\n\nand maybe more: the rest was not judged")?;
         }
         Ok(())

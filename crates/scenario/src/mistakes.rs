@@ -34,7 +34,7 @@ const KIN: [(&str, &str); 3] = [("period", "frequency"), ("frequency", "period")
 pub(crate) fn all(mut document: Document, first: Vec<Fault>) -> ScenarioError {
     let mut mistakes = Mistakes::default();
     let mut known = VecDeque::from(first);
-    let mut unjudged = false;
+    let mut not_checked = false;
     let mut is_judged = false;
     while mistakes.found.len() < SOUGHT {
         let fault = match known.pop_front() {
@@ -46,7 +46,7 @@ pub(crate) fn all(mut document: Document, first: Vec<Fault>) -> ScenarioError {
                 }
                 Some(Err(fault)) => fault,
                 None => {
-                    unjudged = true;
+                    not_checked = true;
                     break;
                 }
             },
@@ -54,14 +54,14 @@ pub(crate) fn all(mut document: Document, first: Vec<Fault>) -> ScenarioError {
         // A fault that says itself that nothing else can be judged needs no more words.
         let is_all = fault.bearing.mend == Mend::Nothing;
         if !mistakes.take(&mut document, fault) && known.is_empty() {
-            unjudged = !is_all;
+            not_checked = !is_all;
             break;
         }
     }
     if is_judged {
         mistakes.reached = Stage::Equilibrium;
     }
-    mistakes.told(unjudged)
+    mistakes.told(not_checked)
 }
 
 /// Where a report stands: its source, or the one that names it, the place there and the place in a table.
@@ -246,7 +246,7 @@ impl Mistakes {
     }
 
     /// In the order of the file.
-    fn told(mut self, unjudged: bool) -> ScenarioError {
+    fn told(mut self, not_checked: bool) -> ScenarioError {
         self.found.sort_by_key(|(order, _)| *order);
         let more = self.found.len() > TOLD;
         let is_asked = |stage: &Stage| *stage != Stage::Equilibrium || self.balances;
@@ -257,7 +257,7 @@ impl Mistakes {
         ScenarioError::several(
             first.unwrap_or_default(),
             reports.collect(),
-            Beyond { more, unjudged: unjudged && !more, left_out },
+            Beyond { more, not_checked: not_checked && !more, left_out },
         )
     }
 }

@@ -27,7 +27,7 @@ pub(super) fn loops(findings: &Findings<'_>) -> String {
     for which in ["median", "worst"] {
         SHOWN.iter().for_each(|name| text += &format!(",{which}_work_{name}"));
     }
-    text += ",worst_work_frame,paced_frames,overruns,deadlines_left_out,error_u_c,error_strokes\n";
+    text += ",worst_work_frame,paced_frames,overruns,deadlines_skipped,error_u_c,error_strokes\n";
     for of in &findings.loops {
         let steps = of.steps.map_or_else(String::new, |steps| steps.to_string());
         let (name, length) = (field(findings.name(of)), findings.length(of));

@@ -31,7 +31,7 @@ struct Finding<'a> {
     /// each other), `equilibrium` (whether there is one to start from), `limits` (rows, lines and memory of a run); more may be
     /// wrong there
     #[serde(skip_serializing_if = "Vec::is_empty")]
-    unjudged: Vec<&'static str>,
+    not_checked: Vec<&'static str>,
     /// What is allowed and probably not meant.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     warnings: Vec<Fault>,
@@ -89,7 +89,7 @@ fn tell(arguments: &CheckArguments, file: &Path, job: &Result<Job, Refusal>) {
             error: job.as_ref().err().and_then(|refusal| Fault::all(refusal, file).into_iter().next()),
             errors: job.as_ref().err().map_or_else(Vec::new, |refusal| Fault::all(refusal, file)),
             more: matches!(job, Err(Refusal::Scenario(error)) if error.has_more()),
-            unjudged: match job {
+            not_checked: match job {
                 Err(Refusal::Scenario(error)) => error.left_out().iter().map(|stage| stage.word()).collect(),
                 _ => Vec::new(),
             },

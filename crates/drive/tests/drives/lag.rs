@@ -86,7 +86,7 @@ impl Component for Lag {
     }
 
     fn columns(&self) -> Vec<&'static str> {
-        vec!["q_m", "way_m"]
+        vec!["q_m", "slip_path_m"]
     }
 }
 
@@ -205,7 +205,7 @@ fn its_energy_is_in_the_books_and_its_memory_moves_once_per_step() {
     let gone: f64 = q.windows(2).map(|pair| (pair[1] - pair[0]).abs()).sum();
     // Rows are no turning points: they cut corners of the way by less than a row's. In a row the memory is that of the step's
     // start; the corner at the end of the run has moved it on.
-    let way = model.channels().iter().position(|channel| channel.name == "lag.way_m").unwrap();
+    let way = model.channels().iter().position(|channel| channel.name == "lag.slip_path_m").unwrap();
     let (end, values) = trace.events().last().unwrap();
     assert_eq!(end.t, 2.0 * PERIOD);
     let last = &values[way];

@@ -238,7 +238,7 @@ impl Component for Driver {
 
     fn columns(&self) -> Vec<&'static str> {
         let mut columns = vec!["voltage_V", "current_A", "source_J", "stored_J", "lost_J"];
-        columns.extend(self.strain.map(|_| "worked_J"));
+        columns.extend(self.strain.map(|_| "mechanical_J"));
         columns
     }
 }

@@ -98,7 +98,7 @@ fn springs(report: &Report) -> Option<String> {
 /// Kept or not.
 fn verdict(report: &Report) -> String {
     let share = 1e-4 * report.execution.p99_99_us / report.period_s;
-    let Report { overruns, frames, deadlines_left_out, most_left_out, .. } = report;
+    let Report { overruns, frames, deadlines_skipped, longest_skip, .. } = report;
     match report.ended {
         "stopped" | "memory" => format!("stopped: {}", report.error.as_deref().unwrap_or_default()),
         "no_input" => "not begun: no input came".to_owned(),
@@ -118,7 +118,7 @@ fn verdict(report: &Report) -> String {
             };
             let kept = if *overruns == 0 { "kept until then" } else { "not kept" };
             format!(
-                "{kept}{ended}: {overruns} of {frames} frames overran, {deadlines_left_out} deadlines left out, {most_left_out} \
+                "{kept}{ended}: {overruns} of {frames} frames overran, {deadlines_skipped} deadlines left out, {longest_skip} \
                  in a row at most; 99.99 % of the frames took up to {share:.1} % of the period"
             )
         }

@@ -43,11 +43,11 @@ pub struct ContactInfo {
     #[schemars(extend("x-name" = "LOAD"))]
     pub start: Pressed,
     /// At the smallest indentation of a load that varies.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    #[serde(rename = "smallest", skip_serializing_if = "Option::is_none")]
     #[schemars(extend("x-name" = "LOAD"))]
     pub least: Option<Pressed>,
     /// At the largest.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    #[serde(rename = "largest", skip_serializing_if = "Option::is_none")]
     #[schemars(extend("x-name" = "LOAD"))]
     pub most: Option<Pressed>,
 }

@@ -32,7 +32,7 @@ pub struct PiezoInfo {
     #[serde(rename = "mass_kg", skip_serializing_if = "Option::is_none")]
     pub mass: Option<Real>,
     /// what of it has been added to the bodies at its ends
-    #[serde(rename = "ends_kg", skip_serializing_if = "Option::is_none")]
+    #[serde(rename = "added_to_ends_kg", skip_serializing_if = "Option::is_none")]
     pub ends: Option<[Real; 2]>,
     /// α, given or stroke over voltage of the data sheet
     #[serde(rename = "stroke_per_volt_m_V", skip_serializing_if = "Option::is_none")]
@@ -51,7 +51,8 @@ pub struct PiezoInfo {
     /// Where a driver is asked for most.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub corner: Option<CornerInfo>,
-    /// what of this is worth a sentence
+    /// remarks on it, in sentences
+    #[serde(rename = "text")]
     pub words: Vec<String>,
 }
 
@@ -67,8 +68,8 @@ pub struct CommandInfo {
     /// k times the largest stroke: force against a wall
     #[serde(rename = "blocking_force_N")]
     pub blocking_force: Real,
-    /// what its driver leaves of the stroke when periods repeat, about
-    #[serde(rename = "left_m", skip_serializing_if = "Option::is_none")]
+    /// smallest and largest stroke that its driver reaches when periods repeat, about
+    #[serde(rename = "reached_m", skip_serializing_if = "Option::is_none")]
     pub left: Option<[Real; 2]>,
 }
 

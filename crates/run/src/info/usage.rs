@@ -22,7 +22,7 @@ pub struct Item {
     /// what a run computes
     pub what: &'static str,
     /// of which parts of the scene; not told of the whole
-    #[serde(skip_serializing_if = "Vec::is_empty")]
+    #[serde(rename = "parts", skip_serializing_if = "Vec::is_empty")]
     pub of: Vec<String>,
     /// why, or how
     pub why: String,

@@ -52,6 +52,7 @@ struct SimilaritySummary {
     /// artanh(β)/β - 1, by how much of itself the normal stiffness is too low at most
     neglected_stiffness: Real,
     /// both in words
+    #[serde(rename = "text")]
     means: String,
 }
 

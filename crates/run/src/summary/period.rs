@@ -31,9 +31,11 @@ pub struct LastPeriod {
     /// How its foot moved, or why a step is not measured by that.
     #[serde(skip)]
     pub(super) foot: Result<FootMotion, &'static str>,
-    /// While the waveform goes forth.
+    /// While the waveform goes forward.
+    #[serde(rename = "forward")]
     pub(super) forth: Way,
-    /// While it goes back.
+    /// While it returns.
+    #[serde(rename = "return")]
     pub(super) back: Way,
     /// Where the work of the drive went.
     pub(super) work: PeriodWork,
@@ -45,13 +47,14 @@ pub struct LastPeriod {
 /// One way of the waveform.
 #[derive(Debug, Serialize, JsonSchema)]
 pub struct Way {
-    /// how long the waveform goes forth: its slower way, of two as slow that of the step, or without a step the rising one
+    /// duration of this stroke of the waveform. `forward` is its slower stroke, of two as slow that of the step, or without a step
+    /// the rising one; `return` is the other
     #[serde(rename = "time_s")]
     pub(super) time: Real,
-    /// how far it goes forth, with its sign
+    /// travel of the waveform in it, with its sign
     #[serde(rename = "stroke_m", skip_serializing_if = "Option::is_none")]
     pub(super) stroke: Option<Real>,
-    /// how far the body goes meanwhile, and while the waveform rests
+    /// travel of the body in it; what the waveform rests counts with the forward stroke
     #[serde(rename = "travel_m")]
     pub(super) travel: Real,
 }
@@ -82,19 +85,19 @@ pub struct PeriodWork {
 /// What a contact of the body did.
 #[derive(Debug, Serialize, JsonSchema)]
 pub struct ContactPeriod {
-    /// share of the way forth in which the contact slips as a whole
+    /// share of the forward stroke in which the whole contact slips
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub(super) slip_share_forth: Option<Real>,
-    /// the same of the way back
+    pub(super) slip_share_forward: Option<Real>,
+    /// the same of the return stroke
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub(super) slip_share_back: Option<Real>,
-    /// how often u turns on the way forth, in full stick, too; out of gross slip it does not count
-    pub(super) reversals_forth: u32,
-    /// from when the waveform turns forth until the force's last swing beyond 5 % of the limit of friction; left out where it
+    pub(super) slip_share_return: Option<Real>,
+    /// number of reversals of u on the forward stroke, in full stick, too; out of gross slip they do not count
+    pub(super) reversals_forward: u32,
+    /// from the beginning of the forward stroke until the force's last swing beyond 5 % of the limit of friction; left out where it
     /// swings on
     #[serde(rename = "settling_s", skip_serializing_if = "Option::is_none")]
     pub(super) settling: Option<Real>,
-    /// last swing of the force on the way forth, half of peak to peak, over the limit of friction, the mean of that at both
+    /// last swing of the force on the forward stroke, half of peak to peak, over the limit of friction, the mean of that at both
     /// turns of u
     pub(super) ringing_left: Real,
 }
@@ -163,9 +166,9 @@ fn contact(it: &ContactAccount, time: [f64; 2], forth: usize) -> ContactPeriod {
     let swing = it.swing[forth];
     let still = swing > RINGING;
     ContactPeriod {
-        slip_share_forth: share(forth),
-        slip_share_back: share(1 - forth),
-        reversals_forth: it.reversals[forth],
+        slip_share_forward: share(forth),
+        slip_share_return: share(1 - forth),
+        reversals_forward: it.reversals[forth],
         settling: (!still).then(|| Real(it.rings[forth].unwrap_or(0.0))),
         ringing_left: Real(swing),
     }

@@ -50,7 +50,7 @@ pub struct DriveSummary {
     /// largest magnitude of the length of a step
     #[serde(rename = "longest_m")]
     longest: Real,
-    /// `settled`, `not_settled`, `irregular`, `drifts` or `beats`: what the lengths do
+    /// `settled`, `not_settled`, `irregular`, `drifts` or `oscillates`: what the lengths of the steps do
     pub settling: SettlingSummary,
     /// The step that they have settled to; none where they have not.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -126,14 +126,15 @@ pub enum SettlingSummary {
         change_m: Real,
     },
     /// They swing about a mean.
+    #[serde(rename = "oscillates")]
     Beats {
-        /// periods of a beat
+        /// drive periods of one oscillation
         periods: Real,
-        /// by which share the beat grows per period; below 0 it fades
+        /// share by which the oscillation grows per period; below 0 it decays
         #[serde(skip_serializing_if = "Option::is_none")]
         growth: Option<Real>,
-        /// mean that the beat swings about
-        about_m: Real,
+        /// mean of the oscillation
+        mean_m: Real,
         /// its amplitude at the end
         amplitude_m: Real,
     },
@@ -371,7 +372,7 @@ fn settling(settling: &Settling) -> SettlingSummary {
         Settling::Beats { period, growth, about, amplitude } => SettlingSummary::Beats {
             periods: Real(period),
             growth: growth.map(|growth| Real(growth - 1.0)),
-            about_m: Real(about),
+            mean_m: Real(about),
             amplitude_m: Real(amplitude),
         },
     }

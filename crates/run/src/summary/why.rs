@@ -82,16 +82,16 @@ fn contact_line(name: &str, contact: &ContactPeriod) -> String {
     let share = |share: Option<Real>| share.map_or("0.0 %".to_owned(), |share| percent(share.0));
     let slip = format!(
         "{name} slipped {} of the way back and {} of the way forth",
-        share(contact.slip_share_back),
-        share(contact.slip_share_forth)
+        share(contact.slip_share_return),
+        share(contact.slip_share_forward)
     );
-    let times = match contact.reversals_forth {
+    let times = match contact.reversals_forward {
         1 => "once".to_owned(),
         2 => "twice".to_owned(),
         times => format!("{times} times"),
     };
     let ringing = match contact.settling {
-        _ if contact.reversals_forth == 0 => "did not ring".to_owned(),
+        _ if contact.reversals_forward == 0 => "did not ring".to_owned(),
         None => format!(
             "turned {times} on the way forth and still swings by {} of the limit of friction when the drive turns: the step hangs on the period",
             percent(contact.ringing_left.0)

@@ -48,7 +48,7 @@ fn by_verlet(name: &str, body: &str, contact: usize, step: f64) -> (f64, f64) {
 fn books((job, outcome): &(Job, Outcome)) -> (f64, bool) {
     let summary: Value = serde_json::from_str(&Summary::new(job, outcome).line().unwrap()).unwrap();
     let warnings = summary["warnings"].as_array().cloned().unwrap_or_default();
-    let warned = warnings.iter().any(|warning| warning["kind"] == "energy_books");
+    let warned = warnings.iter().any(|warning| warning["kind"] == "energy_balance");
     (summary["energy"]["largest_error_relative"].as_f64().unwrap(), warned)
 }
 

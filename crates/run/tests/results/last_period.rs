@@ -74,7 +74,7 @@ fn check(name: &str, body: &str, contact: &str, set: &[(&str, &str)]) -> Value {
     let fastest = series.column(&format!("{body}.vx_m_s"))[rows.clone()]
         .iter()
         .fold(0.0, |most: f64, v| most.max(v.abs()));
-    for (way, side) in [("forth", forth), ("back", 1 - forth)] {
+    for (way, side) in [("forward", forth), ("return", 1 - forth)] {
         let of = |key: &str| number(&steps, &format!("/last_period/{way}/{key}"));
         // A turn lies somewhere between two rows, at which the body is no faster than at its fastest.
         near(of("time_s"), time[side], 2.0 * row, "time");
@@ -112,7 +112,7 @@ fn a_sawtooth_on_three_balls() {
     near(number(&steps, "/last_period/work/load_J"), 0.02 * step, 1e-12 * step, "load");
     // 812 reversals in ten periods, nearly all of them of the ringing: 4.15 kHz turns twice a period, for 9.99 ms.
     near(
-        number(&steps, "/last_period/contacts/ball/reversals_forth"),
+        number(&steps, "/last_period/contacts/ball/reversals_forward"),
         2.0 * 4.15e3 * 9.99e-3,
         4.0,
         "reversals",
@@ -154,8 +154,8 @@ fn a_flyback_that_is_late() {
     ];
     let steps = check("quickstart", "slider", "ball", &set);
     // Falling at 0.6 mm/s it meets the rise of 0.2 mm/s after s = S/(0.6 + 0.2) mm/s: 0.25 ms.
-    near(number(&steps, "/last_period/back/time_s"), 0.25e-3, 1e-9, "time");
-    near(number(&steps, "/last_period/back/stroke_m"), -150e-9, 1e-15, "stroke");
+    near(number(&steps, "/last_period/return/time_s"), 0.25e-3, 1e-9, "time");
+    near(number(&steps, "/last_period/return/stroke_m"), -150e-9, 1e-15, "stroke");
 }
 
 /// With a damper to ground ringing falls below 5 % of the limit of friction long before the flyback.
@@ -169,7 +169,7 @@ fn ringing_settles_when_the_extremes_of_the_rows_say_so() {
     let (steps, series) = account("quickstart", &set);
     let rows = series.last_period(&steps);
     let (t, force) = (series.column("time_s"), series.column("ball.fx_N"));
-    let flyback = number(&steps, "/last_period/from_s") + number(&steps, "/last_period/forth/time_s");
+    let flyback = number(&steps, "/last_period/from_s") + number(&steps, "/last_period/forward/time_s");
     // Extremes of the force on the way forth, the limit with which it begins among them; μF_N = 0.18 N.
     let mut extreme = force[rows.start];
     let mut last = None;
@@ -228,7 +228,7 @@ fn turns_in_full_stick_are_turns() {
             let (steps, series) = account(name, &set);
             let (count, swing) = turns(&series, &steps, "c", 0.25);
             let of = |key: &str| number(&steps, &format!("/last_period/contacts/c/{key}"));
-            assert!(count >= 2.0 && of("reversals_forth") == count, "{engine}: {steps}");
+            assert!(count >= 2.0 && of("reversals_forward") == count, "{engine}: {steps}");
             // Half a row from a turn the force is off by its square.
             near(of("ringing_left"), swing, 1e-3 * swing, "swing");
             assert!(steps.pointer("/last_period/contacts/c/settling_s").is_none(), "{steps}");
@@ -243,7 +243,7 @@ fn a_fixed_step_counts_the_same_turns() {
     let (steps, series) = account("swings_under_a_moving_foot", &set);
     let (count, swing) = turns(&series, &steps, "c", 0.25);
     let of = |key: &str| number(&steps, &format!("/last_period/contacts/c/{key}"));
-    assert_eq!(of("reversals_forth"), count);
+    assert_eq!(of("reversals_forward"), count);
     near(of("ringing_left"), swing, 1e-2 * swing, "swing");
 }
 
@@ -291,7 +291,7 @@ fn what_flies_off_has_no_steps() {
 #[test]
 fn a_contact_without_friction_slides() {
     let (steps, series) = account("without_friction", &[("run.cycles", "3")]);
-    for way in ["forth", "back"] {
+    for way in ["forward", "return"] {
         let share = number(&steps, &format!("/last_period/contacts/c/slip_share_{way}"));
         near(share, 1.0, 1e-12, "slip");
     }
@@ -333,7 +333,7 @@ fn a_force_that_comes_back_to_its_limit_does_not_slip_until_the_next_event() {
                 of.fold((0, 0), |(all, slipping), i| (all + 1, slipping + u32::from(states[i] == 3.0)));
             f64::from(slipping) / f64::from(all)
         };
-        for (key, forth) in [("forth", true), ("back", false)] {
+        for (key, forth) in [("forward", true), ("return", false)] {
             let told = number(&steps, &format!("/last_period/contacts/c/slip_share_{key}"));
             near(told, slips(forth), 5e-3, &format!("{friction} {key}"));
         }
@@ -346,9 +346,9 @@ fn a_row_of_springs_slips_for_as_long_as_the_curve() {
     let engine = ("contacts.ball.engine", r#"{"springs":{"count":1001}}"#);
     let plain = [("figures.steady_motion", "false"), ("plots", "[]")];
     let [(curve, _), (row, _)] = [&plain[..], &[engine, plain[0], plain[1]]].map(|set| account("p1", set));
-    for key in ["slip_share_forth", "slip_share_back"] {
+    for key in ["slip_share_forward", "slip_share_return"] {
         let of = |steps: &Value| number(steps, &format!("/last_period/contacts/ball/{key}"));
-        assert!(of(&curve) > 0.9 || key == "slip_share_forth", "{}", of(&curve));
+        assert!(of(&curve) > 0.9 || key == "slip_share_forward", "{}", of(&curve));
         near(of(&row), of(&curve), 5e-3, key);
     }
 }
@@ -358,7 +358,7 @@ fn a_row_of_springs_slips_for_as_long_as_the_curve() {
 fn without_a_step_the_rising_way_is_forth() {
     for amplitude in ["0.4 um", "0.4000001 um", "0.401 um", "0.39 um"] {
         let (steps, _) = account("held_by_a_spring", &[("waveforms.drive.sine.amplitude", amplitude)]);
-        let stroke = number(&steps, "/last_period/forth/stroke_m");
+        let stroke = number(&steps, "/last_period/forward/stroke_m");
         assert!(stroke > 7e-7, "{amplitude}: {stroke:e}");
     }
 }
@@ -373,9 +373,9 @@ fn fixed_steps_know_how_long_a_flyback_takes() {
     ];
     for stepper in steppers {
         let (steps, _) = account("quickstart", &[("run.stepper", stepper), ("plots", "[]")]);
-        near(number(&steps, "/last_period/back/time_s"), 10e-6, 1e-12, stepper);
-        near(number(&steps, "/last_period/forth/time_s"), 9.99e-3, 1e-12, stepper);
-        near(number(&steps, "/last_period/back/stroke_m"), -200e-9, 1e-18, stepper);
+        near(number(&steps, "/last_period/return/time_s"), 10e-6, 1e-12, stepper);
+        near(number(&steps, "/last_period/forward/time_s"), 9.99e-3, 1e-12, stepper);
+        near(number(&steps, "/last_period/return/stroke_m"), -200e-9, 1e-18, stepper);
     }
 }
 

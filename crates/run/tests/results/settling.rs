@@ -107,11 +107,11 @@ fn an_undamped_stack_is_on_its_way_for_long() {
 #[test]
 fn beats_fade_or_grow() {
     let impact = steps(&example("impact_drive"), 100, &[]);
-    assert_eq!(state(&impact), "beats");
+    assert_eq!(state(&impact), "oscillates");
     assert!((number(&impact, "/settling/periods") - 12.0).abs() < 1.0, "{}", impact["settling"]);
     assert!((-0.02..-0.001).contains(&number(&impact, "/settling/growth")), "{}", impact["settling"]);
     let climber = steps(&example("vertical_climber"), 60, &[]);
-    assert_eq!(state(&climber), "beats");
+    assert_eq!(state(&climber), "oscillates");
     assert!((number(&climber, "/settling/periods") - 7.5).abs() < 0.1, "{}", climber["settling"]);
     assert!((0.0005..0.002).contains(&number(&climber, "/settling/growth")), "{}", climber["settling"]);
 }

@@ -214,7 +214,7 @@ impl Motion {
         match self.course {
             Course::Steady if self.stands() => "no step",
             Course::Steady => "steady",
-            Course::Beats => "beats",
+            Course::Beats => "oscillates",
             Course::Irregular => "irregular",
         }
     }

@@ -37,15 +37,16 @@ pub(super) struct Report<'a, P> {
     /// its SI unit; empty of a plain number
     unit: &'static str,
     /// what it is in the scenario
+    #[serde(rename = "scenario_value")]
     present: Option<Real>,
-    /// along which sense of x the drive steps without load, against which loads act
+    /// in which direction of x the drive steps without load, against which loads act
     #[serde(skip_serializing_if = "Option::is_none")]
     against: Option<&'static str>,
-    /// the same of the backward sense
+    /// the same of the backward direction
     #[serde(skip_serializing_if = "Option::is_none")]
     against_backward: Option<&'static str>,
     /// body that is loaded; of `holding-force`
-    #[serde(skip_serializing_if = "Option::is_none")]
+    #[serde(rename = "body", skip_serializing_if = "Option::is_none")]
     pub(super) on: Option<&'a str>,
     points: Vec<P>,
     #[serde(skip_serializing_if = "Vec::is_empty")]
@@ -90,8 +91,8 @@ impl<'a, P: Serialize> Report<'a, P> {
 struct PointReport<'a> {
     /// what is varied, at this point
     value: Real,
-    /// of both senses (`--both`): `forward`, as the scenario is, or `backward`, its waveforms reversed in time
-    #[serde(skip_serializing_if = "Option::is_none")]
+    /// with `--both`: `forward`, as the scenario is, or `backward`, its waveforms reversed in time
+    #[serde(rename = "direction", skip_serializing_if = "Option::is_none")]
     sense: Option<&'static str>,
     /// what `--set` takes to make a scenario of this point
     set: Vec<String>,
@@ -109,8 +110,8 @@ struct LandmarkReport {
     /// `zero_step` (S₀, largest amplitude without a step; with `beyond_by` largest amplitude with one), `stall` (least load
     /// against which there is none), `best_speed`, `best_power` or `best_step`
     name: &'static str,
-    /// of both senses (`--both`): `forward`, as the scenario is, or `backward`, its waveforms reversed in time
-    #[serde(skip_serializing_if = "Option::is_none")]
+    /// with `--both`: `forward`, as the scenario is, or `backward`, its waveforms reversed in time
+    #[serde(rename = "direction", skip_serializing_if = "Option::is_none")]
     sense: Option<&'static str>,
     /// what is varied, there
     at: Option<Real>,
@@ -176,14 +177,15 @@ struct Figures {
     /// period of the figures' waveform
     #[serde(rename = "period_s")]
     period: Real,
-    /// `steady`, `no step` (steady, and the step is no longer than it may be off, or than a hundred-thousandth of u_c), `beats`
+    /// `steady`, `no step` (steady, and the step is no longer than it may be off, or than a hundred-thousandth of u_c), `oscillates`
     /// (steps swing about a mean) or `irregular`
     motion: &'static str,
     /// |λ|, modulus of the largest Floquet multiplier: by how much a disturbance is smaller after a period; none of motions
     /// that were waited for
+    #[serde(rename = "largest_multiplier")]
     multiplier: Option<Real>,
-    /// periods in which that disturbance turns once; none where it does not
-    beat_periods: Option<Real>,
+    /// drive periods in which that disturbance oscillates once; none where it does not
+    oscillation_periods: Option<Real>,
     /// periods that were computed
     work_periods: u32,
 }
@@ -199,7 +201,7 @@ impl Figures {
             period: Real(motion.period),
             motion: motion.word(),
             multiplier: motion.multiplier.map(|multiplier| Real(multiplier.modulus())),
-            beat_periods: motion.multiplier.and_then(|multiplier| multiplier.beat()).map(Real),
+            oscillation_periods: motion.multiplier.and_then(|multiplier| multiplier.beat()).map(Real),
             work_periods: motion.work,
         }
     }
@@ -214,10 +216,10 @@ pub type Way<'a> = (&'a Curve, &'a Traced);
 pub fn csv(ways: &[Way<'_>]) -> String {
     let Some((curve, _)) = ways.first() else { return String::new() };
     let mut table = curve.variation.head();
-    table.push_str(if curve.sense.is_some() { ",sense" } else { "" });
+    table.push_str(if curve.sense.is_some() { ",direction" } else { "" });
     table.push_str(",step_m,step_error_m,step_spread_m,speed_m_s");
     table.push_str(if curve.kind.is_of_load() { ",power_W" } else { "" });
-    table.push_str(",period_s,motion,multiplier,beat_periods,work_periods,fault\n");
+    table.push_str(",period_s,motion,largest_multiplier,oscillation_periods,work_periods,fault\n");
     for (curve, traced) in ways {
         (0..traced.points.len()).for_each(|place| row(&mut table, (curve, traced), place));
     }
@@ -337,7 +339,7 @@ pub(crate) fn definitions() -> Vec<Definition> {
         stickslip_quantity::report::<Figures>(NAMES[0][0]),
     ];
     let columns =
-        points.into_iter().filter(|one| ["sense", "fault"].contains(&one.name.as_ref())).chain(figures);
+        points.into_iter().filter(|one| ["direction", "fault"].contains(&one.name.as_ref())).chain(figures);
     let holding = super::holding::definitions();
     columns::CURVE
         .definitions()

@@ -81,9 +81,11 @@ impl Aftermath {
             Ending::Repeats(count) => {
                 format!("a motion that repeats itself every {count} periods{steps}, {after}")
             }
-            Ending::Beats(period) => format!("a motion that beats every {period:.2} periods{steps}, {after}"),
+            Ending::Beats(period) => {
+                format!("a motion that oscillates with a period of {period:.2} drive periods{steps}, {after}")
+            }
             Ending::Irregular => format!("irregular motion{steps}, {after}"),
-            Ending::Underway => format!("nothing yet {after}{steps}"),
+            Ending::Underway => format!("not settled {after}{steps}"),
             Ending::Stops(error) => format!("a run that stops {after}: {error}"),
         }
     }
@@ -95,9 +97,9 @@ impl Ending {
     pub fn name(&self) -> &'static str {
         match self {
             Self::Repeats(_) => "repeats",
-            Self::Beats(_) => "beats",
+            Self::Beats(_) => "oscillates",
             Self::Irregular => "irregular",
-            Self::Underway => "underway",
+            Self::Underway => "not_settled",
             Self::Stops(_) => "stops",
         }
     }

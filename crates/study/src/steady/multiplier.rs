@@ -104,21 +104,21 @@ impl Multiplier {
     pub fn words(&self) -> String {
         let turns = match self.beat() {
             _ if self.kind() == Kind::Forgotten => String::new(),
-            Some(beat) => format!("beats every {} periods and ", digits(beat)),
-            None if self.alternates() => "changes sides every period and ".to_owned(),
+            Some(beat) => format!("oscillates with a period of {} drive periods and ", digits(beat)),
+            None if self.alternates() => "alternates in sign and ".to_owned(),
             None => String::new(),
         };
         let change = digits(100.0 * (self.modulus() - 1.0).abs());
         let periods = self.periods().map_or_else(String::new, digits);
         let becomes = match self.kind() {
             Kind::Forgotten => "is gone after a period".to_owned(),
-            Kind::Fades => format!("fades by {change} % a period (1/e after {periods} periods)"),
+            Kind::Fades => format!("decays by {change} % per period (time constant {periods} periods)"),
             Kind::Stays if self.error > KNOWN => {
-                format!("stays, fades or grows: |λ| is known to ± {} alone", digits(self.error))
+                format!("is neutral, decays or grows: |λ| is known to ± {} only", digits(self.error))
             }
-            Kind::Stays => "stays as it is".to_owned(),
+            Kind::Stays => "neither decays nor grows".to_owned(),
             Kind::Grows => format!(
-                "grows by {change} % a period (e-fold in {periods} periods): a run leaves this motion"
+                "grows by {change} % per period (time constant {periods} periods): a run leaves this motion"
             ),
         };
         turns + &becomes
@@ -203,7 +203,10 @@ mod tests {
         let multipliers = of(&led(turn * modulus), (1e-12, 0.0));
         assert_eq!(multipliers.len(), 1);
         let words = multipliers[0].words();
-        assert_eq!(words, "beats every 12.3 periods and fades by 0.330 % a period (1/e after 303 periods)");
+        assert_eq!(
+            words,
+            "oscillates with a period of 12.3 drive periods and decays by 0.330 % per period (time constant 303 periods)"
+        );
     }
 
     #[test]
@@ -211,13 +214,16 @@ mod tests {
         let words = |re: f64| Multiplier { re, im: 0.0, error: NEUTRAL }.words();
         assert_eq!(
             words(1.001),
-            "grows by 0.100 % a period (e-fold in 1000 periods): a run leaves this motion"
+            "grows by 0.100 % per period (time constant 1000 periods): a run leaves this motion"
         );
         assert_eq!(
             words(-0.5),
-            "changes sides every period and fades by 50.0 % a period (1/e after 1.44 periods)"
+            "alternates in sign and decays by 50.0 % per period (time constant 1.44 periods)"
         );
-        assert_eq!((words(1.0).as_str(), words(1e-4).as_str()), ("stays as it is", "is gone after a period"));
+        assert_eq!(
+            (words(1.0).as_str(), words(1e-4).as_str()),
+            ("neither decays nor grows", "is gone after a period")
+        );
         // Differences that may be off by 1e-3 say nothing of a ten-thousandth.
         let coarse = |re: f64| Multiplier { re, im: 0.0, error: 1e-3 }.kind();
         assert_eq!((coarse(1.0001), coarse(0.9999), coarse(1.01)), (Kind::Stays, Kind::Stays, Kind::Grows));

@@ -62,8 +62,8 @@ impl Steady {
         let Some(largest) = self.multipliers.first() else { return "is gone after a period".to_owned() };
         let stays = largest.kind() == Kind::Stays;
         let slowest = self.multipliers.iter().find(|multiplier| stays && multiplier.kind() == Kind::Fades);
-        let rest =
-            slowest.map_or_else(String::new, |slowest| format!("; what does not stay {}", slowest.words()));
+        let rest = slowest
+            .map_or_else(String::new, |slowest| format!("; of the others the slowest {}", slowest.words()));
         let is_of_family = stays && self.is_one_of_many() || !self.shaken_down.is_empty();
         let family = if is_of_family { "; this is one motion of a family" } else { "" };
         largest.words() + &rest + family

@@ -33,6 +33,7 @@ pub struct Report {
     #[serde(skip_serializing_if = "Option::is_none")]
     stable: Option<bool>,
     /// ρ, largest magnitude of a multiplier; 0 where there is none, null where they are not known
+    #[serde(rename = "largest_multiplier")]
     radius: Real,
     multipliers: Vec<MultiplierReport>,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -40,10 +41,12 @@ pub struct Report {
     /// the numbers that the map of a period is of
     unknowns: Vec<String>,
     /// those of which no multiplier is told: memories come back with other knots when one of them is disturbed
+    #[serde(rename = "without_multiplier")]
     untold: Vec<String>,
     /// number of ways along which nothing changes but the place
     drifts: usize,
     /// contacts whose memories are no numbers of the map: they are led along, and multipliers do not know of them
+    #[serde(rename = "memories_not_in_map")]
     carried: Vec<String>,
     /// contacts that never slip grossly: what they hold near the centre they hold for ever, and this motion is the nearest of a
     /// whole family
@@ -67,43 +70,45 @@ struct MultiplierReport {
     im: Real,
     /// |λ|, by which a disturbance has become larger after a period
     modulus: Real,
-    /// how far both parts, and |λ|, may be off: one as near to 1 as that `stays`
+    /// how far both parts, and |λ|, may be off: one as near to 1 as that is `neutral`
     error: Real,
-    /// what becomes of a disturbance: `forgotten` after a period, `fades`, `stays`, or `grows`
+    /// what a disturbance does: it is `forgotten` after a period, `decays`, is `neutral` (stays as it is) or `grows`
     kind: &'static str,
     /// 2π/|arg λ|, periods of a beat; none where it does not turn
     #[serde(skip_serializing_if = "Option::is_none")]
-    beat_periods: Option<Real>,
+    oscillation_periods: Option<Real>,
     /// 1/|ln |λ||, periods in which it becomes e times smaller, or larger
     #[serde(skip_serializing_if = "Option::is_none")]
-    fold_periods: Option<Real>,
+    time_constant_periods: Option<Real>,
     /// the same in words
+    #[serde(rename = "text")]
     words: String,
 }
 
 #[derive(Debug, Clone, Serialize, JsonSchema)]
 struct AftermathReport {
     /// what a run ends on that leaves an unstable motion, every number of it disturbed by a hundredth of a natural scale: it
-    /// `repeats` itself, `beats`, is `irregular`, is `underway` still, or `stops`
+    /// `repeats` itself, `oscillates`, is `irregular`, is `not_settled`, or `stops`
     ending: &'static str,
     /// periods until then
     periods: usize,
     /// after how many periods it repeats itself; 1: another steady motion
     #[serde(skip_serializing_if = "Option::is_none")]
     repeats_periods: Option<usize>,
-    /// periods of its beat
+    /// drive periods of one oscillation
     #[serde(skip_serializing_if = "Option::is_none")]
-    beat_periods: Option<Real>,
+    oscillation_periods: Option<Real>,
     /// mean step of what repeats itself, else of the last half
     #[serde(skip_serializing_if = "Option::is_none")]
     step_m: Option<Real>,
     /// the shortest of these steps
     #[serde(skip_serializing_if = "Option::is_none")]
-    least_m: Option<Real>,
+    smallest_m: Option<Real>,
     /// the longest of these steps
     #[serde(skip_serializing_if = "Option::is_none")]
-    most_m: Option<Real>,
+    largest_m: Option<Real>,
     /// the same in words
+    #[serde(rename = "text")]
     words: String,
 }
 
@@ -111,7 +116,8 @@ struct AftermathReport {
 struct DefectReport {
     /// largest change of a number in a period on the way, in natural scales
     size: Real,
-    /// how the state of that period was found: `plain`, where the one before got to, or `newton`
+    /// how the state of that period was found: `iteration`, from the end of the period before, or `newton`
+    #[serde(rename = "method")]
     way: &'static str,
 }
 
@@ -122,7 +128,7 @@ impl Report {
         let defect = |defect: &super::Defect| DefectReport {
             size: Real(defect.size),
             way: match defect.way {
-                Way::Plain => "plain",
+                Way::Plain => "iteration",
                 Way::Newton => "newton",
             },
         };
@@ -173,8 +179,8 @@ impl MultiplierReport {
             modulus: Real(multiplier.modulus()),
             error: Real(multiplier.error),
             kind: multiplier.kind().name(),
-            beat_periods: multiplier.beat().map(Real),
-            fold_periods: multiplier.periods().map(Real),
+            oscillation_periods: multiplier.beat().map(Real),
+            time_constant_periods: multiplier.periods().map(Real),
             words: multiplier.words(),
         }
     }
@@ -192,10 +198,10 @@ impl AftermathReport {
             ending: aftermath.ending.name(),
             periods: aftermath.periods,
             repeats_periods: repeats,
-            beat_periods: beat,
+            oscillation_periods: beat,
             step_m: step,
-            least_m: least,
-            most_m: most,
+            smallest_m: least,
+            largest_m: most,
             words: aftermath.words(),
         }
     }
@@ -207,8 +213,8 @@ impl Kind {
     pub fn name(self) -> &'static str {
         match self {
             Self::Forgotten => "forgotten",
-            Self::Fades => "fades",
-            Self::Stays => "stays",
+            Self::Fades => "decays",
+            Self::Stays => "neutral",
             Self::Grows => "grows",
         }
     }

@@ -122,11 +122,12 @@ fn backward_is_the_mirror_image_of_a_symmetric_drive() -> Checked {
     let ways = [(&forward, &to_right), (&backward, &to_left)];
     let table = csv(&ways);
     let rows: Vec<&str> = table.lines().collect();
-    assert!(rows[0].starts_with("load_N,sense,step_m,") && rows.len() == 5, "{rows:#?}");
+    assert!(rows[0].starts_with("load_N,direction,step_m,") && rows.len() == 5, "{rows:#?}");
     assert!(rows[1].starts_with("0e0,forward,") && rows[4].starts_with("5e-2,backward,-"), "{rows:#?}");
     let told = json(&ways);
     assert!(
-        told.contains(r#""against":"+x","against_backward":"-x""#) && told.contains(r#""sense":"backward""#)
+        told.contains(r#""against":"+x","against_backward":"-x""#)
+            && told.contains(r#""direction":"backward""#)
     );
     Ok(())
 }

@@ -194,12 +194,12 @@ fn settling(steps: &DriveSummary) -> String {
         (SettlingSummary::Drifts { change_m }, _) => {
             format!("drifts: the step of {last} changes by {} per period", length(*change_m))
         }
-        (SettlingSummary::Beats { periods, growth, about_m, amplitude_m }, _) => {
+        (SettlingSummary::Beats { periods, growth, mean_m, amplitude_m }, _) => {
             let growth = growth.filter(|growth| growth.0.abs() >= UNSEEN).map(|growth| {
                 let how = if growth.0 < 0.0 { "fading" } else { "growing" };
                 format!(", {how} by {:.2} % per period", 100.0 * growth.0.abs())
             });
-            let (about, amplitude) = (length(*about_m), length(*amplitude_m));
+            let (about, amplitude) = (length(*mean_m), length(*amplitude_m));
             let growth = growth.unwrap_or_default();
             format!(
                 "steps beat about {about} by {amplitude} with a period of about {:.1} periods{growth}",

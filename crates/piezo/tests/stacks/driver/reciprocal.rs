@@ -107,8 +107,8 @@ fn books_close_with_the_work_of_the_stack_in_them() {
     ];
     for (command, spec) in cases {
         let ran = ran(&stack(command, spec, Coordinate::FREE), &event(1e-11, 5e-3), 11e-6);
-        let [source, stored, lost, worked] =
-            ["source_J", "stored_J", "lost_J", "worked_J"].map(|name| ran.column(&format!("stack.{name}")));
+        let [source, stored, lost, worked] = ["source_J", "stored_J", "lost_J", "mechanical_J"]
+            .map(|name| ran.column(&format!("stack.{name}")));
         let scale = stored.iter().fold(0.0, |most: f64, x| most.max(x.abs()));
         for i in 0..source.len() {
             let open = source[i] - lost[i] - worked[i] - (stored[i] - stored[0]);

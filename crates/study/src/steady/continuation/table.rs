@@ -35,6 +35,7 @@ struct Report<'a> {
     /// its SI unit; empty of a plain number
     unit: &'static str,
     /// what it is in the scenario: where the branch starts
+    #[serde(rename = "scenario_value")]
     present: Real,
     /// where the range begins
     from: Real,
@@ -47,6 +48,7 @@ struct Report<'a> {
     /// place of the start among the points, counted from 0
     start: usize,
     points: Vec<PointReport>,
+    #[serde(rename = "special_points")]
     marks: Vec<MarkReport>,
     ends: [EndReport; 2],
     /// names of all files that were written together
@@ -93,12 +95,13 @@ struct MarkReport {
     /// whether motions are stable on the side of smaller and on that of larger values; of a fold before it and after it along
     /// the branch
     stable: [bool; 2],
-    /// periods of the beat that neither fades nor grows; of Neimark-Sacker only
+    /// drive periods of the oscillation that neither decays nor grows; of Neimark-Sacker only
     #[serde(skip_serializing_if = "Option::is_none")]
-    beat_periods: Option<Real>,
+    oscillation_periods: Option<Real>,
     #[serde(skip_serializing_if = "Vec::is_empty")]
     changes: Vec<ChangeReport>,
     /// what happens, in words
+    #[serde(rename = "text")]
     words: String,
 }
 
@@ -124,6 +127,7 @@ struct EndReport {
     /// were allowed) or `interrupted`
     kind: &'static str,
     /// the same in words
+    #[serde(rename = "text")]
     words: String,
 }
 
@@ -165,7 +169,7 @@ impl MarkReport {
             half_width: Real(mark.half_width),
             step_m: mark.step.map(Real),
             stable: mark.stable,
-            beat_periods: beat,
+            oscillation_periods: beat,
             changes,
             words: mark.kind.words(),
         }
@@ -218,7 +222,7 @@ impl End {
 #[must_use]
 pub fn csv(of: &Continuation, branch: &Branch) -> String {
     let mut table = of.head();
-    table.push_str(",piece,step_m,step_error_m,speed_m_s,period_s,stable,multiplier,beat_periods,unknowns\n");
+    table.push_str(",piece,step_m,step_error_m,speed_m_s,period_s,stable,largest_multiplier,oscillation_periods,unknowns\n");
     for point in &branch.points {
         let _ = write!(table, "{:e},{}", point.value, point.piece);
         let cells = [point.step, point.step.map(|_| point.bound), point.speed(), Some(point.period)];
