@@ -14,7 +14,7 @@ mod statics;
 
 use crate::contact::Contact;
 use crate::equations::Equations;
-use crate::model::{Free, Link, Model, Part};
+use crate::model::{Free, Link, Model};
 use crate::record;
 use crate::scene::Axis;
 use crate::state::State;
@@ -68,11 +68,6 @@ impl Model {
             return Err(SceneFault::UnlocatedJump.of(Place::Run, Field::Stepper));
         }
         self.check_step(plan.stepper)?;
-        if !self.parts.is_empty() {
-            let alone = |part: &Part| part.begun();
-            *state = self.joined(&self.parts.iter().map(alone).collect::<Result<Vec<_>, _>>()?);
-            return Ok(());
-        }
         self.begin(state, row)
     }
 
@@ -147,15 +142,6 @@ impl Model {
 
     fn equations<'s>(&'s self, state: &'s State) -> Equations<'s> {
         Equations::on(self, state, self.layout(), false)
-    }
-}
-
-impl Part {
-    /// Its state at t = 0, what is wrong with it told by its place in the whole scene.
-    fn begun(&self) -> Result<State, SceneError> {
-        let mut state = State::blank();
-        self.model.begin(&mut state, &mut Vec::new()).map_err(|error| self.in_the_whole(error))?;
-        Ok(state)
     }
 }
 

@@ -13,7 +13,6 @@ mod contact;
 mod dampers;
 mod held;
 mod measure;
-mod parts;
 mod reach;
 mod scale;
 mod spare;
@@ -23,7 +22,6 @@ pub(crate) use balanced::{Balanced, Pull};
 pub(crate) use block::{BlockState, MOST as MOST_OF_A_BLOCK, Signals, Wire, Wired};
 pub(crate) use build::Scaffold;
 pub(crate) use measure::{Measure, Terms};
-pub(crate) use parts::{ENERGIES, Part};
 pub use spare::{Pressing, Spared};
 
 use crate::Waveform;
@@ -66,8 +64,6 @@ pub struct Model {
     pub(crate) fastest: f64,
     /// Whether something settles so much faster than all else goes on that explicit steps would only follow it.
     pub(crate) stiff: bool,
-    /// What feels nothing of each other; empty where all of it is one.
-    pub(crate) parts: Vec<Part>,
 }
 
 /// What a coordinate is bound to.
@@ -169,7 +165,6 @@ impl Model {
             moment: 0.0,
             fastest: 0.0,
             stiff: false,
-            parts: Vec::new(),
         }
     }
 

@@ -10,7 +10,6 @@ mod horizon;
 mod ledger;
 mod located;
 mod output;
-mod parted;
 mod reference;
 mod steady;
 mod stored;
@@ -21,7 +20,7 @@ pub use variants::{VariantError, Variants};
 
 use crate::contact::Contact;
 use crate::record::Record;
-use crate::{Model, Plan, RunError, State, Stepper, UntilSteady};
+use crate::{Model, Plan, RunError, State, Stepper};
 
 /// Moves `state` along `plan` to its end: its duration, or earlier where it asks for no more than steady steps. What was
 /// computed before an error is in `state` and `record`.
@@ -30,7 +29,6 @@ use crate::{Model, Plan, RunError, State, Stepper, UntilSteady};
 #[inline(never)]
 pub fn run(model: &Model, plan: &Plan, state: &mut State, record: &mut dyn Record) -> Result<(), RunError> {
     if let Stepper::Dopri5 { tolerance } = model.effective(plan.stepper) {
-        held::level(model, plan, state);
         return reference::run(model, plan, tolerance, state, record);
     }
     held::to_the_end(model, plan, state, record)
@@ -67,18 +65,6 @@ impl Model {
             | Stepper::Frames { .. }
             | Stepper::Dopri5 { .. } => WALK_TOLERANCE,
         }
-    }
-
-    /// Whether a run takes every part of its scene for itself: between located events, where the scene has more than one, and
-    /// where a waveform whose periods may end the run drives the part that is to be constant in them.
-    #[must_use]
-    pub fn divides(&self, plan: &Plan) -> bool {
-        let knows = |steady: UntilSteady| {
-            let owner = self.part_of(steady.body);
-            owner.is_some_and(|(part, _)| self.waveform_in(part, steady.waveform).is_some())
-        };
-        let locates = self.effective(plan.stepper).locates_events();
-        !self.parts.is_empty() && locates && plan.until_steady.is_none_or(knows)
     }
 }
 

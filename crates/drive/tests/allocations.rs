@@ -10,9 +10,9 @@
 #[allow(dead_code, reason = "shared with the tests of drives")]
 mod parts;
 
-use parts::{FOOT_SLIDER, contact, damped, event, foot_and_slider, free, named, p1, plan, sine, wave};
+use parts::{FOOT_SLIDER, contact, damped, event, foot_and_slider, p1, plan, sine, wave};
 use stickslip_contact::Profile;
-use stickslip_drive::scene::{Normal, Scene, Side, Varying};
+use stickslip_drive::scene::{Normal, Scene, Varying};
 use stickslip_drive::{Command, Cycle, Generator, Heading, Model, Plan, Run, Shape, Stepper, Steps, run};
 
 /// Allocations of a run of so many seconds, the workspace included.
@@ -49,31 +49,6 @@ fn stepping_allocates_nothing() {
             assert_eq!(short, long);
         }
     }
-}
-
-/// Nor do parts that feel nothing of each other, moved in frames; a run to its end allocates where it shares a stretch among cores.
-#[test]
-fn parts_allocate_nothing() {
-    let mut scene = shaken();
-    let mut ball = scene.contacts[0].part.clone();
-    ball.between = [Side::Body(0), Side::Body(2)];
-    scene.bodies.push(named("other", free(0.03)));
-    scene.contacts.push(named("other", ball));
-    let plan = event(1e-6, 1.0);
-    let model = Model::new(&scene).unwrap();
-    assert!(model.divides(&plan));
-    let mut run = Run::new(&model, &plan, model.start(&plan).unwrap()).unwrap();
-    let mut frames = |from: u32, to: u32| {
-        (from..to).for_each(|k| run.advance(f64::from(k) * 137e-6, &mut ()).unwrap());
-    };
-    frames(1, 300);
-    let count = allocation_counter::measure(|| frames(300, 600)).count_total;
-    println!("{count} allocations in 300 frames");
-    assert_eq!(count, 0);
-    let [short, long] = [20e-3, 200e-3].map(|duration| allocations(&scene, &event(1e-6, duration)));
-    println!("{short} allocations in 20 ms, {long} in 200 ms");
-    // Those of threads, for each of the few stretches.
-    assert!(long < short + 200);
 }
 
 /// Nor do fixed steps, which commit every contact at every step.

@@ -34,8 +34,6 @@ pub struct Marks {
     grids: Vec<Grid>,
     /// How many of them, the first, are not for the account of a period alone.
     common: usize,
-    /// Whether contacts are looked at in parts of a period.
-    pub are_dense: bool,
     /// Body whose way in each period is wanted.
     pub body: Option<usize>,
     /// The foot that a stack moves under it, whose way is wanted, too.
@@ -68,10 +66,8 @@ impl Marks {
         let of_figures = || Periods::until(&scene.waveforms.get(figures.waveform?)?.part, for_ever);
         let figures = body.and_then(|_| of_figures());
         let mut grids: Vec<Grid> = figures.iter().map(|periods| Grid::of(periods, 1.0)).collect();
-        let mut any_dense = false;
         for c in 0..scene.contacts.len() {
             let is_dense = are_dense(setting, c);
-            any_dense |= is_dense;
             let grids_of_contact = match (Periods::of_contact(setting, c, for_ever), table_of(setting, c)) {
                 (Some(periods), _) => {
                     let load = load_of(setting, c).filter(|_| is_dense);
@@ -102,7 +98,7 @@ impl Marks {
         grids.extend(figures.iter().flat_map(|periods| turns(setting, periods)));
         let body = body.filter(|_| figures.is_some());
         let foot = body.and_then(|_| Foot::of(setting)?.driven());
-        Self { grids, common, are_dense: any_dense, body, foot, figures, end }
+        Self { grids, common, body, foot, figures, end }
     }
 
     /// Whether a moment is one for all figures, and not for the account of a period alone.

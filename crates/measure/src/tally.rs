@@ -18,9 +18,6 @@ const NOWHERE: [f64; 2] = [f64::INFINITY, f64::NEG_INFINITY];
 /// What figures are taken from.
 pub struct Tally {
     contacts: Vec<ContactTally>,
-    /// Contacts of each part of the scene, and the part of each contact; none of a scene that is one.
-    parts: Vec<Vec<usize>>,
-    part_of: Vec<usize>,
     walker: Option<Walker>,
     accounts: Option<Accounts>,
     excursions: Excursions,
@@ -72,9 +69,6 @@ impl Tally {
         let names = setting.model.contacts().map(|(name, _)| name).enumerate();
         let contacts: Vec<_> =
             names.map(|(c, name)| ContactTally::new((setting, c), name, &places)).collect();
-        let parts: Vec<Vec<usize>> = setting.model.part_contacts().map(<[usize]>::to_vec).collect();
-        let mut part_of = vec![0; contacts.len()];
-        parts.iter().enumerate().for_each(|(k, part)| part.iter().for_each(|c| part_of[*c] = k));
         let voltage_place = Foot::of(setting)
             .and_then(|foot| foot.voltage(setting))
             .and_then(|name| places.get(name.as_str()).copied());
@@ -82,8 +76,6 @@ impl Tally {
         let excursions = Excursions::new(setting, &places);
         Self {
             contacts,
-            parts,
-            part_of,
             walker,
             accounts,
             excursions,
@@ -113,29 +105,16 @@ impl Tally {
         }
     }
 
-    /// Takes a moment that figures are taken at: after an event, where something bends, or else a mark. Contacts of other parts than that of
-    /// the event feel nothing of it: of a thousand parts each keeps its own moments, not those of all.
+    /// Takes a moment that figures are taken at: after an event, where something bends, or else a mark.
     pub fn moment(
         &mut self,
         setting: &Setting,
-        (values, event): (&[f64], Option<Source>),
+        (values, is_event): (&[f64], bool),
         ended: &mut Vec<(usize, CycleFigures)>,
     ) {
-        let part = match event {
-            Some(Source::Contact(c)) => self.part_of.get(c).and_then(|k| self.parts.get(*k)),
-            _ => None,
-        };
-        let count = self.contacts.len();
-        let take = |c: usize| {
-            let loops = self.contacts.get_mut(c).and_then(|contact| contact.loops.as_mut());
-            let figures = loops
-                .zip(setting.model.contacts().nth(c))
-                .and_then(|(loops, (_, law))| loops.take(law, values, event.is_some()));
+        for (c, (contact, (_, law))) in self.contacts.iter_mut().zip(setting.model.contacts()).enumerate() {
+            let figures = contact.loops.as_mut().and_then(|loops| loops.take(law, values, is_event));
             ended.extend(figures.map(|figures| (c, figures)));
-        };
-        match part {
-            Some(part) => part.iter().copied().for_each(take),
-            None => (0..count).for_each(take),
         }
         if let Some(walker) = &mut self.walker {
             walker.moment(values);

@@ -11,7 +11,6 @@ use std::sync::Arc;
 use stickslip_contact::Springs;
 use stickslip_drive::{Model, SceneError};
 use stickslip_measure::Setting;
-use stickslip_measure::marks::Marks;
 use stickslip_scenario::{Scenario, ScenarioError, Stage};
 use thiserror::Error;
 
@@ -133,13 +132,7 @@ impl Job {
         let hash = hash(&resolved);
         let program = this_program();
         let setting = Setting { scenario, model, start };
-        let mut job = Self { name, folder, setting, columns, grids, resolved, hash, program };
-        if Marks::of(&job).are_dense {
-            // Parts would wait for each other at every one of them: two damped sliders took ten times as long.
-            let Setting { scenario, model, start } = &mut job.setting;
-            model.keep_together();
-            *start = model.start(&scenario.plan).map_err(|error| scenario.refusal(&error))?;
-        }
+        let job = Self { name, folder, setting, columns, grids, resolved, hash, program };
         excess::check(&job)?;
         Ok(job)
     }

@@ -175,7 +175,7 @@ impl<'a> Recorder<'a> {
 
     /// Takes a moment that figures are taken at, and tells the cycles that it ends.
     fn moment(&mut self, values: &[f64], event: Option<Source>) {
-        self.recorded.tally.moment(self.job, (values, event), &mut self.ended);
+        self.recorded.tally.moment(self.job, (values, event.is_some()), &mut self.ended);
         if !self.ended.is_empty() {
             self.tell_cycles();
         }

@@ -53,8 +53,7 @@ impl Case {
     fn new(file: &str, set: &Settings, paths: &[&str]) -> Self {
         let scenario = load(file, set);
         let model = |scenario: &Scenario| {
-            let mut model = Model::new(&scenario.scene).unwrap();
-            model.keep_together();
+            let model = Model::new(&scenario.scene).unwrap();
             model
         };
         let own = model(&scenario);

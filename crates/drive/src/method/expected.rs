@@ -87,9 +87,6 @@ impl Model {
             expected.add((Method::AskedFor, Why::AskedFor));
             return expected;
         }
-        if !self.parts.is_empty() {
-            return self.expected_of_parts(start, stepper);
-        }
         let scene = SceneTraits::of(self);
         let mut swing = Swing::of(self, 1e-8);
         for straight in [true, false] {
@@ -120,24 +117,6 @@ impl Model {
             expected.add((Method::Graded, Why::SingularMoment));
         }
         expected
-    }
-
-    /// What the runs of all parts will do.
-    fn expected_of_parts(&self, start: &State, stepper: Stepper) -> Expected {
-        let mut all = Expected { contacts: vec![Vec::new(); self.contacts.len()], ..Expected::default() };
-        let mut whole = start.clone();
-        whole.carry_over(self, self.layout());
-        whole.divide(self);
-        for (k, part) in self.parts.iter().enumerate() {
-            let mut own = part.model.rest();
-            whole.hand_out(self, k, &mut own);
-            let expected = part.model.expected(&own, stepper);
-            expected.methods.into_iter().for_each(|choice| all.add(choice));
-            for (c, choices) in part.contacts.iter().zip(expected.contacts) {
-                choices.into_iter().for_each(|choice| all.treat(*c, choice));
-            }
-        }
-        all
     }
 
     /// Asks what is done in an interval that begins in a state.

@@ -78,18 +78,6 @@ impl Tally {
         self.treatments.resize(contacts, Default::default());
     }
 
-    /// Adds what a part, of these contacts, has counted since before.
-    pub(crate) fn add(&mut self, now: &Self, before: &Self, contacts: &[usize]) {
-        let sum = |own: &mut [u64], now: &[u64], before: &[u64]| {
-            let since = now.iter().zip(before).map(|(now, before)| now - before);
-            own.iter_mut().zip(since).for_each(|(own, since)| *own += since);
-        };
-        sum(&mut self.methods, &now.methods, &before.methods);
-        for (own, c) in contacts.iter().enumerate() {
-            sum(&mut self.treatments[*c], &now.treatments[own], &before.treatments[own]);
-        }
-    }
-
     /// Writes all counts.
     pub(crate) fn write(&self, words: &mut Vec<u64>) {
         words.extend(self.methods);

@@ -7,7 +7,7 @@
 use super::contact::{self, Surroundings};
 use super::{
     Binding, Body, Free, Link, Load, Measure, Model, Spared, Stroke, balanced, block, check, dampers, held,
-    parts, reach, scale, used,
+    reach, scale, used,
 };
 use crate::linearised::Paces;
 use crate::scene::{self, Axis, Coordinate, Direction, Freedom, Named, Point, Scene, Side, Start, Varying};
@@ -44,7 +44,6 @@ impl Model {
     pub(crate) fn rebuild(&mut self, scene: &Scene, room: &mut Scaffold) -> Result<(), SceneError> {
         check::check(scene)?;
         (self.fastest, self.stiff, self.growing) = (0.0, false, 0);
-        self.parts.clear();
         self.take_waveforms(scene);
         balanced::check_company(scene)?;
         let first = scene.waveforms.len() + scene.blocks.len();
@@ -76,7 +75,6 @@ impl Model {
         self.moment = balanced::moment(&self.waveforms);
         self.settle_balanced();
         Paces { fastest: self.fastest, stiff: self.stiff, .. } = self.paces();
-        self.parts = parts::divide(scene, self);
         Ok(())
     }
 

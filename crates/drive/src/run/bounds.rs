@@ -65,14 +65,6 @@ impl Bounds {
         Self { limits, begun: Wall::begin(limits.wall.is_some()), stride, windows, crawl, period, longest }
     }
 
-    /// Stops at other limits from here on.
-    pub(super) fn limit(&mut self, limits: Limits) {
-        if limits.wall.is_some() && self.limits.wall.is_none() {
-            self.begun = Wall::begin(true);
-        }
-        self.limits = limits;
-    }
-
     /// Attempts so far. Asked before the first one, too: a run that goes on at its limit stops where it stopped.
     #[inline(always)]
     pub(super) fn tried(&self, state: &State) -> Result<u64, RunError> {

@@ -4,7 +4,6 @@ use super::fixed::{Fixed, Frame, Moved};
 use super::horizon::Goal;
 use super::located::LocatedRun;
 use super::output::Opening;
-use super::parted::Parted;
 use crate::equations::Equations;
 use crate::method::{self, Method, SceneTraits};
 use crate::record::{self, Record};
@@ -31,7 +30,6 @@ pub struct Run<'m> {
 /// The workspace of a run, by its stepper.
 enum Way<'m> {
     Located(LocatedRun<'m>),
-    Parted(Box<Parted<'m>>),
     Verlet(Box<Fixed<'m, Verlet>>),
     Rk4(Box<Fixed<'m, Rk4>>),
     Nystrom(Box<Fixed<'m, Nystrom4>>),
@@ -39,9 +37,6 @@ enum Way<'m> {
 
 impl<'m> Way<'m> {
     fn new(model: &'m Model, plan: &Plan) -> Result<Self, RunError> {
-        if model.divides(plan) {
-            return Ok(Self::Parted(Box::new(Parted::new(model, plan))));
-        }
         let one = |step| Frame { length: step, steps: 1.0 };
         Ok(match model.effective(plan.stepper) {
             Stepper::Event { tolerance } => Self::Located(LocatedRun::new(model, plan, tolerance)),
@@ -68,7 +63,6 @@ macro_rules! each {
     ($way:expr, $run:ident => $call:expr) => {
         match $way {
             Way::Located($run) => $call,
-            Way::Parted($run) => $call,
             Way::Verlet($run) => $call,
             Way::Rk4($run) => $call,
             Way::Nystrom($run) => $call,
@@ -85,7 +79,7 @@ pub(super) fn to_the_end(
 ) -> Result<(), RunError> {
     let mut way = Way::new(model, plan)?;
     state.check_inputs(model, plan.duration)?;
-    way.set_out((model, plan), state, Opening::Row, record);
+    way.set_out(model, state, Opening::Row, record);
     let outcome = way.go(state, Goal::End(plan.duration), record);
     if outcome.is_err() {
         way.write_now(state, record);
@@ -94,26 +88,8 @@ pub(super) fn to_the_end(
     outcome
 }
 
-/// Brings the parts of a whole to one time, for a run that knows no parts.
-pub(super) fn level(model: &Model, plan: &Plan, state: &mut State) {
-    if !state.is_level() {
-        let mut parted = Parted::new(model, plan);
-        parted.set_out(state, Opening::Resumed, &mut ());
-        parted.level(state);
-    }
-}
-
 impl Way<'_> {
-    fn set_out(
-        &mut self,
-        (model, plan): (&Model, &Plan),
-        state: &mut State,
-        opening: Opening,
-        record: &mut dyn Record,
-    ) {
-        if !matches!(self, Self::Parted(_)) {
-            level(model, plan, state);
-        }
+    fn set_out(&mut self, model: &Model, state: &mut State, opening: Opening, record: &mut dyn Record) {
         // Of a state that was copied or restored; others have it. Bounded as deep as this stepper wants it, whoever came before.
         let most = each!(self, run => run.remembers());
         for (memory, contact) in state.memories.iter_mut().zip(&model.contacts) {
@@ -278,8 +254,7 @@ impl<'m> Run<'m> {
     }
 
     /// Where the run stands, and all that its future depends on. Memories of contacts may wait for the next event, where one
-    /// move leads them further. Where bodies feel nothing of each other each may stand up to a step of its own before the time of
-    /// the whole, after [`Run::approach`]; [`Run::row`] brings them together.
+    /// move leads them further.
     pub fn state(&self) -> &State {
         &self.state
     }
@@ -302,24 +277,18 @@ impl<'m> Run<'m> {
             let equations = Equations::on(self.model, state, state.layout(self.model), false);
             record::fill(&equations, state, state.t, &|i| state.y[i], row);
         };
-        if (self.begun || self.resumed) && self.state.is_level() {
+        if self.begun || self.resumed {
             return fill(&self.state, row);
         }
         let mut state = self.state.clone();
-        if !self.begun
-            && !self.resumed
-            && let Ok(mut way) = Way::new(self.model, &self.plan)
-        {
+        if let Ok(mut way) = Way::new(self.model, &self.plan) {
             // As its first row will be: a run that sets out works out what a start leaves open.
             row.clear();
-            way.set_out((self.model, &self.plan), &mut state, Opening::Row, &mut First(row));
+            way.set_out(self.model, &mut state, Opening::Row, &mut First(row));
             if row.is_empty() {
                 way.write_now(&mut state, &mut First(row));
             }
-            return;
         }
-        level(self.model, &self.plan, &mut state);
-        fill(&state, row);
     }
 
     fn go(
@@ -332,7 +301,7 @@ impl<'m> Run<'m> {
         self.state.check_inputs(self.model, end)?;
         if !self.begun {
             let opening = if self.resumed { Opening::Resumed } else { opening };
-            self.way.set_out((self.model, &self.plan), &mut self.state, opening, record);
+            self.way.set_out(self.model, &mut self.state, opening, record);
             self.begun = true;
         }
         let outcome = self.way.go(&mut self.state, goal, record);

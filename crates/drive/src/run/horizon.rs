@@ -49,8 +49,8 @@ impl Horizon {
         let never = f64::INFINITY;
         (self.until, self.end, self.takes_last) = match goal {
             Goal::Moment(until) => (until, never, false),
-            Goal::BeforeEnd(end) | Goal::Before(end) => (never, end, false),
-            Goal::End(end) | Goal::Glance(end) => (never, end, true),
+            Goal::BeforeEnd(end) => (never, end, false),
+            Goal::End(end) => (never, end, true),
             Goal::Past(_) => (never, never, true),
         };
         self.past = if let Goal::Past(t) = goal { t } else { never };
@@ -83,11 +83,8 @@ pub(super) enum Goal {
     BeforeEnd(f64),
     /// To this end, s, with its last row.
     End(f64),
-    /// As far as whole steps go before this moment, s, at which the run does not end: no row is its last.
-    Before(f64),
-    /// Reads the step that goes on to this moment, s, as far as that; the run goes on from before it.
-    Glance(f64),
     /// Until a step has reached this moment, s, or gone further.
+    #[cfg_attr(not(test), expect(dead_code, reason = "tests look at one step after another"))]
     Past(f64),
 }
 
@@ -96,19 +93,7 @@ impl Goal {
     pub(super) fn last_row(self) -> f64 {
         match self {
             Self::BeforeEnd(end) | Self::End(end) => end,
-            Self::Moment(_) | Self::Before(_) | Self::Glance(_) | Self::Past(_) => f64::INFINITY,
-        }
-    }
-
-    /// Where it leads, s.
-    pub(super) fn moment(self) -> f64 {
-        match self {
-            Self::BeforeEnd(t)
-            | Self::End(t)
-            | Self::Moment(t)
-            | Self::Before(t)
-            | Self::Glance(t)
-            | Self::Past(t) => t,
+            Self::Moment(_) | Self::Past(_) => f64::INFINITY,
         }
     }
 }

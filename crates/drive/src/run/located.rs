@@ -46,7 +46,7 @@ use crate::method::Method;
 use crate::model::Model;
 use crate::record::Record;
 use crate::state::{Books, Detour, Gait, Layout, LocatedWay, State, Underway, Whereabouts};
-use crate::{Limits, Plan, RunError};
+use crate::{Plan, RunError};
 pub(super) use method::{LocatedRun, Workspace};
 use motion::Motion;
 use path::FINEST_PIECES;
@@ -177,7 +177,7 @@ impl<'a, A: for<'e> Attempt<Equations<'e>>> Located<'a, A> {
                 self.control.set_history(way.history);
                 self.begin(state, Laws::Kept);
             }
-            Some(Underway::Fixed(_) | Underway::Parts(_)) | None => self.begin(state, Laws::Chosen),
+            Some(Underway::Fixed(_)) | None => self.begin(state, Laws::Chosen),
         }
         if opening.has_row(self.output.every, state.t) {
             self.output.write_now(&self.setting.plain(state), state, record);
@@ -226,11 +226,6 @@ impl<'a, A: for<'e> Attempt<Equations<'e>>> Located<'a, A> {
         }
         self.put_down(state);
         outcome
-    }
-
-    /// Stops at other limits from here on.
-    pub(super) fn limit(&mut self, limits: Limits) {
-        self.bounds.limit(limits);
     }
 
     /// Tells the range of a watched body so far.

@@ -15,7 +15,7 @@ use crate::state::{Layout, State};
 use crate::{Model, Moments, Schedule};
 use stickslip_contact::Memory;
 
-pub(super) use marks::{Marks, SAME as SAME_MARK};
+pub(super) use marks::Marks;
 pub(super) use rows::Rows;
 pub(super) use turns::Turns;
 

@@ -66,7 +66,7 @@ impl Variants {
         self.model.start_in(plan, &mut self.state, &mut self.row)?;
         let (model, state) = (&self.model, &mut self.state);
         match model.effective(plan.stepper) {
-            Stepper::Event { tolerance } if !model.divides(plan) => {
+            Stepper::Event { tolerance } => {
                 self.workspace.run((model, plan, tolerance), state, way, record)?;
             }
             _ => run(model, plan, state, record)?,

@@ -3,7 +3,6 @@
 //! Kept with the state whenever a caller holds it: a run that takes it up, in this process or another, goes on to the same bits
 //! as one that was never put down. Everything else a run works with is scratch, and follows from the state.
 
-use super::PartWay;
 use crate::Model;
 use crate::interval::PhasePoint;
 use stickslip_stepper::{Hand, StepHistory};
@@ -15,8 +14,6 @@ pub(crate) enum Underway {
     Located(Box<LocatedWay>),
     /// One at a fixed step.
     Fixed(Box<FixedWay>),
-    /// One of parts that feel nothing of each other.
-    Parts(Vec<PartWay>),
 }
 
 impl Underway {

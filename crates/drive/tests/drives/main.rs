@@ -34,7 +34,6 @@ mod looks;
 mod lottery;
 mod nested_loops;
 mod normal_vibration;
-mod parted;
 mod planar_scenes;
 mod plane_rows;
 mod random_drives;

@@ -86,8 +86,7 @@ fn random_drives_vary_as_their_differences_say() {
     let (mut told, mut sharp) = (0, 0);
     for seed in 0..60 {
         let drawn = deal(seed);
-        let mut model = Model::new(&drawn.scene).unwrap();
-        model.keep_together();
+        let model = Model::new(&drawn.scene).unwrap();
         let scale = model.contact_natural(0).unwrap();
         let mut draw = Draw::new(1_000 + seed);
         let from = draw.between(0.2, 1.2) * drawn.period;
@@ -149,8 +148,7 @@ fn a_flat_end_that_sticks_varies_as_its_spring() {
     let ball = contact(FOOT_SLIDER, Profile::flat(radius).unwrap(), 0.3, 5.0);
     let stiffness = ball.interface.tangential_modulus() * 2.0 * radius;
     let scene = foot_and_slider(wave("drive", sine(2e-9), 1e-3), mass, ball);
-    let (mut model, tight) = (Model::new(&scene).unwrap(), event(1e-13, f64::MAX));
-    model.keep_together();
+    let (model, tight) = (Model::new(&scene).unwrap(), event(1e-13, f64::MAX));
     let from = 0.4e-3;
     let section = Section::new(&model, led(&model, &tight, model.start(&tight).unwrap(), from));
     let (omega, t) = ((stiffness / mass).sqrt(), 2.3e-3);
@@ -165,8 +163,7 @@ fn a_flat_end_that_sticks_varies_as_its_spring() {
 /// The run that a variation follows is the same to the last bit.
 #[test]
 fn a_run_that_is_varied_is_the_same_run() {
-    let (mut model, plan) = (Model::new(&p1()).unwrap(), event(1e-9, f64::MAX));
-    model.keep_together();
+    let (model, plan) = (Model::new(&p1()).unwrap(), event(1e-9, f64::MAX));
     let start = led(&model, &plan, model.start(&plan).unwrap(), 2.05e-3);
     let section = Section::new(&model, start);
     let (_, varied) = varied((&model, &plan), &section, 4.05e-3).unwrap();
@@ -180,8 +177,7 @@ fn a_contact_that_stands_still_has_no_variation() {
     let mut scene = foot_and_slider(wave("drive", sine(0.0), 1e-3), 0.02, ball);
     scene.bodies[0].part = stickslip_drive::scene::Body::default();
     scene.waveforms.clear();
-    let mut model = Model::new(&scene).unwrap();
-    model.keep_together();
+    let model = Model::new(&scene).unwrap();
     let plan = event(1e-10, f64::MAX);
     let section = Section::new(&model, model.start(&plan).unwrap());
     let refused = varied((&model, &plan), &section, 1e-3).unwrap_err();

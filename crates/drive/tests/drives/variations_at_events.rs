@@ -32,8 +32,7 @@ fn falling(interface: Interface, mass: f64, gap: f64, [slide, fall]: [f64; 2]) -
 fn a_ball_that_touches_is_led_by_no_number() {
     let interface = Interface::new(steel(), Profile::paraboloid(1e-3).unwrap(), 0.8).unwrap();
     let scene = falling(interface, 0.02, 2e-6, [2e-4, 1e-3]);
-    let (mut model, tight) = (Model::new(&scene).unwrap(), event(1e-9, f64::MAX));
-    model.keep_together();
+    let (model, tight) = (Model::new(&scene).unwrap(), event(1e-9, f64::MAX));
     let start = model.start(&tight).unwrap();
     let mut variation = model.variation((&tight, &start), &[]).unwrap();
     let mut run = Run::new(&model, &tight, start.clone()).unwrap();
@@ -52,8 +51,7 @@ fn a_flat_end_that_touches_varies_with_where_it_has_touched() {
     let interface = Interface::new(steel(), Profile::flat(radius).unwrap(), 0.8).unwrap();
     let [along, normal] = [interface.tangential_modulus(), interface.normal_modulus()];
     let scene = falling(interface, mass, gap, [slide, fall]);
-    let (mut model, tight) = (Model::new(&scene).unwrap(), event(1e-13, f64::MAX));
-    model.keep_together();
+    let (model, tight) = (Model::new(&scene).unwrap(), event(1e-13, f64::MAX));
     let section = Section::new(&model, model.start(&tight).unwrap());
     let [omega, swing] = [along, normal].map(|modulus| (modulus * 2.0 * radius / mass).sqrt());
     let (touch, tau) = (gap / fall, 1.0 / swing);
@@ -101,8 +99,7 @@ fn events_at_one_moment_vary_as_those_apart() {
     let between = [Side::Body(1), Side::Body(2)];
     let tie = Spring { stiffness: 1e6, ..crate::parts::damper(between, 5.0) };
     scene.springs.push(named("tie", tie));
-    let (mut model, tight) = (Model::new(&scene).unwrap(), event(1e-13, f64::MAX));
-    model.keep_together();
+    let (model, tight) = (Model::new(&scene).unwrap(), event(1e-13, f64::MAX));
     let section = Section::new(&model, led(&model, &tight, model.start(&tight).unwrap(), 1.45e-3));
     let end = agrees((&model, &tight), &section, 2.6e-3);
     assert!(end.counts().events > section.base().counts().events + 10, "{:?}", end.counts());
@@ -134,8 +131,7 @@ fn jumps_vary_as_their_differences_say() {
     for stroke in [0.03e-6, 0.1e-6, 0.5e-6] {
         let mut scene = p1();
         scene.waveforms[0] = wave("drive", Shape::Sawtooth { stroke, flyback: 0.0 }, 1e-3);
-        let mut model = Model::new(&scene).unwrap();
-        model.keep_together();
+        let model = Model::new(&scene).unwrap();
         for (from, until) in [(0.3e-3, 1.01e-3), (0.3e-3, 3.2e-3), (1.45e-3, 2.6e-3)] {
             let section = Section::new(&model, led(&model, &tight, model.start(&tight).unwrap(), from));
             agrees((&model, &tight), &section, until);
@@ -152,8 +148,7 @@ fn corners_of_a_normal_force_vary_as_their_differences_say() {
     let mut scene = p1();
     scene.waveforms.push(wave("pressing", Shape::Table { points }, 1e-3));
     scene.contacts[0].part.normal = Normal::Force(Varying::Follows(1));
-    let mut model = Model::new(&scene).unwrap();
-    model.keep_together();
+    let model = Model::new(&scene).unwrap();
     for (from, until) in [(0.3e-3, 0.9e-3), (0.3e-3, 2.3e-3), (1.0e-3, 1.6e-3)] {
         let section = Section::new(&model, led(&model, &tight, model.start(&tight).unwrap(), from));
         agrees((&model, &tight), &section, until);
@@ -170,8 +165,7 @@ fn a_turn_that_grazes_is_told() {
         let terms = vec![harmonic(1e-6, 1.0), harmonic(share * 1e-6, 4.0)];
         let mut scene = p1();
         scene.waveforms[0] = wave("drive", Shape::Harmonics { terms }, 1e-3);
-        let mut model = Model::new(&scene).unwrap();
-        model.keep_together();
+        let model = Model::new(&scene).unwrap();
         model
     };
     let until = 1e-3;

@@ -123,8 +123,7 @@ fn taller(waveform: &mut Waveform, by: f64) {
 }
 
 pub(crate) fn built(scene: &Scene) -> Model {
-    let mut model = Model::new(scene).unwrap();
-    model.keep_together();
+    let model = Model::new(scene).unwrap();
     model
 }
 

@@ -71,14 +71,6 @@ impl Usage {
             return;
         }
         names.iter().for_each(|name| self.uses("motion", name, format!("free, stepper {stepper}")));
-        if job.model.divides(&job.scenario.plan) {
-            let parts = job.model.part_count();
-            self.uses(
-                "parts",
-                "",
-                format!("{parts} that feel nothing of each other: each goes by its own steps"),
-            );
-        }
         if !is_located(expected) {
             return;
         }

@@ -135,10 +135,9 @@ struct Pass<'a> {
 
 impl Pass<'_> {
     /// Slopes by quantities, their models at a share of the value.
-    fn slopes(mut self, quantities: &[Quantity], share: f64) -> Slopes {
+    fn slopes(self, quantities: &[Quantity], share: f64) -> Slopes {
         let neighbours = |quantity: &Quantity| Neighbours::of(self.given, quantity, share, self.tolerance);
         let neighbours: Vec<Option<Neighbours>> = quantities.iter().map(neighbours).collect();
-        self.job.model.keep_together();
         let of_run = self.told.iter().any(|told| !told.is_steady()).then(|| self.of_run(&neighbours));
         let of_steady = self.told.iter().any(|told| told.is_steady()).then(|| self.of_steady(&neighbours));
         let of = |q: usize, f: usize| {

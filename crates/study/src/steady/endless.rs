@@ -53,8 +53,7 @@ impl Endless {
     }
 
     fn build(job: &Job, scene: &Scene, period: f64, begins: f64) -> Result<Self, SteadyError> {
-        let mut model = Model::new(scene)?;
-        model.keep_together();
+        let model = Model::new(scene)?;
         if model.is_walk() {
             return Err(SteadyError::NothingFree);
         }

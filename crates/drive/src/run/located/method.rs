@@ -8,7 +8,7 @@ use crate::record::Record;
 use crate::run::horizon::Goal;
 use crate::run::output::Opening;
 use crate::state::{Layout, LocatedWay, State};
-use crate::{Limits, Plan, RunError};
+use crate::{Plan, RunError};
 use stickslip_stepper::{
     DOP853_ORDER, DormandPrince, NYSTROM_ORDER, One, Paired, RADAU_ORDER, Radau, StepLimits,
 };
@@ -139,11 +139,6 @@ impl LocatedRun<'_> {
         record: &mut dyn Record,
     ) -> Result<(), RunError> {
         each!(self, run => run.go(state, goal, record))
-    }
-
-    /// Stops at other limits from here on.
-    pub(in crate::run) fn limit(&mut self, limits: Limits) {
-        each!(self, run => run.limit(limits));
     }
 
     /// Tells the range of a watched body so far.

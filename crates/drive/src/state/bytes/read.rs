@@ -6,7 +6,7 @@ use crate::contact::Mode;
 use crate::interval::PhasePoint;
 use crate::method::Tally;
 use crate::model::{BlockState, Model, Wired};
-use crate::state::{Ahead, Books, Energies, Grip, Layout, PartWay, Whereabouts};
+use crate::state::{Ahead, Books, Grip, Layout, Whereabouts};
 use crate::state::{Allowed, Booked, Counts, Crawl, Detour, FixedWay, Gait, Grid, LocatedWay};
 use crate::state::{Generating, State, Stepped, Takeoff, Underway, Window};
 use crate::{Piece, Waveform};
@@ -155,37 +155,8 @@ fn underway(model: &Model, layout: Layout, t: f64, words: &mut Words<'_>) -> Opt
     match words.word()? {
         0 => located(model, layout, words).map(|way| Underway::Located(Box::new(way))),
         1 => fixed(model, layout, t, words).map(|way| Underway::Fixed(Box::new(way))),
-        2 if !model.parts.is_empty() => model
-            .parts
-            .iter()
-            .map(|own| part(&own.model, t, words))
-            .collect::<Option<_>>()
-            .map(Underway::Parts),
         _ => None,
     }
-}
-
-/// What is a part's own; it has not gone beyond the whole, which stands at time t.
-fn part(model: &Model, t: f64, words: &mut Words<'_>) -> Option<PartWay> {
-    let [own, step, stuck_step] = numbers(words)?;
-    if !((0.0..=t).contains(&own) && step >= 0.0) {
-        return None;
-    }
-    let pieces = model.waveforms.iter().map(|waveform| piece(waveform, words)).collect::<Option<_>>()?;
-    let [input, damping, jumps, lost, origin] = numbers(words)?;
-    Some(PartWay {
-        t: own,
-        step,
-        stuck_step,
-        pieces,
-        energies: Energies { input, damping, jumps, lost, origin },
-        counts: counts(words)?,
-        tally: Tally::read(model.contacts.len(), words)?,
-        underway: option(words, |words| match words.word()? {
-            0 => located(model, model.layout(), words).map(|way| Underway::Located(Box::new(way))),
-            _ => None,
-        })?,
-    })
 }
 
 fn located(model: &Model, layout: Layout, words: &mut Words<'_>) -> Option<LocatedWay> {

@@ -3,7 +3,7 @@
 use super::FIXED;
 use crate::contact::Mode;
 use crate::model::Model;
-use crate::state::{Ahead, Books, Counts, Energies, Grip, PartWay, Whereabouts};
+use crate::state::{Ahead, Books, Counts, Grip, Whereabouts};
 use crate::state::{Booked, Detour, FixedWay, Gait, LocatedWay, State, Stepped, Takeoff, Underway, Window};
 use crate::{Piece, Waveform};
 use stickslip_stepper::StepHistory;
@@ -107,22 +107,7 @@ impl Page<'_> {
                 self.0.push(1);
                 self.fixed(way);
             }
-            Underway::Parts(ways) => {
-                self.0.push(2);
-                ways.iter().for_each(|way| self.part(way));
-            }
         }
-    }
-
-    /// What is a part's own. Its pieces are their indices: parts have no inputs.
-    fn part(&mut self, way: &PartWay) {
-        self.reals([way.t, way.step, way.stuck_step]);
-        self.words(way.pieces.iter().map(|piece| piece.index));
-        let Energies { input, damping, jumps, lost, origin } = way.energies;
-        self.reals([input, damping, jumps, lost, origin]);
-        self.counts(&way.counts);
-        way.tally.write(self.0);
-        self.option(way.underway.as_ref(), Page::underway);
     }
 
     fn counts(&mut self, counts: &Counts) {

@@ -52,9 +52,7 @@ impl Neighbours {
     pub(super) fn of(job: &Job, quantity: &Quantity, share: f64, tolerance: f64) -> Option<Self> {
         let distance = share * quantity.value.abs();
         let at = |k: f64| {
-            let mut job =
-                sample::variant(job, &quantity.path, quantity.value + k * distance, tolerance).ok()?;
-            job.model.keep_together();
+            let job = sample::variant(job, &quantity.path, quantity.value + k * distance, tolerance).ok()?;
             Some(job)
         };
         let [a, b, c, d] = BESIDE.map(at);
