@@ -33,7 +33,7 @@ pub(crate) fn kept(name: &str, out: &Path, every: &str, set: &[&str]) -> PathBuf
 }
 
 pub(crate) fn resume(folder: &Path, options: &[&str]) -> Output {
-    stickslip().arg("resume").arg(folder).args(options).output().unwrap()
+    stickslip().args(["run", "--resume"]).arg(folder).args(options).output().unwrap()
 }
 
 /// Resumes, which must end well.
@@ -195,7 +195,13 @@ fn several_runs_go_on_side_by_side() {
     let names = ["p1", "ruby_drive"];
     let folders = names.map(|name| kept(name, out.path(), SELDOM, &["run.cycles=2"]));
     let mut command = stickslip();
-    command.arg("resume").args(&folders).args(["--set", "run.cycles=5", "--threads", "2", "--json"]);
+    command.args(["run", "--resume"]).args(&folders).args([
+        "--set",
+        "run.cycles=5",
+        "--threads",
+        "2",
+        "--json",
+    ]);
     let output = command.output().unwrap();
     assert_eq!((code(&output), stderr(&output)), (0, String::new()));
     let lines: Vec<Value> = stdout(&output).lines().map(|line| serde_json::from_str(line).unwrap()).collect();

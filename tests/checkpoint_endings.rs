@@ -72,7 +72,7 @@ fn a_killed_run_goes_on_as_if_nothing_had_happened() {
         }
         // Killed once more on the way.
         let mut again = stickslip();
-        again.arg("resume").arg(&folder).args(end);
+        again.args(["run", "--resume"]).arg(&folder).args(end);
         late += usize::from(killed(again, wall * draw()));
         resumed(&folder, end);
         assert_same(whole, &folder, &format!("kill {k}"));
@@ -130,7 +130,7 @@ fn an_interrupted_run_goes_on_from_where_it_was() {
     assert_eq!(code(&output), 130, "{}", stderr(&output));
     let reached = number(&summary(&folder), "/simulated_s");
     assert!(
-        stderr(&output).contains(&format!("stickslip resume {}", folder.display())),
+        stderr(&output).contains(&format!("stickslip run --resume {}", folder.display())),
         "{}",
         stderr(&output)
     );
@@ -169,7 +169,8 @@ fn a_run_that_a_limit_has_stopped_goes_on_with_another() {
     let whole = kept("quickstart", &out.path().join("whole"), SELDOM, &of("run.limits.steps=200000"));
     let output = keeping("quickstart", out.path(), SELDOM, &of("run.limits.steps=7000")).output().unwrap();
     let folder = out.path().join("quickstart");
-    let hint = format!("`stickslip resume {} --set run.limits.steps=…` goes on from there", folder.display());
+    let hint =
+        format!("`stickslip run --resume {} --set run.limits.steps=…` goes on from there", folder.display());
     assert_eq!(code(&output), 3);
     assert!(stderr(&output).contains(&hint), "{}", stderr(&output));
     resumed(&folder, &["--set", "run.limits.steps=200000"]);

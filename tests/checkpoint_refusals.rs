@@ -38,7 +38,7 @@ impl Kept {
     /// What resuming says, which must be refused and leave everything as it is; the folder is called DIR.
     fn refused(&self, options: &[&str]) -> String {
         let before = contents(&self.folder);
-        let output = stickslip().arg("resume").arg(&self.folder).args(options).output().unwrap();
+        let output = stickslip().args(["run", "--resume"]).arg(&self.folder).args(options).output().unwrap();
         assert_eq!(code(&output), 2, "{}", stderr(&output));
         assert!(contents(&self.folder) == before, "something was touched");
         stderr(&output).replace(self.folder.to_str().unwrap(), "DIR")
@@ -144,7 +144,7 @@ fn files_that_are_not_there_or_no_files_are_refused() {
     let file = out.path().join("file");
     fs::write(&file, "").unwrap();
     for folder in [out.path().join("nowhere"), file] {
-        let output = stickslip().arg("resume").arg(&folder).output().unwrap();
+        let output = stickslip().args(["run", "--resume"]).arg(&folder).output().unwrap();
         let said = stderr(&output).replace(folder.to_str().unwrap(), "DIR");
         assert_eq!((code(&output), said), (2, none.clone()));
     }
@@ -216,7 +216,8 @@ fn an_end_that_asks_for_looks_at_what_has_passed_is_refused() {
 #[test]
 fn one_folder_is_not_resumed_twice_at_once() {
     let kept = Kept::new("p1", &["run.cycles=3"]);
-    let output = stickslip().arg("resume").args([&kept.folder, &kept.folder.join(".")]).output().unwrap();
+    let output =
+        stickslip().args(["run", "--resume"]).args([&kept.folder, &kept.folder.join(".")]).output().unwrap();
     assert_eq!(code(&output), 2);
     assert!(stderr(&output).ends_with(": is named twice\n"), "{}", stderr(&output));
 }

@@ -134,7 +134,7 @@ fn every_figure_of_a_branch_is_defined() {
     let (file, root) = (scenario("p1"), tempdir().unwrap());
     let (file, out) = (file.to_str().unwrap(), root.path().join("out"));
     let range = "waveforms.drive.sawtooth.stroke=30 nm..600 nm";
-    let mut all = answers(&["steady", "--json", file, "--continue", range, "--out", out.to_str().unwrap()]);
+    let mut all = answers(&["branch", "--json", file, "--vary", range, "--out", out.to_str().unwrap()]);
     all.push(serde_json::from_slice(&std::fs::read(out.join("branch.json")).unwrap()).unwrap());
     assert!(all.len() == 2 && all[0]["special_points"][0]["changes"][0]["event"].is_string());
     assert_eq!(
@@ -153,9 +153,8 @@ fn every_figure_of_a_curve_is_defined() {
     let (file, root) = (scenario("ruby_drive"), tempdir().unwrap());
     let (file, out) = (file.to_str().unwrap(), root.path().join("out"));
     let out = out.to_str().unwrap();
-    let ask = |more: &[&str]| {
-        answers(&[&["characterise", "--json", file, "--points", "2", "--out", out], more].concat())
-    };
+    let ask =
+        |more: &[&str]| answers(&[&["curve", "--json", file, "--points", "2", "--out", out], more].concat());
     let mut all = ask(&["--vary", "contacts.ball.friction=-0.1..0.2"]);
     all.extend(ask(&["--curve", "force-speed", "--both"]));
     let out = Path::new(out);

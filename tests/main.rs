@@ -3,13 +3,13 @@
 
 mod back_step;
 mod broken_files;
-mod characterise;
 mod check;
 mod checkpoint;
 mod checkpoint_endings;
 mod checkpoint_refusals;
 mod compare;
 mod contact;
+mod curve;
 mod damaged_results;
 mod definitions;
 mod endings;

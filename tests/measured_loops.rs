@@ -35,7 +35,7 @@ fn table(head: &str, cycles: usize, change: impl Fn(usize, f64, f64) -> [f64; 2]
 fn measure(folder: &Path, text: &str, arguments: &[&str]) -> Output {
     fs::write(folder.join("rig.csv"), text).unwrap();
     stickslip()
-        .args(["loop", "rig.csv", "--out", "out"])
+        .args(["measure", "rig.csv", "--out", "out"])
         .args(arguments)
         .current_dir(folder)
         .output()
@@ -100,7 +100,7 @@ fn a_simulated_loop_stands_beside() {
     let beside = ["--beside", "fretting_sphere", "--out", "out"];
     let command = |contact: &str| {
         stickslip()
-            .args(["loop", "fretting_sphere/trace.csv"])
+            .args(["measure", "fretting_sphere/trace.csv"])
             .args(columns.iter().chain(&beside))
             .args(["--contact", contact])
             .current_dir(folder.path())

@@ -122,8 +122,10 @@ fn results_without_a_summary_are_refused_and_say_what_to_do() {
     // With a checkpoint there is another way.
     fs::create_dir(folder.join("checkpoint")).unwrap();
     fs::write(folder.join("checkpoint/state"), "").unwrap();
-    let help =
-        format!("run it again, or go on from its checkpoint with `stickslip resume {}`\n", folder.display());
+    let help = format!(
+        "run it again, or go on from its checkpoint with `stickslip run --resume {}`\n",
+        folder.display()
+    );
     let output = stickslip().arg("plot").arg(&folder).output().unwrap();
     assert!(stderr(&output).ends_with(&help), "{}", stderr(&output));
     // Killed under way, a run has published nothing.
@@ -184,8 +186,7 @@ fn a_folder_into_which_another_command_is_writing_is_refused() {
     assert!(said.contains("another command is writing into it") && said.contains("--out"), "{said}");
     assert_eq!(listing(&folder), [".trace.csv-ab12cd"]);
     let file = scenario("p1");
-    let curve =
-        ["characterise", file.to_str().unwrap(), "--curve", "step-amplitude", "--points", "3", "--out"];
+    let curve = ["curve", file.to_str().unwrap(), "--curve", "step-amplitude", "--points", "3", "--out"];
     let refused = stickslip().args(curve).arg(&folder).output().unwrap();
     assert!(
         code(&refused) == 2 && stderr(&refused).contains("another command is writing"),
@@ -274,10 +275,10 @@ fn a_full_disk_keeps_what_was_computed() {
         assert!(!account.contains("DIFFERS"), "{account}");
         if k == 2 {
             assert!(
-                said.contains(&format!("`stickslip resume {}` goes on from there", folder.display())),
+                said.contains(&format!("`stickslip run --resume {}` goes on from there", folder.display())),
                 "{said}"
             );
-            let resumed = stickslip().arg("resume").arg(&folder).output().unwrap();
+            let resumed = stickslip().args(["run", "--resume"]).arg(&folder).output().unwrap();
             assert_eq!(code(&resumed), 0, "{}", stderr(&resumed));
             assert_eq!(fs::read_to_string(folder.join("trace.csv")).unwrap(), text);
         }

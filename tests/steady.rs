@@ -16,6 +16,11 @@ fn steady(name: &str, out: &Path, options: &[&str]) -> Output {
     stickslip().arg("steady").arg(scenario(name)).arg("--out").arg(out).args(options).output().unwrap()
 }
 
+/// The same of a branch.
+fn branch(name: &str, out: &Path, options: &[&str]) -> Output {
+    stickslip().arg("branch").arg(scenario(name)).arg("--out").arg(out).args(options).output().unwrap()
+}
+
 /// A column of numbers.
 fn numbers(folder: &Path, table: &str, column: &str) -> Vec<f64> {
     let table = Table::read(&folder.join(table));
@@ -39,7 +44,7 @@ fn a_run_goes_on_with_the_steady_motion() {
         let out = tempdir().unwrap();
         let found = found(name, out.path(), &[]);
         assert_eq!(listing(out.path()), ["checkpoint", "steady.json", "steady.png"], "{name}");
-        let resumed = stickslip().arg("resume").arg(out.path()).output().unwrap();
+        let resumed = stickslip().args(["run", "--resume"]).arg(out.path()).output().unwrap();
         assert_eq!((code(&resumed), stderr(&resumed).as_str()), (0, ""), "{name}");
         let (lengths, step) = (numbers(out.path(), "steps.csv", "length_m"), number(&found, "/step_m"));
         assert!(lengths.len() >= 10, "{name}");
@@ -220,9 +225,9 @@ fn a_branch_is_written_and_told() {
     let root = tempdir().unwrap();
     let out = root.path().join("branch");
     let range = format!("{STROKE}=30 nm..600 nm");
-    let output = steady("p1", &out, &["--continue", &range, "--theme", "dark"]);
+    let output = branch("p1", &out, &["--vary", &range, "--theme", "dark"]);
     assert_eq!((code(&output), stderr(&output).as_str()), (0, ""));
-    let output = steady("p1", &out, &["--continue", &range]);
+    let output = branch("p1", &out, &["--vary", &range]);
     assert_eq!(listing(&out), ["branch.csv", "branch.json", "branch.png"]);
     let said = stdout(&output);
     for words in [
@@ -247,31 +252,31 @@ fn a_branch_that_cannot_be_followed_is_told_and_leaves_nothing() {
     let root = tempdir().unwrap();
     let out = root.path().join("out");
     let refused = |name: &str, options: &[&str], expected: i32, words: &str| {
-        let output = steady(name, &out, options);
+        let output = branch(name, &out, options);
         assert_eq!(code(&output), expected, "{options:?}: {}", stderr(&output));
         assert!(stderr(&output).contains(words), "{options:?}: {}", stderr(&output));
         assert!(stdout(&output).is_empty() && !out.exists(), "{options:?}");
     };
     let range = |range: &str| format!("{STROKE}={range}");
-    refused("p1", &["--continue", "1..2"], 2, "expected PATH=FROM..TO");
-    refused("p1", &["--continue", &range("1 um")], 2, "expected FROM..TO, such as 0.1..0.6, got \"1 um\"");
-    refused("p1", &["--continue", &range("1 um..2 N")], 2, "--continue  ");
-    refused("p1", &["--continue", &range("1 um..0.1 um")], 2, "a range that rises");
-    refused("p1", &["--continue", &range("1 um..2 um")], 2, "the branch starts there");
-    refused("p1", &["--continue", "contacts.ball.count=1..3"], 2, "counts whole things");
-    refused("p1", &["--continue", "contacts.bal.friction=0..1"], 2, "did you mean \"ball\"?");
-    refused("p1", &["--accuracy", "1e-6"], 2, "--continue");
-    refused("p1", &["--continue", &range("10 nm..1 um"), "--accuracy", "1"], 2, "expected 1e-12 to 1e-3");
+    refused("p1", &["--vary", "1..2"], 2, "expected PATH=FROM..TO");
+    refused("p1", &["--vary", &range("1 um")], 2, "expected FROM..TO, such as 0.1..0.6, got \"1 um\"");
+    refused("p1", &["--vary", &range("1 um..2 N")], 2, "--vary  ");
+    refused("p1", &["--vary", &range("1 um..0.1 um")], 2, "a range that rises");
+    refused("p1", &["--vary", &range("1 um..2 um")], 2, "the branch starts there");
+    refused("p1", &["--vary", "contacts.ball.count=1..3"], 2, "counts whole things");
+    refused("p1", &["--vary", "contacts.bal.friction=0..1"], 2, "did you mean \"ball\"?");
+    refused("p1", &["--accuracy", "1e-6"], 2, "--vary");
+    refused("p1", &["--vary", &range("10 nm..1 um"), "--accuracy", "1"], 2, "expected 1e-12 to 1e-3");
     refused(
         "bouncing_ball",
-        &["--continue", "gravity.acceleration=5..15"],
+        &["--vary", "gravity.acceleration=5..15"],
         2,
         "no waveform of the scene has a period",
     );
-    let stuck = ["--set", STUCK, "--periods", "60", "--continue", "contacts.ball.friction=0.1..0.2"];
+    let stuck = ["--set", STUCK, "--periods", "60", "--vary", "contacts.ball.friction=0.1..0.2"];
     refused("p1", &stuck, 3, "help: ball never slips grossly");
     fs::write(&out, "a file").unwrap();
-    let output = steady("p1", &out, &["--continue", &range("30 nm..1 um")]);
+    let output = branch("p1", &out, &["--vary", &range("30 nm..1 um")]);
     assert_eq!((code(&output), stdout(&output)), (3, String::new()), "{}", stderr(&output));
     assert!(stderr(&output).contains("cannot be written into: "), "{}", stderr(&output));
 }

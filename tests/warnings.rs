@@ -131,7 +131,7 @@ fn a_resumed_run_is_told_of_and_judged_alike() {
     assert_eq!(code(&command.output().unwrap()), 0);
     let folder = out.path().join("quickstart");
     let mut command = stickslip();
-    command.arg("resume").arg(&folder).args(["--strict", "--set", "run.duration=100 ms"]);
+    command.args(["run", "--resume"]).arg(&folder).args(["--strict", "--set", "run.duration=100 ms"]);
     let output = command.output().unwrap();
     assert_eq!(code(&output), 3, "{}", stderr(&output));
     assert!(stderr(&output).contains("the energy books miss 20.21 %"), "{}", stderr(&output));

@@ -1,20 +1,20 @@
 //! The commands, one room each: what they do with the libraries, and what they say.
 
-pub(crate) mod characterise;
+pub(crate) mod branch;
 pub(crate) mod check;
 pub(crate) mod compare;
 pub(crate) mod completions;
 pub(crate) mod contact;
+pub(crate) mod curve;
 pub(crate) mod explain;
 pub(crate) mod golden;
 pub(crate) mod info;
-pub(crate) mod loops;
 pub(crate) mod materials;
+pub(crate) mod measure;
 pub(crate) mod new;
 pub(crate) mod plot;
 pub(crate) mod realtime;
 pub(crate) mod repro;
-pub(crate) mod resume;
 pub(crate) mod run;
 pub(crate) mod schema;
 pub(crate) mod sensitivity;

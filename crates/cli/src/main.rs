@@ -6,29 +6,30 @@
 mod arguments;
 mod commands;
 
-use arguments::{Arguments, Command};
-use clap::Parser;
+use arguments::{Arguments, Command, meant};
+use clap::FromArgMatches;
 use commands::{
-    characterise, check, compare, completions, contact, explain, golden, info, loops, materials, new, plot,
-    realtime, repro, resume, run, schema, sensitivity, steady,
+    branch, check, compare, completions, contact, curve, explain, golden, info, materials, measure, new,
+    plot, realtime, repro, run, schema, sensitivity, steady,
 };
 use std::process::ExitCode;
 
 fn main() -> ExitCode {
     stickslip_console::interrupt::outlive_file_limits();
-    let arguments = match Arguments::try_parse() {
+    let matches = arguments::command().try_get_matches();
+    let arguments = match matches.and_then(|matches| Arguments::from_arg_matches(&matches)) {
         Ok(arguments) => arguments,
-        Err(said) => return ExitCode::from(stickslip_console::answer::told(&said)),
+        Err(said) => return ExitCode::from(stickslip_console::answer::told(&meant::answered(said))),
     };
     let verdict = match arguments.command {
         Command::Run(arguments) => run::run(&arguments),
-        Command::Resume(arguments) => resume::resume(&arguments),
         Command::Check(arguments) => check::check(&arguments),
         Command::Info(arguments) => info::info(&arguments),
-        Command::Characterise(arguments) => characterise::characterise(&arguments),
+        Command::Curve(arguments) => curve::curve(&arguments),
         Command::Contact(arguments) => contact::contact(&arguments),
-        Command::Loop(arguments) => loops::loops(&arguments),
+        Command::Measure(arguments) => measure::measure(&arguments),
         Command::Sensitivity(arguments) => sensitivity::sensitivity(&arguments),
+        Command::Branch(arguments) => branch::branch(&arguments),
         Command::Steady(arguments) => steady::steady(&arguments),
         Command::New(arguments) => new::new(&arguments),
         Command::Schema => schema::print(),

@@ -202,7 +202,7 @@ const INTRODUCTION: &str = "\
 # Definitions
 
 Every column of the tables of runs and studies, every key of `summary.json`, and what `info`, `contact`, `steady`, `check`,
-`validate`, `characterise`, `sensitivity` and `realtime` print. `stickslip explain NAME` prints one of these lines, `stickslip explain`
+`validate`, `curve`, `sensitivity` and `realtime` print. `stickslip explain NAME` prints one of these lines, `stickslip explain`
 without a name this page. Names end with their unit. BODY, CONTACT and other words in capitals stand for names of the scenario; LOAD is
 `start`, or `smallest` and `largest` of a load that varies. [Figures](figures.md) describes how steps and loops are measured, and how
 exactly; [physics](physics.md) what the contacts obey. Numbers in brackets such as (4.26) are equations of the *Handbook of Contact

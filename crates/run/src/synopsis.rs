@@ -76,7 +76,7 @@ pub enum SynopsisError {
 /// How a folder gets its results.
 fn again(folder: &Path) -> String {
     let resume = if checkpoint::exists(folder) {
-        format!(", or go on from its checkpoint with `stickslip resume {}`", folder.display())
+        format!(", or go on from its checkpoint with `stickslip run --resume {}`", folder.display())
     } else {
         String::new()
     };

@@ -9,24 +9,23 @@ use stickslip_run::theory::asked;
 
 /// Long help; paragraphs are broken where the terminal ends.
 pub(crate) const ABOUT: &str = "\
-Answer for one contact of a scenario, without a run: constants, curves, first loadings, histories, fields
+Solve one contact without a run: constants, curves, first loading, histories, stresses
 
-Takes materials, profile, friction and, unless told otherwise, the normal load at t = 0 of a contact of FILE; bodies and \
-waveforms do not count. Prints its constants, F_N and a over d, and the universal curve of the first loading: F_x over c/a, \
-by superposition (4.38) and by the integral (4.39). Equation numbers are those of the Handbook of Contact Mechanics (Popov, \
-Hess, Willert 2019), section 4.4.
+Takes the materials, profile, friction and, by default, the normal load at t = 0 of a contact of FILE; bodies and waveforms do \
+not matter. Prints its constants, F_N and a over d, and the universal curve of the first loading: F_x over c/a, by \
+superposition (4.38) and by the integral (4.39). Equation numbers refer to the Handbook of Contact Mechanics (Popov, Heß, \
+Willert 2019), section 4.4.
 
-One of --indentation, --radius, --force with one of --displacement, --stick-radius, --tangential is a first loading: the \
+One of --indentation, --radius, --force with one of --displacement, --stick-radius, --tangential defines a first loading; the \
 other four follow, with friction work and energies.
 
-With --history or --out, files are written: history.csv (forces and energies on the way), fields.csv (pressure, shear \
+With --history or --out, files are written: history.csv (forces and energies along the path), fields.csv (pressure, shear \
 stress, displacement, slip over r at each corner), line.csv (line loads, limits and stretches of the row of springs), \
-friction.csv (friction work by place), normal.csv, universal.csv, contact.json and pictures. A history is led in straight \
-lines of d and u from corner to corner. Where the first of several corners gives a load, it begins there, unstretched; else \
-at u = 0 under the load asked for. Beyond 100 contact radii it is warned of.
+friction.csv (friction work over r), normal.csv, universal.csv, contact.json and plots. A history is a polyline of d and u. If \
+its first corner gives a load, it starts there unstretched, otherwise at u = 0 under the given load.
 
-The law is the profile's own on the exact curve, whatever engine the scenario names. All of one contact, also where it has a \
-count. Exit codes: 0 done, 2 bad input, 3 the files cannot be written.";
+The exact curve of the profile is used, whatever engine the scenario names. All results are for one contact, even if its count \
+is larger. Exit codes: 0 done, 2 bad input, 3 a file cannot be written.";
 
 pub(crate) const EXAMPLES: &str = "\
 Examples:
@@ -42,29 +41,29 @@ pub(crate) struct ContactArguments {
     /// Scenario file
     #[arg(value_name = "FILE")]
     pub(crate) file: PathBuf,
-    /// Which contact; not needed where the scenario has one
+    /// Name of the contact; not needed if the scenario has only one
     #[arg(long, value_name = "NAME")]
     pub(crate) contact: Option<String>,
-    /// Put a value into the scenario, such as contacts.ball.friction=0.3
+    /// Set a value of the scenario, such as contacts.ball.friction=0.3
     #[arg(long, value_name = "PATH=VALUE", value_parser = assignment)]
     pub(crate) set: Vec<(String, String)>,
     #[command(flatten)]
     pub(crate) pressed: PressedArguments,
     #[command(flatten)]
     pub(crate) pushed: PushedArguments,
-    /// Lead the contact along these corners, u or F_x each, or d : u pairs; or along the lines of a CSV file
+    /// Move the contact along these corners, each u or F_x, or a pair d : u; or along the rows of a CSV file
     #[arg(long, value_name = "CORNERS", allow_hyphen_values = true, conflicts_with = "pushed")]
     pub(crate) history: Option<String>,
     /// Folder of the files [default: results/NAME-contact]
     #[arg(long, value_name = "DIR")]
     pub(crate) out: Option<PathBuf>,
-    /// Draw cycle.png as well, an animation of the springs on the last five legs
+    /// Also draw cycle.png, an animation of the springs on the last five legs
     #[arg(long)]
     pub(crate) animate: bool,
-    /// Print one line of JSON instead of tables; a number that is not finite is null
+    /// Print one line of JSON instead of tables; numbers that are not finite are null
     #[arg(long)]
     pub(crate) json: bool,
-    /// Errors only
+    /// Print errors only
     #[arg(short, long)]
     pub(crate) quiet: bool,
     #[command(flatten)]

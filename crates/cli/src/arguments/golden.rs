@@ -6,27 +6,27 @@ use std::path::PathBuf;
 
 /// Long help; paragraphs are broken where the terminal ends.
 pub(crate) const ABOUT: &str = "\
-Keep what scenarios come to, and find out when that changes: regression tests of trajectories
+Record reference results of scenarios and check whether they change: regression tests of trajectories
 
-`record` runs scenarios and keeps of each an excerpt in DIR/NAME: some rows, the events, the figures, the SHA-256 of all rows and \
-events, the scenario as it was run. `check` runs the files, as they are now, and compares as `stickslip compare` does; so a change of \
-the program and one of a scenario are both found, and the latter is named first. `accept` keeps what has changed, for a reason that it \
-writes into DIR/log.md. All three use every core.
+`record` runs scenarios and keeps an excerpt of each in DIR/NAME: some rows, the events, the figures, the SHA-256 of all rows \
+and events, and the scenario. `check` runs the files as they are now and compares as `stickslip compare` does, so it finds \
+changes of the program and of the scenario; the latter are reported first. `accept` replaces what has changed, for a reason \
+that it writes into DIR/log.md. All use every core.
 
-Goldens guard against change, no more: what was wrong when it was recorded stays wrong.
+A golden result detects change only: an error in it when it was recorded stays.
 
-The event stepper runs at a tolerance of 1e-12 here, whatever the file asks for: at larger ones another rounding of a sum chooses other \
-steps, and its effect cannot be told from a real one. With --own-tolerance the file's is kept.
+The event stepper runs at a tolerance of 1e-12, whatever the file says, because at larger tolerances rounding changes the \
+steps and cannot be distinguished from a real change. --own-tolerance keeps the tolerance of the file.
 
-What `check` prints, a line a scenario:
-  NAME: identical   the rows and the events have the same bytes
-  NAME: equal       no difference is larger than allowed, with the largest; a changed value in a scenario is never equal
-  NAME: differs     with the first difference; DIR/NAME/difference.png shows what differs most
-  NAME: gone        its file is not there
-  NAME: damaged     its golden is not what was recorded
+`check` prints one line per scenario:
+  NAME: identical   rows and events have the same bytes
+  NAME: equal       no difference exceeds its tolerance; the largest is given
+  NAME: differs     the first difference; DIR/NAME/difference.png shows the largest
+  NAME: gone        the scenario file does not exist
+  NAME: damaged     the golden result is not as it was recorded
 
-Exit codes: 0 all are identical or equal, 1 one is not, 2 bad input: no golden, no reason, a file that is refused, 3 a run stopped \
-itself or something could not be written, 130 interrupted.";
+Exit codes: 0 all identical or equal, 1 one is not, 2 bad input, 3 a run stopped early or a file cannot be written, 130 \
+interrupted.";
 
 /// Examples under the long help.
 pub(crate) const EXAMPLES: &str = "\
@@ -42,11 +42,11 @@ In CI, beside the scenarios in golden/ and drives/:
 
 #[derive(Debug, Subcommand)]
 pub(crate) enum GoldenCommand {
-    /// Run scenarios and keep what they come to
+    /// Run scenarios and record their results
     Record(RecordArguments),
-    /// Run the scenarios of all goldens and say what has changed
+    /// Run the scenarios again and report what has changed
     Check(CheckArguments),
-    /// Keep what has changed, for a reason
+    /// Replace the results that have changed, with a reason
     Accept(AcceptArguments),
 }
 
@@ -58,7 +58,7 @@ pub(crate) struct RecordArguments {
     /// Folder of the goldens
     #[arg(long, value_name = "DIR")]
     pub(crate) out: PathBuf,
-    /// Override a value of the scenarios, now and in each check, such as run.cycles=10 for a shorter run
+    /// Set a value of the scenarios, now and in each check, such as run.cycles=10 for a shorter run
     #[arg(long, value_name = "PATH=VALUE", value_parser = assignment)]
     pub(crate) set: Vec<(String, String)>,
     /// Do not compare a channel or figure, or all of a body, contact or waveform
@@ -74,10 +74,10 @@ pub(crate) struct CheckArguments {
     /// Folder of the goldens
     #[arg(value_name = "DIR")]
     pub(crate) root: PathBuf,
-    /// Those that are checked [default: all]
+    /// Names to check [default: all]
     #[arg(value_name = "NAME")]
     pub(crate) names: Vec<String>,
-    /// Write what was found as JUnit XML, which CI services show
+    /// Write a JUnit XML report for CI services
     #[arg(long, value_name = "FILE")]
     pub(crate) junit: Option<PathBuf>,
 }
@@ -87,7 +87,7 @@ pub(crate) struct AcceptArguments {
     /// Folder of the goldens
     #[arg(value_name = "DIR")]
     pub(crate) root: PathBuf,
-    /// Those that are accepted [default: all that differ]
+    /// Names to accept [default: all that differ]
     #[arg(value_name = "NAME")]
     pub(crate) names: Vec<String>,
     /// Why the results change

@@ -8,17 +8,16 @@ use stickslip_scenario::quantity;
 /// The look of pictures; names of their files say what is not the default.
 #[derive(Debug, Clone, Args)]
 pub(crate) struct LookArguments {
-    /// Kinds of picture files
+    /// File formats of plots
     #[arg(long = "format", value_name = "KIND,…", value_delimiter = ',', default_value = "png")]
     formats: Vec<FormatArgument>,
-    /// Colours: light for paper, dark for screens (NAME-dark.png), or both (light,dark)
+    /// Colours: light for paper, dark for screens (NAME-dark.png), or both
     #[arg(long = "theme", value_name = "NAME,…", value_delimiter = ',', default_value = "light")]
     themes: Vec<ColoursArgument>,
-    /// Size of the pictures: 1 for 1600 pixels in width, 2 for twice as many (NAME@2x.png)
+    /// Size: 1 for a width of 1600 pixels, 2 for twice that (NAME@2x.png)
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = scales())]
     scale: u32,
-    /// Width in print, such as 85mm, 60mm to 300mm: letters and lines keep their size in points, PNG have 600 pixels to the inch
-    /// (NAME-85mm.png)
+    /// Width in print, 60mm to 300mm, such as 85mm (NAME-85mm.png): text keeps its size in points, PNG have 600 dpi
     #[arg(long, value_name = "LENGTH", value_parser = width, conflicts_with = "scale")]
     width: Option<u32>,
 }

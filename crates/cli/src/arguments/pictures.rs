@@ -9,32 +9,32 @@ use stickslip_scenario::PlotName;
 
 pub(super) const PLOT_EXAMPLES: &str = "\
 Examples:
-  stickslip plot results/p1                                  the pictures of its scenario
-  stickslip plot results/* --plots trajectory --format svg   one picture of every run, as SVG
-  stickslip plot a/p1 b/p1 --over --plots loop --out .       both loops in one: over-loop.png
-  stickslip plot results/p1 --scale 2 --out pictures         into pictures/p1/, twice as many pixels";
+  stickslip plot results/p1                                  the plots of its scenario
+  stickslip plot results/* --plots trajectory --format svg   one plot of every run, as SVG
+  stickslip plot a/p1 b/p1 --over --plots loop --out .       both loops in one plot: over-loop.png
+  stickslip plot results/p1 --scale 2 --out pictures         into pictures/p1/, at twice the size";
 
 pub(super) const REPRO_EXAMPLES: &str = "\
 Examples:
-  stickslip repro loop.png                 runs what loop.png carries and compares
-  stickslip repro loop.png --out here      leaves the results, scenario.json among them, in the folder here
-  stickslip repro loop.png --wall \"1 min\"  runs it for a minute at most";
+  stickslip repro loop.png                 rerun the scenario of loop.png and compare
+  stickslip repro loop.png --out here      keep the results, scenario.json included, in here
+  stickslip repro loop.png --wall \"1 min\"  run for at most a minute";
 
 #[derive(Debug, Args)]
 pub(crate) struct PlotArguments {
     /// Folders of results
     #[arg(required = true, value_name = "DIR")]
     pub(crate) folders: Vec<PathBuf>,
-    /// Pictures to draw, instead of those that the scenario names; xy: its channels over a channel
+    /// Plots to draw instead of those of the scenario; xy: channels over a channel
     #[arg(long, value_name = "NAME,…", value_delimiter = ',', value_parser = plot_names())]
     pub(crate) plots: Vec<PlotName>,
-    /// Folder of the pictures: those of a folder NAME go to OUT/NAME/; by default they go beside the results
+    /// Folder of the plots: those of a folder NAME go to OUT/NAME/ [default: beside the results]
     #[arg(long, value_name = "OUT")]
     pub(crate) out: Option<PathBuf>,
-    /// All results over each other, each kind of picture in one: OUT/over-NAME.png (needs --out); of loop, trajectory, phase and xy
+    /// Overlay all results in one plot of each kind: OUT/over-NAME.png (needs --out); loop, trajectory, phase and xy only
     #[arg(long, requires = "out")]
     pub(crate) over: bool,
-    /// Errors only
+    /// Print errors only
     #[arg(short, long)]
     pub(crate) quiet: bool,
     #[command(flatten)]
@@ -43,17 +43,16 @@ pub(crate) struct PlotArguments {
 
 #[derive(Debug, Args)]
 pub(crate) struct ReproArguments {
-    /// A picture
+    /// PNG or SVG file
     #[arg(value_name = "FILE")]
     pub(crate) file: PathBuf,
-    /// Folder for the results of the run; by default nothing is written
+    /// Folder for the results of the run [default: nothing is written]
     #[arg(long, value_name = "DIR")]
     pub(crate) out: Option<PathBuf>,
-    /// Longest that the run may take on the wall, such as "1 min": where it takes longer nothing is compared (exit code 3). By default
-    /// it runs to its end, whatever limit of wall time the picture carries
+    /// Limit of wall-clock time, such as "1 min"; beyond it nothing is compared (exit code 3)
     #[arg(long, value_name = "TIME", value_parser = interval)]
     pub(crate) wall: Option<f64>,
-    /// No progress, no result for people; errors and the exit code only
+    /// Print errors only: no progress, no result
     #[arg(short, long)]
     pub(crate) quiet: bool,
     #[command(flatten)]

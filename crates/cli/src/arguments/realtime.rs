@@ -11,26 +11,24 @@ use stickslip_realtime::{Overrun, region};
 
 /// Long help; paragraphs are broken where the terminal ends.
 pub(crate) const ABOUT: &str = "\
-Run a drive in real time: a frame after each tick of a clock, inputs from outside, outputs to it
+Run a drive in real time with inputs and outputs over UDP or shared memory
 
-Deadlines lie at multiples of --period on the monotonic clock. After each of them the newest input is taken, one frame of the drive \
-is computed and its end is told. Of each frame the time from the deadline until the loop woke (the machine's) and the time from \
-then until the outputs were out (the program's) are counted apart, in bins of 1 µs; a frame that ends after the next deadline has \
-overrun. Before it an empty loop of the same period runs: the machine's own floor.
+Deadlines are multiples of --period on the monotonic clock. After each deadline the newest input is taken, one frame is \
+computed and its outputs are sent. Latency (from the deadline until the loop wakes) and execution time (from then until the \
+outputs are out) are counted separately in bins of 1 µs. A frame that ends after the next deadline is an overrun. An empty \
+loop of the same period runs first and shows the limits of the machine.
 
-Inputs are the scene's waveforms of the kind \"input\": a held one has its new value from the frame's start on, a linear one reaches it \
-at the frame's end. A \"generator\" has four, NAME.stroke, NAME.frequency (Hz), NAME.heading (1 or -1) and NAME.steps (a number, or -1 \
-without end); steps count from the frame on in which another number comes. Without --inputs they keep their initial values. Packets, shared memory and recordings are described byte by byte in \
-docs/realtime.md, with clients in C and Python. Outputs and inputs are in SI, in the order that is told before the start.
+Inputs are the waveforms of kind \"input\": a held one takes its new value at the start of the frame, a linear one reaches it at \
+the end. A \"generator\" has four inputs: NAME.stroke, NAME.frequency (Hz), NAME.heading (1 or -1) and NAME.steps (-1 for no \
+limit). Without --inputs they keep their initial values. docs/realtime.md describes packets, shared memory and recordings byte \
+by byte, with clients in C and Python. All values are in SI.
 
-Before the start some hundred frames are computed without waiting; a period shorter than half of them take is refused (--force \
-starts all the same). Where the system grants no priority, processor or locked memory, the loop goes on without and says so. \
-Without a real-time kernel nobody can promise that the system does not keep the loop waiting.
+Some hundred frames are computed before the start; a period shorter than the median of them is refused unless --force is \
+given. If the system denies priority, processor or locked memory, the loop runs without and reports it.
 
-Writes DIR/NAME/realtime.json, histogram.csv, frames.csv (the worst frames and what happened in them), realtime.png and timeline.png. Exit codes: 0 all \
-frames were computed, 2 bad input (the input never came, a port in use), 3 the drive stopped itself, or the loop by --overrun stop \
-or --silence stop, another process made the shared memory shorter, or something could not be written, 130 interrupted (one SIGINT or SIGTERM, \
-also within a frame); what was computed is written.";
+Writes DIR/NAME/realtime.json, histogram.csv, frames.csv (the slowest frames and their work), realtime.png and timeline.png. \
+Exit codes: 0 all frames were computed, 2 bad input (no input came, a port is in use), 3 the run stopped early, --overrun stop \
+or --silence stop ended the loop, or a file cannot be written, 130 interrupted; results so far are written.";
 
 /// Examples under the long help.
 pub(crate) const EXAMPLES: &str = "\
@@ -50,15 +48,14 @@ pub(crate) struct RealtimeArguments {
     /// Length of a frame, such as "50 us"
     #[arg(long, value_name = "TIME", value_parser = frame)]
     pub(crate) period: f64,
-    /// How long, simulated; by default as long as the recording that is replayed, or as the scenario's run
+    /// Simulated time [default: that of the replayed recording, or of the scenario]
     #[arg(long = "for", value_name = "TIME", value_parser = above_zero)]
     pub(crate) duration: Option<f64>,
-    /// Instead of frames of bounded work, frames or frames:ACCURACY (1e-3 of a stroke unless the scenario says otherwise): event,
-    /// event:TOLERANCE, fast in the mean, verlet, verlet:STEP, rk4 or rk4:STEP; without a step the longest that divides the frame
-    /// and is a fifth of the longest stable one. At most 100 000 steps a frame
+    /// frames[:ACCURACY] with bounded work per frame (the default, 1e-3 of a stroke), event[:TOLERANCE], fast on average, verlet[:STEP]
+    /// or rk4[:STEP]; the default step is a fifth of the stability limit. At most 100 000 steps a frame
     #[arg(long, value_name = "NAME[:VALUE]")]
     pub(crate) stepper: Option<String>,
-    /// Put a value into the scenario, such as contacts.ball.friction=0.3
+    /// Set a value of the scenario, such as contacts.ball.friction=0.3
     #[arg(long, value_name = "PATH=VALUE", value_parser = assignment)]
     pub(crate) set: Vec<(String, String)>,
     /// Folder of the report: NAME.json writes into DIR/NAME/
@@ -71,7 +68,7 @@ pub(crate) struct RealtimeArguments {
     /// Print the report to stdout as one line of JSON
     #[arg(long)]
     pub(crate) json: bool,
-    /// No progress, no report; errors only
+    /// Print errors only: no progress, no report
     #[arg(short, long)]
     pub(crate) quiet: bool,
     #[command(flatten)]
@@ -81,39 +78,36 @@ pub(crate) struct RealtimeArguments {
 /// What goes in and out.
 #[derive(Debug, Args)]
 pub(crate) struct WireArguments {
-    /// Where inputs come from: udp:HOST:PORT (packets taken there; beyond 127.0.0.1 from the whole network, which is warned of), shm:NAME (a file of /dev/shm, or a path), stdin (lines of
-    /// numbers), replay:FILE (what --record-inputs wrote)
+    /// Source of the inputs: udp:HOST:PORT, shm:NAME (a file of /dev/shm, or a path), stdin (lines of numbers), replay:FILE (written by
+    /// --record-inputs). A HOST other than 127.0.0.1 accepts packets from the network, with a warning
     #[arg(long, value_name = "WHERE", value_parser = inputs)]
     pub(crate) inputs: Option<Inputs>,
-    /// Where outputs go, as often as wanted: udp:HOST:PORT, udp (to whoever has the inputs), shm:NAME, file:PATH (packets, one
-    /// after the other)
+    /// Destination of the outputs, repeatable: udp:HOST:PORT, udp (to the client that sends the inputs), shm:NAME, file:PATH (packets)
     #[arg(long, value_name = "WHERE", value_parser = outputs)]
     pub(crate) outputs: Vec<Outputs>,
-    /// Channels that are told; by default time, places and velocities of bodies. Forces of contacts take longer than a short
-    /// frame
+    /// Channels of the outputs [default: time, positions and velocities of bodies]
     #[arg(long, value_name = "NAME,…", value_delimiter = ',')]
     pub(crate) channels: Option<Vec<String>>,
-    /// Values that come with the inputs, behind them, and feed nothing, such as what a controller aims at: they are recorded, and
-    /// drawn in timeline.png; the end of a name is its unit, as in target.x_m
+    /// Values sent after the inputs that do not act on the drive, such as a setpoint: they are recorded and drawn in timeline.png; a name
+    /// ends with its unit, as in target.x_m
     #[arg(long, value_name = "NAME,…", value_delimiter = ',', requires = "inputs")]
     pub(crate) notes: Vec<String>,
-    /// How long the first input is waited for; 0 starts at once
+    /// Time to wait for the first input; 0 starts at once
     #[arg(long, value_name = "TIME", default_value = "10 s", value_parser = not_negative)]
     pub(crate) wait: f64,
-    /// What happens when no good input has come for --silent-after: the last values are held, the initial ones come back, or
-    /// the loop stops
+    /// Action when no valid input has come for --silent-after: hold the last values, return to the initial ones, or stop
     #[arg(long, value_name = "WHAT", default_value = "hold")]
     pub(crate) silence: SilenceArgument,
-    /// How long no good input may come until --silence
+    /// Time without valid input until --silence acts
     #[arg(long, value_name = "TIME", default_value = "1 s", value_parser = above_zero)]
     pub(crate) silent_after: f64,
-    /// How long the client that has the inputs must have been silent until another one may take over
+    /// Time of silence after which another client may take over the inputs
     #[arg(long, value_name = "TIME", default_value = "100 ms", value_parser = above_zero)]
     pub(crate) takeover: f64,
-    /// Write the inputs applied in every frame, for --inputs replay:FILE
+    /// Record the inputs of every frame, for --inputs replay:FILE
     #[arg(long, value_name = "FILE")]
     pub(crate) record_inputs: Option<PathBuf>,
-    /// Write every frame: number, latency and execution time in ns, deadlines left out after it
+    /// Log every frame: number, latency and execution time in ns, deadlines skipped after it
     #[arg(long, value_name = "FILE")]
     pub(crate) log: Option<PathBuf>,
 }
@@ -121,30 +115,29 @@ pub(crate) struct WireArguments {
 /// When frames are computed.
 #[derive(Debug, Args)]
 pub(crate) struct ClockArguments {
-    /// The processor to stay on, from 0
+    /// Processor to run on, from 0
     #[arg(long, value_name = "N")]
     pub(crate) cpu: Option<usize>,
-    /// Priority among real-time threads (first in, first out), 1 to 99
+    /// Real-time priority (SCHED_FIFO), 1 to 99
     #[arg(long, value_name = "P", value_parser = clap::value_parser!(u8).range(1..=99))]
     pub(crate) priority: Option<u8>,
-    /// Lock all memory, so that none of it is ever paged out
+    /// Lock all memory, so that none is paged out
     #[arg(long)]
     pub(crate) lock: bool,
-    /// What is done where a frame ends after the next deadline. skip: the next frame waits for the first deadline that still
-    /// lies ahead; all frames are computed, and simulated time falls behind the clock. stop: the loop ends (exit code 3)
+    /// Action on an overrun. skip: the next frame waits for the next deadline; all frames are computed, and simulated time falls behind
+    /// the clock. stop: the loop ends (exit code 3)
     #[arg(long, value_name = "WHAT", default_value = "skip")]
     pub(crate) overrun: OverrunArgument,
-    /// Wake so long before each deadline and watch the clock until then: what waking takes is out of the way, and the processor busy.
-    /// With --priority leave it some rest, or the system takes it (50 ms of each second by default)
+    /// Wake this long before each deadline and poll the clock until then: less latency for a busy processor
     #[arg(long, value_name = "TIME", default_value = "0", value_parser = not_negative)]
     pub(crate) spin: f64,
-    /// Compute frames one after the other, as fast as they go
+    /// Compute frames as fast as possible, without waiting for deadlines
     #[arg(long)]
     pub(crate) unpaced: bool,
-    /// How long the empty loop runs before it, at most as long as the loop itself
+    /// Duration of the empty loop, at most that of the run
     #[arg(long, value_name = "TIME", default_value = "2 s", value_parser = not_negative)]
     pub(crate) floor: f64,
-    /// Start although the machine cannot keep the period
+    /// Start even if the machine cannot keep the period
     #[arg(long)]
     pub(crate) force: bool,
 }

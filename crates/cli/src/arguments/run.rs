@@ -1,4 +1,4 @@
-//! The command line of runs, begun and gone on with.
+//! The command line of runs, new and resumed.
 
 use super::assignment;
 use super::look::LookArguments;
@@ -10,55 +10,37 @@ Examples:
   stickslip run drive.json
   stickslip run drive.json --out small --set waveforms.drive.sawtooth.stroke=\"70 nm\"
   stickslip run scenarios/*.json --threads 4 --json > summaries.jsonl
-  stickslip run drive.json --set figures.steady_motion=false   without looking for what it settles on
-  stickslip run drive.json --realtime                    as fast as it happens
-  stickslip run drive.json --checkpoint-every \"30 s\"    can go on: stickslip resume results/drive";
-
-pub(super) const RESUME_EXAMPLES: &str = "\
-Examples:
-  stickslip resume results/drive                           what was left of a run that was ended
-  stickslip resume results/drive --set run.duration=\"2 s\"  longer than it was to be
-  stickslip resume results/* --threads 4";
+  stickslip run drive.json --set figures.steady_motion=false   without the search for the periodic motion
+  stickslip run drive.json --checkpoint-every \"30 s\"
+  stickslip run --resume results/drive                           finish a run that was interrupted or killed
+  stickslip run --resume results/drive --set run.duration=\"2 s\"  extend a run";
 
 #[derive(Debug, Args)]
 pub(crate) struct RunArguments {
     /// Scenario files
-    #[arg(required = true, value_name = "FILE")]
+    #[arg(required_unless_present = "resume", value_name = "FILE")]
     pub(crate) files: Vec<PathBuf>,
+    /// Resume runs from the checkpoints in these folders of results, to their end or to the end that --set gives (run.duration or
+    /// run.cycles only); the results have the same bytes as those of an undisturbed run
+    #[arg(long, value_name = "DIR", num_args = 1.., conflicts_with_all = ["files", "out", "realtime"])]
+    pub(crate) resume: Vec<PathBuf>,
     /// Folder of the results: NAME.json writes into DIR/NAME/
     #[arg(long, value_name = "DIR", default_value = "results")]
     pub(crate) out: PathBuf,
-    /// Put a value into every scenario, such as run.duration="20 ms" or contacts.ball.friction=0.3
+    /// Set a value of every scenario, such as run.duration="20 ms" or contacts.ball.friction=0.3
     #[arg(long, value_name = "PATH=VALUE", value_parser = assignment)]
     pub(crate) set: Vec<(String, String)>,
-    /// Keep step with the clock on the wall: the run goes on from a row at t seconds when t seconds have passed, and says how
-    /// far it was behind. Results are the same with it and without; `run.limits.wall` counts the waiting, too
+    /// Run no faster than real time, and report the largest delay; the results are the same
     #[arg(long)]
     pub(crate) realtime: bool,
-    /// Keep checkpoints in DIR/NAME/checkpoint, one every TIME on the wall, such as "30 s": `stickslip resume DIR/NAME` goes
-    /// on from the last one. Results are the same with them and without
+    /// Keep a checkpoint in DIR/NAME/checkpoint every TIME of wall-clock time, such as "30 s", for --resume; the results are the same
     #[arg(long, value_name = "TIME", value_parser = interval)]
     pub(crate) checkpoint_every: Option<f64>,
     #[command(flatten)]
     pub(crate) conduct: ConductArguments,
 }
 
-#[derive(Debug, Args)]
-pub(crate) struct ResumeArguments {
-    /// Folders of results with a checkpoint
-    #[arg(required = true, value_name = "DIR")]
-    pub(crate) folders: Vec<PathBuf>,
-    /// Give every run another end, such as run.duration="2 s" or run.cycles=2000
-    #[arg(long, value_name = "PATH=VALUE", value_parser = assignment)]
-    pub(crate) set: Vec<(String, String)>,
-    /// Keep a checkpoint every TIME on the wall, such as "30 s"; by default as often as before
-    #[arg(long, value_name = "TIME", value_parser = interval)]
-    pub(crate) checkpoint_every: Option<f64>,
-    #[command(flatten)]
-    pub(crate) conduct: ConductArguments,
-}
-
-/// How runs are conducted and told of.
+/// How runs are conducted and reported.
 #[derive(Debug, Args)]
 pub(crate) struct ConductArguments {
     /// Scenarios run at the same time, at most one per core
@@ -67,11 +49,11 @@ pub(crate) struct ConductArguments {
     /// Print the summaries to stdout, one line of JSON per scenario
     #[arg(long)]
     pub(crate) json: bool,
-    /// No progress, no warnings (but with --strict), no result for people; errors only
+    /// Print errors only: no progress, no results, and no warnings but with --strict
     #[arg(short, long)]
     pub(crate) quiet: bool,
-    /// Exit code 3 where a run is warned of, such as energy books that do not close; its results are written all the same. What
-    /// is odd about a scenario, which `check` tells, does not count
+    /// Exit with code 3 if the results of a run have a warning, such as an energy balance that fails; warnings about the scenario,
+    /// which `check` reports, do not count
     #[arg(long)]
     pub(crate) strict: bool,
     #[command(flatten)]

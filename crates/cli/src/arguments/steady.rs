@@ -1,4 +1,4 @@
-//! The command line of a steady motion.
+//! The command line of periodic motions, one and many.
 
 use super::look::LookArguments;
 use super::{assignment, course, shooting};
@@ -7,78 +7,102 @@ use std::path::PathBuf;
 
 /// Long help; paragraphs are broken where the terminal ends.
 pub(crate) const ABOUT: &str = "\
-Find the steady motion of a drive without waiting for it: step, speed, how disturbances fade or grow
+Find the periodic motion of a drive without a long run: step, speed, stability
 
-A drive is steady where a period of its waveforms brings it back to where it was, a step further. After a few plain periods \
-Newton's method finds that motion, whether or not a run would ever come to it, or stay. Waveforms are taken to go on for ever, \
-whatever number of cycles the scenario gives them; a waveform other than that of the figures that comes only once is over.
+A drive is steady when each period of its waveforms repeats the same motion, shifted by one step. This periodic orbit is found by \
+shooting: a few periods are run, then Newton's method solves for a fixed point of the Poincaré map, whether or not a run would \
+converge to it. Waveforms are taken to continue for ever, whatever number of cycles the scenario gives.
 
-Prints the step with its error, the speed, and the Floquet multipliers in words: a disturbance comes back |λ| times as large \
-after a period, and turns by the angle of λ. Writes steady.json, a picture of one period with the multipliers, and a checkpoint from \
-which `stickslip resume DIR` goes on with the steady motion, for as long as the scenario's run is.
+Prints the step with its error, the speed, and the Floquet multipliers: after a period a disturbance is |λ| times as large. Writes \
+steady.json, a plot of one period with the multipliers, and a checkpoint from which `stickslip run --resume DIR` continues the motion.
 
---continue PATH=FROM..TO follows the motion from where the scenario stands to both ends of a range of any number of it, also where it \
-turns back and where no run would stay in it. Told at their places are folds (the branch turns back), period doublings, Neimark-Sacker \
-bifurcations (a beat that neither fades nor grows), and events of a period that appear or vanish. Writes branch.csv, branch.json and \
-the picture branch.png, stable motions solid, others dashed. Where the branch ends within the range, as where gross slip ceases, it says why.
-
-Exit codes: 0 found, stable or not; 2 bad input, or a scene that has no steady motion to be found: without a period, with \
-waveforms that have none in common or that a caller commands, with a body that nothing holds; 3 none was found, or \
-something cannot be written; 130 interrupted. Nothing is written unless it was found; of a branch what was found, to \
-branch-partial.csv, .json and .png, and a finished one stays beside them.";
+Exit codes: 0 found, stable or not; 2 bad input, or no periodic motion can exist: no period, no common period of all waveforms, a \
+waveform that a caller commands, a body that nothing holds; 3 none was found, or a file cannot be written; 130 interrupted.";
 
 pub(crate) const EXAMPLES: &str = "\
 Examples:
   stickslip steady drive.json
   stickslip steady drive.json --set contacts.ball.friction=0.3 --out here
-  stickslip steady drive.json --continue waveforms.drive.sawtooth.stroke=\"50 nm..1 um\"
   stickslip steady drive.json --json                      one line, SI, the unit in each key
-  stickslip steady drive.json && stickslip resume results/drive-steady";
+  stickslip steady drive.json && stickslip run --resume results/drive-steady";
+
+/// Long help of a branch.
+pub(crate) const BRANCH_ABOUT: &str = "\
+Follow the periodic motion while a parameter changes: folds, bifurcations
+
+Starts from the periodic motion of the scenario and follows it to both ends of the range by pseudo-arclength continuation, around folds \
+and where it is unstable. Reports folds, period doublings, Neimark-Sacker bifurcations, and events that appear in a period or vanish. \
+Writes branch.csv, branch.json and the plot branch.png, stable motions solid, unstable ones dashed. If the branch ends within the range, \
+for example because gross slip ceases, the reason is given.
+
+Exit codes: 0 done; 2 bad input, or no periodic motion can exist; 3 none was found, or a file cannot be written; 130 interrupted: what \
+was found is written to branch-partial.csv, .json and .png, and an earlier result is kept.";
+
+pub(crate) const BRANCH_EXAMPLES: &str = "\
+Examples:
+  stickslip branch drive.json --vary waveforms.drive.sawtooth.stroke=\"50 nm..1 um\"
+  stickslip branch drive.json --vary contacts.ball.friction=0.1..0.6 --json";
 
 #[derive(Debug, Args)]
 pub(crate) struct SteadyArguments {
+    #[command(flatten)]
+    pub(crate) search: SearchArguments,
+    /// Folder of the files [default: results/NAME-steady]
+    #[arg(long, value_name = "DIR")]
+    pub(crate) out: Option<PathBuf>,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct BranchArguments {
+    #[command(flatten)]
+    pub(crate) search: SearchArguments,
+    /// The parameter and its range, such as contacts.ball.friction=0.1..0.6
+    #[arg(long, value_name = "PATH=FROM..TO", required = true, allow_hyphen_values = true, value_parser = course)]
+    pub(crate) vary: (String, String),
+    /// Accuracy of special points as a share of the range, 1e-12 to 1e-3
+    #[arg(long, value_name = "SHARE", default_value = "1e-9", value_parser = accuracy)]
+    pub(crate) accuracy: f64,
+    /// Maximum number of motions on either side of the start
+    #[arg(long, value_name = "N", default_value_t = 1000, value_parser = motions)]
+    pub(crate) points: usize,
+    /// Folder of the files [default: results/NAME-branch]
+    #[arg(long, value_name = "DIR")]
+    pub(crate) out: Option<PathBuf>,
+}
+
+/// The search for a periodic motion, and how it is reported.
+#[derive(Debug, Args)]
+pub(crate) struct SearchArguments {
     /// Scenario file
     #[arg(value_name = "FILE")]
     pub(crate) file: PathBuf,
-    /// Put a value into the scenario, such as contacts.ball.friction=0.3
+    /// Set a value of the scenario, such as contacts.ball.friction=0.3
     #[arg(long, value_name = "PATH=VALUE", value_parser = assignment)]
     pub(crate) set: Vec<(String, String)>,
-    /// Local error per step of the runs, in natural scales, whatever the scenario's own stepper is: 1e-13 to 1e-6
+    /// Local error per step of the runs, relative to the natural scales, 1e-13 to 1e-6; the scenario's own stepper does not count
     #[arg(long, value_name = "SHARE", default_value = "1e-12", value_parser = shooting)]
     pub(crate) tolerance: f64,
-    /// Most periods to be computed
+    /// Maximum number of periods to compute
     #[arg(long, value_name = "N", default_value_t = 4000, value_parser = clap::value_parser!(u32).range(1..))]
     pub(crate) periods: u32,
-    /// Follow the steady motion through a range of a number of the scenario, such as contacts.ball.friction=0.1..0.6
-    #[arg(long = "continue", value_name = "PATH=FROM..TO", allow_hyphen_values = true, value_parser = course)]
-    pub(crate) continued: Option<(String, String)>,
-    /// How exactly places of a branch are told, as a share of the range: 1e-12 to 1e-3
-    #[arg(long, value_name = "SHARE", default_value = "1e-9", value_parser = accuracy, requires = "continued")]
-    pub(crate) accuracy: f64,
-    /// Most motions of a branch on either side of its start
-    #[arg(long, value_name = "N", default_value_t = 1000, value_parser = motions, requires = "continued")]
-    pub(crate) points: usize,
-    /// Folder of the files [default: results/NAME-steady, of a branch results/NAME-branch]
-    #[arg(long, value_name = "DIR")]
-    pub(crate) out: Option<PathBuf>,
-    /// Print one line of JSON instead of tables; a number that is not finite is null
+    /// Print one line of JSON instead of tables; numbers that are not finite are null
     #[arg(long)]
     pub(crate) json: bool,
-    /// No progress, no warnings, no tables; errors only
+    /// Print errors only: no progress, no warnings, no tables
     #[arg(short, long)]
     pub(crate) quiet: bool,
     #[command(flatten)]
     pub(crate) look: LookArguments,
 }
 
-/// Reads how exactly places are told.
+/// Reads the accuracy of special points.
 fn accuracy(text: &str) -> Result<f64, String> {
     let accuracy: f64 = text.parse().map_err(|_| "expected a number such as 1e-9".to_owned())?;
     let range = 1e-12..=1e-3;
     if range.contains(&accuracy) { Ok(accuracy) } else { Err("expected 1e-12 to 1e-3".to_owned()) }
 }
 
-/// Reads how many motions there may be.
+/// Reads the maximum number of motions.
 fn motions(text: &str) -> Result<usize, String> {
     let most = text.parse().ok().filter(|most| (1..=100_000).contains(most));
     most.ok_or_else(|| "expected 1 to 100000".to_owned())

@@ -1,7 +1,6 @@
 //! `stickslip completions SHELL`: what a shell completes a command line by.
 
-use crate::arguments::Arguments;
-use clap::CommandFactory;
+use crate::arguments::command;
 use clap_complete::Shell;
 use stickslip_console::answer::say;
 use stickslip_console::verdict::Verdict;
@@ -9,7 +8,7 @@ use stickslip_console::verdict::Verdict;
 /// Prints the script.
 pub(crate) fn print(shell: Shell) -> Verdict {
     let mut script = Vec::new();
-    clap_complete::generate(shell, &mut Arguments::command(), "stickslip", &mut script);
+    clap_complete::generate(shell, &mut command(), "stickslip", &mut script);
     say(format_args!("{}", String::from_utf8_lossy(&script).trim_end()));
     Verdict::Done
 }

@@ -6,7 +6,7 @@ mod scenario;
 
 use crate::arguments::{ConductArguments, RunArguments};
 use rayon::prelude::*;
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 use std::fmt::Display;
 use std::path::PathBuf;
 use std::sync::{Mutex, PoisonError};
@@ -14,6 +14,7 @@ use stickslip_console::answer::{complain, say, say_json, warn};
 use stickslip_console::interrupt::Interrupt;
 use stickslip_console::progress::Progress;
 use stickslip_console::verdict::Verdict;
+use stickslip_run::checkpoint::{CheckpointError, Resumption};
 use stickslip_run::{Job, Refusal};
 
 pub(crate) use report::Report;
@@ -25,11 +26,29 @@ pub(crate) type Task = (Job, Beginning);
 /// Prepares and runs all scenarios; the worst ending counts. A file that is refused does not keep the others from
 /// running.
 pub(crate) fn run(arguments: &RunArguments) -> Verdict {
-    conduct(&arguments.conduct, arguments.realtime, || prepare(arguments))
+    if arguments.resume.is_empty() {
+        conduct(&arguments.conduct, arguments.realtime, || prepare(arguments))
+    } else {
+        conduct(&arguments.conduct, false, || resumptions(arguments))
+    }
+}
+
+/// Reads and checks all checkpoints before the first run is resumed.
+fn resumptions(arguments: &RunArguments) -> Vec<Result<Task, CheckpointError>> {
+    let mut taken = HashSet::new();
+    let mut prepare = |folder: &PathBuf| {
+        let (job, resumption) = Resumption::read(folder, &arguments.set)?;
+        // Two runs in one folder would cut each other's journal.
+        if !taken.insert(folder.canonicalize().unwrap_or_else(|_| folder.clone())) {
+            return Err(CheckpointError::Twice(folder.clone()));
+        }
+        Ok((job, Beginning::Resumed(Box::new(resumption), arguments.checkpoint_every)))
+    };
+    arguments.resume.iter().map(&mut prepare).collect()
 }
 
 /// Runs all tasks that were not refused.
-pub(crate) fn conduct<E: Display + Send>(
+fn conduct<E: Display + Send>(
     arguments: &ConductArguments,
     realtime: bool,
     prepare: impl FnOnce() -> Vec<Result<Task, E>>,

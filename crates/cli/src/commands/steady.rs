@@ -1,6 +1,5 @@
 //! `stickslip steady`: the motion that repeats itself every period.
 
-mod branch;
 mod page;
 
 use crate::arguments::SteadyArguments;
@@ -45,9 +44,6 @@ enum SteadyFailure {
 
 /// Finds the steady motion of a scenario.
 pub(crate) fn steady(arguments: &SteadyArguments) -> Verdict {
-    if let Some((path, range)) = &arguments.continued {
-        return branch::follow(arguments, (path, range));
-    }
     match answer(arguments) {
         Ok(verdict) => verdict,
         Err(failure) => {
@@ -59,8 +55,8 @@ pub(crate) fn steady(arguments: &SteadyArguments) -> Verdict {
 
 fn answer(arguments: &SteadyArguments) -> Result<Verdict, SteadyFailure> {
     let interrupt = Interrupt::install();
-    let job = Job::prepare(&arguments.file, &arguments.set, Path::new(""))?;
-    if !arguments.quiet {
+    let job = Job::prepare(&arguments.search.file, &arguments.search.set, Path::new(""))?;
+    if !arguments.search.quiet {
         warn(&job);
     }
     let not_found = |source| SteadyFailure::NotFound { name: job.name.clone(), source };
@@ -73,9 +69,9 @@ fn answer(arguments: &SteadyArguments) -> Result<Verdict, SteadyFailure> {
     let lasting = found.job(&job, out.clone()).map_err(not_found)?;
     let aftermath = aftermath.as_ref();
     let report = write(arguments, (&job, &lasting), (&found, aftermath, &orbit), folder)?;
-    if arguments.json {
+    if arguments.search.json {
         say_json(&report.line());
-    } else if !arguments.quiet {
+    } else if !arguments.search.quiet {
         say(format_args!(
             "{}\n\n{}: {}",
             page::text(&job, &found, aftermath),
@@ -93,12 +89,12 @@ fn search(
     job: &Job,
     interrupt: &Interrupt,
 ) -> Result<(Steady, Option<Aftermath>), SteadyError> {
-    let progress = Progress::new(!arguments.quiet);
+    let progress = Progress::new(!arguments.search.quiet);
     progress.tell(format_args!("{}: looking for its steady motion", job.name));
     let line = progress.count(&job.name, "periods", interrupt);
     let options = Options {
-        tolerance: arguments.tolerance,
-        periods: arguments.periods,
+        tolerance: arguments.search.tolerance,
+        periods: arguments.search.periods,
         goes_on: &|| line.goes_on(),
         told: &|periods| line.reached(f64::from(periods)),
         ..Options::default()
@@ -120,7 +116,7 @@ fn write(
     (found, aftermath, orbit): (&Steady, Option<&Aftermath>, &Orbit),
     mut folder: Folder,
 ) -> Result<Report, SteadyFailure> {
-    let pictures = picture::draw(job, found, &orbit.series, &arguments.look.look())?;
+    let pictures = picture::draw(job, found, &orbit.series, &arguments.search.look.look())?;
     let mut report = Report::of(job, found, aftermath);
     let keeps = lasting.check_checkpoints().is_ok();
     if !keeps {

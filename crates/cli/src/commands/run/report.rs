@@ -85,8 +85,10 @@ impl Report {
             Some(error) if error.is_halt() => "",
             _ => return self,
         };
-        self.error +=
-            &format!("\n   help: `stickslip resume {}{limit}` goes on from there", job.folder.display());
+        self.error += &format!(
+            "\n   help: `stickslip run --resume {}{limit}` goes on from there",
+            job.folder.display()
+        );
         self
     }
 

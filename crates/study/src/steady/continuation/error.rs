@@ -58,7 +58,7 @@ pub enum ContinuationError {
     },
     /// A period that cannot change without parting from another one.
     #[error(
-        "{path} cannot be varied by itself: the waveforms \"{first}\" and \"{second}\" would have no common period\n   help: vary the period of all of them, as `stickslip characterise --curve speed-frequency` does"
+        "{path} cannot be varied by itself: the waveforms \"{first}\" and \"{second}\" would have no common period\n   help: vary the period of all of them, as `stickslip curve --curve speed-frequency` does"
     )]
     Apart {
         /// What is varied.

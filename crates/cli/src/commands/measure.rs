@@ -1,6 +1,6 @@
-//! `stickslip loop`: measured loops, and a simulated one beside them.
+//! `stickslip measure`: measured loops, and a simulated one beside them.
 
-use crate::arguments::LoopArguments;
+use crate::arguments::MeasureArguments;
 use std::io;
 use std::path::{Path, PathBuf};
 use stickslip_console::answer::{complain, say};
@@ -53,8 +53,8 @@ struct Simulated {
 }
 
 /// Measures the loops of a table.
-pub(crate) fn loops(arguments: &LoopArguments) -> Verdict {
-    match measure(arguments) {
+pub(crate) fn measure(arguments: &MeasureArguments) -> Verdict {
+    match answer(arguments) {
         Ok(()) => Verdict::Done,
         Err(failure) => {
             complain(format_args!("{failure}"));
@@ -63,8 +63,8 @@ pub(crate) fn loops(arguments: &LoopArguments) -> Verdict {
     }
 }
 
-fn measure(arguments: &LoopArguments) -> Result<(), LoopFailure> {
-    let LoopArguments { time, displacement, force, .. } = arguments;
+fn answer(arguments: &MeasureArguments) -> Result<(), LoopFailure> {
+    let MeasureArguments { time, displacement, force, .. } = arguments;
     let named = Named { time: time.clone(), displacement: displacement.clone(), force: force.clone() };
     let mut measured = Measured::read(&arguments.file, &named)?;
     let cycles = measured.cycles(arguments.period)?;
@@ -177,7 +177,7 @@ fn draw(
     title: &str,
     (measured, cycles): (&Measured, &[MeasuredCycle]),
     beside: Option<&Simulated>,
-    arguments: &LoopArguments,
+    arguments: &MeasureArguments,
 ) -> Result<Vec<(String, Vec<u8>)>, FigureError> {
     let Some((last, first)) = cycles.last().zip(cycles.first()) else { return Ok(Vec::new()) };
     let curve = |name, from: usize, to: usize| Curve {

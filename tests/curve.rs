@@ -1,4 +1,4 @@
-//! `stickslip characterise`: curves of a machine. What they tell is tested beside the library; here is what is written and said.
+//! `stickslip curve`: curves of a machine. What they tell is tested beside the library; here is what is written and said.
 
 use crate::program::{Table, code, listing, run, scenario, stderr, stdout, stickslip, summary};
 use serde_json::Value;
@@ -6,15 +6,8 @@ use std::path::Path;
 use std::process::Output;
 use tempfile::tempdir;
 
-fn characterise(name: &str, out: &Path, arguments: &[&str]) -> Output {
-    stickslip()
-        .arg("characterise")
-        .arg(scenario(name))
-        .args(arguments)
-        .arg("--out")
-        .arg(out)
-        .output()
-        .unwrap()
+fn curve(name: &str, out: &Path, arguments: &[&str]) -> Output {
+    stickslip().arg("curve").arg(scenario(name)).args(arguments).arg("--out").arg(out).output().unwrap()
 }
 
 /// `run` waits for its steps by itself: what it calls steady is the point of the curve, to the tolerance that both have.
@@ -23,7 +16,7 @@ fn a_point_is_what_a_run_of_it_comes_to() {
     let root = tempdir().unwrap();
     let out = root.path().join("curve");
     let arguments = ["--vary", "waveforms.drive.sawtooth.stroke=60 nm..300 nm", "--points", "3"];
-    let output = characterise("ruby_drive", &out, &arguments);
+    let output = curve("ruby_drive", &out, &arguments);
     // Nobody sees a bar here.
     let said = "ruby_drive: vary, 3 points\nruby_drive: vary, 3 of 3 points done\n";
     assert_eq!((code(&output), stderr(&output).as_str()), (0, said));
@@ -48,7 +41,7 @@ fn the_same_bytes_for_any_number_of_threads_and_no_file_of_before() {
     let written = |name: &str, more: &[&str]| {
         let out = root.path().join(name);
         let arguments = [&["--curve", "force-speed", "--points", "5"], more].concat();
-        let output = characterise("quickstart", &out, &arguments);
+        let output = curve("quickstart", &out, &arguments);
         assert_eq!(code(&output), 0, "{}", stderr(&output));
         let read = |name: &String| (name.clone(), std::fs::read(out.join(name)).unwrap());
         listing(&out).iter().map(read).collect::<Vec<_>>()
@@ -72,7 +65,7 @@ fn what_is_held_at_rest_is_written_for_both_ways() {
     let out = root.path().join("held");
     let incline = r#"gravity={"acceleration": 9.81, "incline": "20 deg"}"#;
     let asked = ["--curve", "holding-force", "--set", "loads=[]", "--set", incline, "--points", "4"];
-    let output = characterise("quickstart", &out, &[&asked[..], &["--range", "0.1..1.3"]].concat());
+    let output = curve("quickstart", &out, &[&asked[..], &["--range", "0.1..1.3"]].concat());
     assert_eq!(code(&output), 0, "{}", stderr(&output));
     assert!(stderr(&output).contains("quickstart: holding-force, 4 of 4 points done\n"));
     assert!(
@@ -111,7 +104,7 @@ fn both_senses_are_written_together() {
         "1e-3",
         "--both",
     ];
-    let output = characterise("ruby_drive", &out, &asked);
+    let output = curve("ruby_drive", &out, &asked);
     assert_eq!(code(&output), 0, "{}", stderr(&output));
     let said = "ruby_drive: step-amplitude, 6 points\nruby_drive: step-amplitude, 6 of 6 points done\n";
     assert_eq!(stderr(&output), said);
@@ -138,7 +131,7 @@ fn both_senses_are_written_together() {
 fn what_a_value_does_not_allow_is_said_beside_the_others() {
     let root = tempdir().unwrap();
     let arguments = ["--vary", "contacts.ball.friction=-0.2..0.2", "--points", "3"];
-    let output = characterise("quickstart", &root.path().join("some"), &arguments);
+    let output = curve("quickstart", &root.path().join("some"), &arguments);
     assert_eq!(code(&output), 0, "{}", stderr(&output));
     let said = stderr(&output);
     // The one without friction is dragged away by the load.
@@ -147,7 +140,7 @@ fn what_a_value_does_not_allow_is_said_beside_the_others() {
     assert!(said.contains("expected a number between 0 and 1000, got -2e-1"), "{said}");
     assert!(stdout(&output).contains("refused"), "{}", stdout(&output));
     let none = ["--vary", "contacts.ball.friction=-0.3..-0.2", "--points", "2", "--json"];
-    let output = characterise("quickstart", &root.path().join("none"), &none);
+    let output = curve("quickstart", &root.path().join("none"), &none);
     assert_eq!(code(&output), 3);
     let answer: Value = serde_json::from_str(&stdout(&output)).unwrap();
     assert_eq!(answer["points"].as_array().unwrap().len(), 2);
@@ -158,7 +151,7 @@ fn bad_input_is_told_and_writes_nothing() {
     let root = tempdir().unwrap();
     let out = root.path().join("out");
     let refused = |name: &str, arguments: &[&str], words: &str| {
-        let output = characterise(name, &out, arguments);
+        let output = curve(name, &out, arguments);
         assert_eq!(code(&output), 2, "{arguments:?}: {}", stderr(&output));
         assert!(stderr(&output).contains(words), "{arguments:?}: {}", stderr(&output));
         assert!(!out.exists(), "{arguments:?}");
@@ -212,7 +205,7 @@ fn a_place_that_cannot_be_written_into_is_told_before_the_first_point() {
     let root = tempdir().unwrap();
     let out = root.path().join("file");
     std::fs::write(&out, "somebody's").unwrap();
-    let output = characterise("quickstart", &out, &["--curve", "force-speed"]);
+    let output = curve("quickstart", &out, &["--curve", "force-speed"]);
     let said = stderr(&output);
     assert_eq!(code(&output), 2, "{said}");
     assert!(said.contains("cannot be written into: ") && !said.contains("points"), "{said}");
@@ -228,11 +221,11 @@ fn an_interrupted_curve_leaves_a_finished_one() {
     let root = tempdir().unwrap();
     let out = root.path().join("curve");
     let short = ["--vary", "contacts.ball.friction=0.1..0.3", "--points", "3", "--theme", "light,dark"];
-    assert_eq!(code(&characterise("ruby_drive", &out, &short)), 0);
+    assert_eq!(code(&curve("ruby_drive", &out, &short)), 0);
     let read = |name: &str| std::fs::read(out.join(name)).unwrap();
     let finished = [read("curve.csv"), read("curve.json"), read("curve.png")];
     let mut command = stickslip();
-    command.arg("characterise").arg(scenario("ruby_drive"));
+    command.arg("curve").arg(scenario("ruby_drive"));
     command.args(["--vary", "contacts.ball.friction=0.1..0.3", "--points", "10000", "--threads", "1"]);
     let mut child =
         command.arg("--out").arg(&out).stdout(Stdio::null()).stderr(Stdio::piped()).spawn().unwrap();
@@ -256,7 +249,7 @@ fn an_interrupted_curve_leaves_a_finished_one() {
     );
     assert!(out.join("curve-partial.png").exists());
     // The next that comes to its end clears up.
-    assert_eq!(code(&characterise("ruby_drive", &out, &short)), 0);
+    assert_eq!(code(&curve("ruby_drive", &out, &short)), 0);
     assert_eq!(listing(&out), ["curve-dark.png", "curve.csv", "curve.json", "curve.png"]);
 }
 
@@ -282,7 +275,7 @@ fn strings(list: &Value, key: &str) -> Vec<String> {
 fn a_range_ends_at_the_data_sheet_and_zero_steps_lie_below_it() {
     let root = tempdir().unwrap();
     let asked = ["--curve", "step-amplitude", "--tolerance", "1e-3"];
-    let output = characterise("driven_stage", &root.path().join("curve"), &asked);
+    let output = curve("driven_stage", &root.path().join("curve"), &asked);
     assert_eq!(code(&output), 0, "{}", stderr(&output));
     let told: Value =
         serde_json::from_slice(&std::fs::read(root.path().join("curve/curve.json")).unwrap()).unwrap();
@@ -316,7 +309,7 @@ fn where_steps_cease_the_window_or_the_current_is_named() {
         let out = root.path().join(by);
         let asked =
             ["--curve", "step-amplitude", "--range", range, "--points", "4", "--tolerance", "1e-2", "--rows"];
-        let output = characterise("driven_stage", &out, &[&asked[..], &["--set", set]].concat());
+        let output = curve("driven_stage", &out, &[&asked[..], &["--set", set]].concat());
         assert_eq!(code(&output), 0, "{}", stderr(&output));
         assert!(stdout(&output).contains("mean speed"));
         let told: Value = serde_json::from_slice(&std::fs::read(out.join("curve.json")).unwrap()).unwrap();

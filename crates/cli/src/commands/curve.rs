@@ -1,9 +1,9 @@
-//! `stickslip characterise`: a curve of a machine.
+//! `stickslip curve`: a curve of a machine.
 
 mod holding;
 
-use crate::arguments::CharacteriseArguments;
-use crate::arguments::characterise::CurveName;
+use crate::arguments::CurveArguments;
+use crate::arguments::curve::CurveName;
 use std::io;
 use std::path::{Path, PathBuf};
 use stickslip_console as console;
@@ -54,7 +54,7 @@ enum CurveFailure {
 }
 
 /// Traces a curve and writes it.
-pub(crate) fn characterise(arguments: &CharacteriseArguments) -> Verdict {
+pub(crate) fn curve(arguments: &CurveArguments) -> Verdict {
     answer(arguments).unwrap_or_else(|failure| {
         complain(format_args!("{failure}"));
         match failure {
@@ -68,7 +68,7 @@ pub(crate) fn characterise(arguments: &CharacteriseArguments) -> Verdict {
     })
 }
 
-fn answer(arguments: &CharacteriseArguments) -> Result<Verdict, CurveFailure> {
+fn answer(arguments: &CurveArguments) -> Result<Verdict, CurveFailure> {
     match (&arguments.curve, &arguments.vary) {
         (Some(CurveName::HoldingForce), _) if arguments.both => Err(CurveFailure::HeldBothWays),
         (Some(CurveName::HoldingForce), _) => holding::trace(arguments),
@@ -81,7 +81,7 @@ fn answer(arguments: &CharacteriseArguments) -> Result<Verdict, CurveFailure> {
 }
 
 /// Traces a curve of motions, in one sense or both, and writes it.
-fn trace(arguments: &CharacteriseArguments, kind: Kind) -> Result<Verdict, CurveFailure> {
+fn trace(arguments: &CurveArguments, kind: Kind) -> Result<Verdict, CurveFailure> {
     let curves = match arguments.both {
         true => Vec::from(Curve::both(&arguments.file, &arguments.set, &kind)?),
         false => vec![Curve::new(&arguments.file, &arguments.set, kind)?],
@@ -147,7 +147,7 @@ fn wide(curves: &[Curve], interrupt: &Interrupt) -> Option<[f64; 2]> {
 
 /// A curve with its points and its places with a name.
 fn followed(
-    arguments: &CharacteriseArguments,
+    arguments: &CurveArguments,
     (curve, values): (&Curve, &[f64]),
     (progress, interrupt): (&Progress, &Interrupt),
 ) -> Result<Traced, CurveFailure> {
@@ -161,7 +161,7 @@ fn followed(
 }
 
 /// The range asked for; none where it is to be found what is worth looking at.
-fn range(arguments: &CharacteriseArguments, curve: &Curve) -> Result<Option<Range>, CurveFailure> {
+fn range(arguments: &CurveArguments, curve: &Curve) -> Result<Option<Range>, CurveFailure> {
     let asked = ends(arguments, curve.variation.unit)?;
     let known = || curve.variation.range.ok_or_else(|| curve.no_range());
     let range = of(arguments, asked.map_or_else(known, Ok)?);
@@ -170,7 +170,7 @@ fn range(arguments: &CharacteriseArguments, curve: &Curve) -> Result<Option<Rang
 }
 
 /// What is wrong with a range, by the argument that it comes from and in its unit.
-fn said(arguments: &CharacteriseArguments, unit: &str, error: CurveError) -> CurveFailure {
+fn said(arguments: &CurveArguments, unit: &str, error: CurveError) -> CurveFailure {
     let own = if arguments.vary.is_some() { "--vary" } else { "--range" };
     let shown = |end: f64| if end.is_finite() { shown(end, unit) } else { end.to_string() };
     let (option, message) = match error {
@@ -197,7 +197,7 @@ fn said(arguments: &CharacteriseArguments, unit: &str, error: CurveError) -> Cur
 }
 
 /// The ends of the range asked for, SI.
-fn ends(arguments: &CharacteriseArguments, unit: &str) -> Result<Option<[f64; 2]>, CurveFailure> {
+fn ends(arguments: &CurveArguments, unit: &str) -> Result<Option<[f64; 2]>, CurveFailure> {
     let (option, text) = match (&arguments.vary, &arguments.range) {
         (Some((_, range)), _) => ("--vary", Some(range.as_str())),
         (None, range) => ("--range", range.as_deref()),
@@ -206,16 +206,12 @@ fn ends(arguments: &CharacteriseArguments, unit: &str) -> Result<Option<[f64; 2]
     text.map(|text| Range::ends(text, unit).map_err(refused)).transpose()
 }
 
-fn of(arguments: &CharacteriseArguments, [from, to]: [f64; 2]) -> Range {
+fn of(arguments: &CurveArguments, [from, to]: [f64; 2]) -> Range {
     Range { from, to, points: arguments.points, decades: arguments.log }
 }
 
 /// Where the files go, tried before the first point, which may take long.
-fn place(
-    arguments: &CharacteriseArguments,
-    job: &Job,
-    curve: &str,
-) -> Result<(PathBuf, Folder), CurveFailure> {
+fn place(arguments: &CurveArguments, job: &Job, curve: &str) -> Result<(PathBuf, Folder), CurveFailure> {
     let own = || Path::new("results").join(format!("{}-{curve}", job.name));
     let out = arguments.out.clone().unwrap_or_else(own);
     let folder = console::place::ready(&out)?;
@@ -223,13 +219,13 @@ fn place(
 }
 
 /// Points at a time.
-fn cores(arguments: &CharacteriseArguments) -> usize {
+fn cores(arguments: &CurveArguments) -> usize {
     let all = || std::thread::available_parallelism().map_or(1, usize::from);
     arguments.threads.map_or_else(all, usize::from)
 }
 
 fn write(
-    arguments: &CharacteriseArguments,
+    arguments: &CurveArguments,
     ways: &[Way<'_>],
     (out, folder): (&Path, Folder),
 ) -> Result<Vec<String>, CurveFailure> {
@@ -245,7 +241,7 @@ fn write(
 const MOST_ROWS: usize = 20;
 
 /// Whether the table of so many points is printed.
-fn shows_rows(arguments: &CharacteriseArguments, points: usize) -> bool {
+fn shows_rows(arguments: &CurveArguments, points: usize) -> bool {
     arguments.rows || points <= MOST_ROWS
 }
 

@@ -1,7 +1,7 @@
-//! `stickslip characterise --curve holding-force`: what the drive holds at rest.
+//! `stickslip curve --curve holding-force`: what the drive holds at rest.
 
 use super::{CurveFailure, complain_of_warnings, cores, ends, of, place, said, shown, shows_rows};
-use crate::arguments::CharacteriseArguments;
+use crate::arguments::CurveArguments;
 use stickslip_console::answer::{complain, say, say_json, warn};
 use stickslip_console::interrupt::Interrupt;
 use stickslip_console::progress::Progress;
@@ -13,7 +13,7 @@ use stickslip_study::curve::all_files;
 use stickslip_study::curve::holding::{self, Held, Holding, NAME, Point};
 
 /// Traces holding forces and writes them.
-pub(super) fn trace(arguments: &CharacteriseArguments) -> Result<Verdict, CurveFailure> {
+pub(super) fn trace(arguments: &CurveArguments) -> Result<Verdict, CurveFailure> {
     let over = arguments.vary.as_ref().map(|(path, _)| path.as_str());
     let holding = Holding::new(&arguments.file, &arguments.set, over)?;
     if !arguments.quiet {

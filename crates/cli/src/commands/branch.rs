@@ -1,6 +1,7 @@
-//! `stickslip steady --continue`: steady motions one after another, as a number of the scenario changes.
+//! `stickslip branch`: steady motions one after another, as a number of the scenario changes.
 
-use crate::arguments::SteadyArguments;
+use super::steady::verdict;
+use crate::arguments::BranchArguments;
 use std::io;
 use std::path::{Path, PathBuf};
 use stickslip_console::answer::{complain, say, say_json, warn};
@@ -30,7 +31,7 @@ enum BranchFailure {
     #[error(transparent)]
     Branch(#[from] ContinuationError),
     /// A range that is none.
-    #[error("--continue  {0}")]
+    #[error("--vary  {0}")]
     Range(String),
     /// The picture.
     #[error(transparent)]
@@ -44,30 +45,31 @@ enum BranchFailure {
 }
 
 /// Follows a branch and writes it.
-pub(super) fn follow(arguments: &SteadyArguments, (path, range): (&str, &str)) -> Verdict {
-    answer(arguments, (path, range)).unwrap_or_else(|failure| {
+pub(crate) fn branch(arguments: &BranchArguments) -> Verdict {
+    answer(arguments).unwrap_or_else(|failure| {
         complain(format_args!("{failure}"));
         failure.verdict()
     })
 }
 
-fn answer(arguments: &SteadyArguments, (path, range): (&str, &str)) -> Result<Verdict, BranchFailure> {
-    let job = Job::prepare(&arguments.file, &arguments.set, Path::new(""))?;
+fn answer(arguments: &BranchArguments) -> Result<Verdict, BranchFailure> {
+    let (path, range) = &arguments.vary;
+    let job = Job::prepare(&arguments.search.file, &arguments.search.set, Path::new(""))?;
     let unit = job.scenario.parameter(path).map_err(ContinuationError::Path)?.unit;
     let of = Continuation::new(job, path, Range::ends(range, unit).map_err(BranchFailure::Range)?)?;
-    if !arguments.quiet {
+    if !arguments.search.quiet {
         warn(&of.job);
     }
     let interrupt = Interrupt::install();
     // Before the first motion, which may take long.
     let out = folder(arguments, &of);
     let folder = place::ready(&out)?;
-    let progress = Progress::new(!arguments.quiet);
+    let progress = Progress::new(!arguments.search.quiet);
     let line = progress.count(&of.path, "motions", &interrupt);
     let course = Course {
         steady: Options {
-            tolerance: arguments.tolerance,
-            periods: arguments.periods,
+            tolerance: arguments.search.tolerance,
+            periods: arguments.search.periods,
             goes_on: &|| line.goes_on(),
             ..Options::default()
         },
@@ -77,11 +79,11 @@ fn answer(arguments: &SteadyArguments, (path, range): (&str, &str)) -> Result<Ve
     };
     let branch = of.follow(&course)?;
     drop(line);
-    let accuracy = [arguments.tolerance, arguments.accuracy];
+    let accuracy = [arguments.search.tolerance, arguments.accuracy];
     let names = write(arguments, folder, (&of, &branch), accuracy)?;
-    if arguments.json {
+    if arguments.search.json {
         say_json(&continuation::json(&of, &branch, accuracy));
-    } else if !arguments.quiet {
+    } else if !arguments.search.quiet {
         tell(&of, &branch);
         say(format_args!("\n{}: {}", out.display(), names.join(", ")));
     }
@@ -89,18 +91,18 @@ fn answer(arguments: &SteadyArguments, (path, range): (&str, &str)) -> Result<Ve
 }
 
 /// Where the files go.
-fn folder(arguments: &SteadyArguments, of: &Continuation) -> PathBuf {
+fn folder(arguments: &BranchArguments, of: &Continuation) -> PathBuf {
     let own = || Path::new("results").join(format!("{}-branch", of.job.name));
     arguments.out.clone().unwrap_or_else(own)
 }
 
 fn write(
-    arguments: &SteadyArguments,
+    arguments: &BranchArguments,
     mut folder: Folder,
     (of, branch): (&Continuation, &Branch),
     accuracy: [f64; 2],
 ) -> Result<Vec<String>, BranchFailure> {
-    let pictures = picture::draw(of, branch, &arguments.look.look())?;
+    let pictures = picture::draw(of, branch, &arguments.search.look.look())?;
     let out = self::folder(arguments, of);
     folder.release();
     // A command that was killed has left its drafts.
@@ -156,7 +158,7 @@ impl BranchFailure {
         match self {
             Self::Refused(_) | Self::Range(_) => Verdict::BadInput,
             Self::Branch(ContinuationError::Interrupted(_)) => Verdict::Interrupted,
-            Self::Branch(ContinuationError::NoStart { source, .. }) => super::verdict(source),
+            Self::Branch(ContinuationError::NoStart { source, .. }) => verdict(source),
             Self::Branch(ContinuationError::Shakedown { .. } | ContinuationError::NoBranch { .. }) => {
                 Verdict::Stopped
             }

@@ -1,0 +1,67 @@
+//! Answers for commands that do not exist but that people type: the command meant.
+
+use super::Arguments;
+use clap::CommandFactory;
+use clap::error::{ContextKind, ContextValue, ErrorKind};
+
+/// Words of other programs, of other spellings and of the field, with the command that does it.
+const MEANT: [(&str, &str); 40] = [
+    ("bifurcation", "branch"),
+    ("characterise", "curve"),
+    ("characterize", "curve"),
+    ("continuation", "branch"),
+    ("continue", "run --resume"),
+    ("create", "new"),
+    ("derivatives", "sensitivity"),
+    ("describe", "info"),
+    ("diff", "compare"),
+    ("draw", "plot"),
+    ("example", "new"),
+    ("export", "realtime"),
+    ("figure", "plot"),
+    ("floquet", "steady"),
+    ("fmu", "realtime"),
+    ("generate", "new"),
+    ("graph", "plot"),
+    ("hertz", "contact"),
+    ("hysteresis", "measure"),
+    ("init", "new"),
+    ("inspect", "info"),
+    ("lint", "check"),
+    ("loop", "measure"),
+    ("materials-list", "materials"),
+    ("optimise", "curve"),
+    ("optimize", "curve"),
+    ("orbit", "steady"),
+    ("regression", "golden"),
+    ("replay", "repro"),
+    ("resume", "run --resume"),
+    ("scan", "curve"),
+    ("show", "info"),
+    ("shooting", "steady"),
+    ("sim", "run"),
+    ("simulate", "run"),
+    ("start", "run"),
+    ("sweep", "curve"),
+    ("template", "new"),
+    ("test", "golden"),
+    ("validate", "check"),
+];
+
+/// The error with the command meant, where a word is no command.
+pub(crate) fn answered(said: clap::Error) -> clap::Error {
+    let word = match said.get(ContextKind::InvalidSubcommand) {
+        Some(ContextValue::String(word)) if said.kind() == ErrorKind::InvalidSubcommand => word.clone(),
+        _ => return said,
+    };
+    let is_file = word.ends_with(".json") || std::path::Path::new(&word).is_file();
+    let known = MEANT.iter().find(|(foreign, _)| word.eq_ignore_ascii_case(foreign));
+    let meant = match known {
+        _ if is_file => format!("stickslip run {word}"),
+        Some((_, command)) => format!("stickslip {command}"),
+        None => return said,
+    };
+    let what = if is_file { "is a file and no command" } else { "is no command" };
+    let message = format!("\"{}\" {what}; did you mean `{}`?", word.escape_debug(), meant.escape_debug());
+    Arguments::command().error(ErrorKind::InvalidSubcommand, message)
+}
