@@ -1,6 +1,6 @@
 //! `stickslip new`: what it writes runs at once.
 
-use crate::program::{code, listing, number, run, stderr, stdout, stickslip, summary};
+use crate::program::{Table, code, listing, number, run, stderr, stdout, stickslip, summary};
 use serde_json::Value;
 use std::path::Path;
 use std::process::Output;
@@ -10,8 +10,9 @@ fn new(folder: &Path, arguments: &[&str]) -> Output {
     stickslip().arg("new").args(arguments).current_dir(folder).output().unwrap()
 }
 
-const NAMES: [&str; 13] = [
+const NAMES: [&str; 15] = [
     "drive",
+    "datasheet",
     "piezo",
     "fretting",
     "oblique",
@@ -24,6 +25,7 @@ const NAMES: [&str; 13] = [
     "assisted",
     "rotary",
     "hobby",
+    "oscillator",
 ];
 
 #[test]
@@ -71,7 +73,7 @@ const PRESETS: [Preset; 8] = [
     // It goes as fast as its load lets it, below the rail's own speed.
     Preset { name: "assisted", stroke: 800e-9, step: [0.1, 3.0] },
     Preset { name: "rotary", stroke: 400e-9, step: [0.7, 1.0] },
-    Preset { name: "hobby", stroke: 766e-9, step: [0.9, 1.0] },
+    Preset { name: "hobby", stroke: 4.6e-6 * 20.0 / 120.0, step: [0.9, 1.0] },
 ];
 
 /// Drives move the way that their page says, in steps below the stroke and by nearly all of it, in the range of published
@@ -99,6 +101,57 @@ fn drives_of_the_templates_move_as_their_page_says() {
         let row = page.lines().find(|line| line.starts_with(&format!("| `{name}`"))).unwrap_or_default();
         let said = format!("{:.0} nm", mean * 1e9);
         assert!(row.contains(&said), "{name}: {said} is not in {row}");
+    }
+}
+
+/// A data sheet is filled in by `--set`; nothing is warned of, and there is a picture of the drive's electronics.
+#[test]
+fn a_data_sheet_makes_a_drive() {
+    let folder = tempdir().unwrap();
+    assert_eq!(code(&new(folder.path(), &["motor", "--template", "datasheet"])), 0);
+    let file = folder.path().join("motor.json");
+    let checked = stickslip().arg("check").arg(&file).output().unwrap();
+    assert_eq!((code(&checked), stdout(&checked).contains("warning")), (0, false), "{}", stderr(&checked));
+    let stack = "actuators.stack";
+    let numbers =
+        [("stroke", "9 um"), ("voltage", "100 V"), ("capacitance", "3 uF"), ("stiffness", "50 N/um")];
+    let sheet = numbers.map(|(key, value)| format!("{stack}.data_sheet.{key}={value}"));
+    let others = [
+        format!("{stack}.driver.current=5 A"),
+        "bodies.stage.mass=50 g".to_owned(),
+        "run.cycles=2".to_owned(),
+    ];
+    let set: Vec<&str> = sheet.iter().chain(&others).map(String::as_str).collect();
+    let out = folder.path().join("results");
+    let output = run(&file, &out, &set);
+    assert_eq!(code(&output), 0, "{}", stderr(&output));
+    let pictures = listing(&out.join("motor")).into_iter().filter(|name| name.ends_with(".png")).count();
+    assert!(pictures >= 2);
+    let told = summary(&out.join("motor"));
+    // 9 um at 100 V make 9 um of the sawtooth of 100 V; the stage follows by less.
+    let step = number(&told, "/steps/last_m");
+    assert!(step > 5e-6 && step < 9e-6, "{step:e}");
+}
+
+/// Coulomb friction takes 2μF_N/k of the amplitude in every half period, and the block stops where the spring is weaker than friction.
+#[test]
+fn the_oscillator_loses_the_same_amplitude_every_half_period() {
+    let folder = tempdir().unwrap();
+    assert_eq!(code(&new(folder.path(), &["block", "--template", "oscillator"])), 0);
+    let out = folder.path().join("results");
+    assert_eq!(code(&run(&folder.path().join("block.json"), &out, &["output.every=10 us"])), 0);
+    let table = Table::read(&out.join("block").join("trace.csv"));
+    let x: Vec<f64> = table.column("block.x_m").iter().map(|word| word.parse().unwrap()).collect();
+    let turns: Vec<f64> = x
+        .windows(3)
+        .filter(|w| (w[1] - w[0]) * (w[2] - w[1]) < 0.0 && w[1].abs() > 1e-4)
+        .map(|w| w[1])
+        .collect();
+    // μF_N/k = 0.1 · 10 N / 10 kN/m, about which each half period swings; partial slip moves it by less than u_c = 1 µm.
+    let expected = [-0.8e-3, 0.6e-3, -0.4e-3, 0.2e-3];
+    assert_eq!(turns.len(), expected.len(), "{turns:?}");
+    for (turn, expected) in turns.iter().zip(expected) {
+        assert!((turn - expected).abs() < 2e-6, "{turns:?}");
     }
 }
 

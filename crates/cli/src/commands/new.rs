@@ -12,10 +12,11 @@ use stickslip_scenario::{Scenario, schema};
 use thiserror::Error;
 
 /// Templates by name: examples as they are, and drives of their own.
-const TEMPLATES: [(&str, &str); 13] = [
+const TEMPLATES: [(&str, &str); 15] = [
     ("drive", include_str!("../../../../scenarios/quickstart.json")),
+    ("datasheet", include_str!("../../../../templates/datasheet.json")),
     ("piezo", include_str!("../../../../scenarios/piezo_stack.json")),
-    ("fretting", include_str!("../../../../scenarios/fretting_sphere.json")),
+    ("fretting", include_str!("../../../../templates/fretting.json")),
     ("oblique", include_str!("../../../../scenarios/oblique_loading.json")),
     ("vibration", include_str!("../../../../scenarios/vibrated_slider.json")),
     ("linear", include_str!("../../../../scenarios/three_ball_stage.json")),
@@ -26,6 +27,7 @@ const TEMPLATES: [(&str, &str); 13] = [
     ("assisted", include_str!("../../../../templates/assisted.json")),
     ("rotary", include_str!("../../../../templates/rotary.json")),
     ("hobby", include_str!("../../../../templates/hobby.json")),
+    ("oscillator", include_str!("../../../../templates/oscillator.json")),
 ];
 /// Where the examples look for their schema.
 const SCHEMA_OF_EXAMPLES: &str = "../schema/scenario-1.json";
