@@ -37,3 +37,4 @@ mod sensitivity;
 mod steady;
 mod strangers;
 mod warnings;
+mod words;

@@ -51,7 +51,7 @@ pub(crate) fn of_run(job: &Job, outcome: &Outcome) -> Vec<Warning> {
     if missed > 0 {
         let all = outcome.state.counts().steps;
         let message = format!(
-            "{missed} of {all} steps miss their tolerance: damped springs stick and slip by turns there, and \
+            "{missed} of {all} steps miss their tolerance: damped springs stick and slip alternately there, and \
              no shorter step is any better"
         );
         warnings.push(

@@ -54,7 +54,7 @@ impl Method {
             Self::Brief => "Dormand–Prince 5(4)",
             Self::Radau => "Radau IIA 9, implicit",
             Self::Graded => "Dormand–Prince 8(5,3) with crowded stages",
-            Self::Whole => "the whole law, by halved steps",
+            Self::Whole => "step doubling on the full force law",
             Self::AskedFor => "the stepper asked for",
         }
     }

@@ -66,7 +66,7 @@ impl fmt::Display for Why {
                 "one slider, cones, powers up to r⁴ or spheres under constant load, straight waveforms: an interval is one quadrature"
             }
             Self::ConstantForces => "in gross slip or flight all forces are constant",
-            Self::AtRest => "where a swing comes to rest or does not turn",
+            Self::AtRest => "where a swing stops or does not reverse",
             Self::NoVelocities => "no force depends on a velocity: a third of the evaluations is spared",
             Self::Damper => "the force of a damper depends on a velocity",
             Self::ContactDamping => "the force of damped stuck springs depends on a velocity",
@@ -90,7 +90,7 @@ impl fmt::Display for Why {
             Self::VaryingIndentation => "the indentation varies",
             Self::NoFriction => "no friction",
             Self::BetweenSprings => "forces of a row are straight until one of its springs changes",
-            Self::Turns => "damped springs may stick and slip by turns",
+            Self::Turns => "damped springs may stick and slip alternately",
             Self::WholeLaw => "the memory is asked at every evaluation",
         })
     }

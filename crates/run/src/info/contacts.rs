@@ -70,7 +70,7 @@ pub struct Pressed {
     /// u_c = κd, where gross slip of a first loading begins (4.28)
     #[serde(rename = "gross_slip_displacement_m")]
     pub gross_slip: Real,
-    /// S₀, stroke up to which an ideal drive makes no step: flyback in no time, slow way back, all ringing damped, no load on
+    /// S₀, stroke up to which an ideal drive makes no step: flyback in no time, slow return, all ringing damped, no load on
     /// the slider
     #[serde(rename = "zero_step_stroke_m")]
     pub zero_step_stroke: Real,

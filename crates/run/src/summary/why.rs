@@ -43,11 +43,11 @@ fn way(last: &LastPeriod) -> Option<String> {
     let (step, fall) = (last.step.0 * stroke.signum(), last.losses.back_step_length.0);
     let stroke = stroke.abs();
     let forward = step.abs() + fall;
-    let came = format!("the body came forward by {} and fell back by {}", length(forward), length(fall));
+    let came = format!("the body moved forward by {} and back by {}", length(forward), length(fall));
     let result = if step.abs() <= NOTHING * stroke {
         format!("no step, the body moved by {} peak to peak", length(forward))
     } else if step < 0.0 {
-        format!("a step of {} the other way; {came}", length(-step))
+        format!("a step of {} in the opposite direction; {came}", length(-step))
     } else {
         format!("a step of {}, {} of the stroke; {came}", length(step), percent(step / stroke))
     };
@@ -72,7 +72,7 @@ fn lost(last: &LastPeriod) -> Option<String> {
         (Some(lost), _) if lost.0 < 0.0 => {
             format!("the step exceeds the travel of the foot by {}", length(-lost.0))
         }
-        (Some(lost), _) => format!("{} of the travel of the foot are lost", length(lost.0)),
+        (Some(lost), _) => format!("lost stroke: {} of the travel of the foot", length(lost.0)),
         (None, foot) => format!("no lost stroke: {}", foot.err()?),
     })
 }
@@ -81,30 +81,29 @@ fn lost(last: &LastPeriod) -> Option<String> {
 fn contact_line(name: &str, contact: &ContactPeriod) -> String {
     let share = |share: Option<Real>| share.map_or("0.0 %".to_owned(), |share| percent(share.0));
     let slip = format!(
-        "{name} slipped {} of the way back and {} of the way forth",
-        share(contact.slip_share_return),
-        share(contact.slip_share_forward)
+        "{name}: gross slip in {} of the forward stroke and {} of the return stroke",
+        share(contact.slip_share_forward),
+        share(contact.slip_share_return)
     );
     let times = match contact.reversals_forward {
-        1 => "once".to_owned(),
-        2 => "twice".to_owned(),
-        times => format!("{times} times"),
+        1 => "1 reversal".to_owned(),
+        times => format!("{times} reversals"),
     };
     let ringing = match contact.settling {
-        _ if contact.reversals_forward == 0 => "did not ring".to_owned(),
+        _ if contact.reversals_forward == 0 => "no ringing".to_owned(),
         None => format!(
-            "turned {times} on the way forth and still swings by {} of the limit of friction when the drive turns: the step hangs on the period",
+            "{times} in the forward stroke and residual ringing of {} of μF_N at its end, so the step depends on the period",
             percent(contact.ringing_left.0)
         ),
         Some(settling) if settling.0 == 0.0 => {
-            format!("turned {times} on the way forth, with swings below 5 % of the limit of friction")
+            format!("{times} in the forward stroke, with ringing below 5 % of μF_N")
         }
         Some(settling) => format!(
-            "turned {times} on the way forth and swung by more than 5 % of the limit of friction for {}",
+            "{times} in the forward stroke and ringing above 5 % of μF_N for {}",
             quantity(settling, "s")
         ),
     };
-    format!("{slip}; it {ringing}")
+    format!("{slip}; {ringing}")
 }
 
 /// Whether the stroke is too short to step at all.
@@ -119,7 +118,7 @@ fn short(job: &Job, last: &LastPeriod) -> Option<String> {
     let idle = idle.fold(f64::INFINITY, f64::min);
     (idle.is_finite() && stroke < idle).then(|| {
         format!(
-            "the stroke of {} is below the zero-step stroke of {}, which the contact alone takes up when nothing rings",
+            "the stroke of {} is below the zero-step stroke of {}, which partial slip takes up without ringing",
             length(stroke),
             length(idle)
         )
@@ -135,14 +134,14 @@ fn work(work: &PeriodWork) -> Option<String> {
     // A load that drags the body along puts work in as well.
     let gave = Real((-load.0).max(0.0));
     let share = |part: Real| percent(part.0 / (drive.0 + gave.0));
-    let load = if load.0 > 0.0 { format!(", the load {}", share(load)) } else { String::new() };
+    let load = if load.0 > 0.0 { format!(", load {}", share(load)) } else { String::new() };
     let gave = match gave.0 > UNSEEN * drive.0 {
-        true => format!(" and {} that the load gave", quantity(gave, "J")),
+        true => format!(" and {} from the load", quantity(gave, "J")),
         false => String::new(),
     };
     let friction = share(work.friction);
     Some(format!(
-        "of {} that the drive put in{gave} friction took {friction}, dampers {}{load}",
+        "energy balance of {} from the drive{gave}: friction {friction}, dampers {}{load}",
         quantity(drive, "J"),
         share(work.damping)
     ))

@@ -145,7 +145,7 @@ pub(crate) struct DriverForm {
     #[serde(default = "no_peak")]
     #[schemars(extend("minimum" = 0.05, "maximum" = 10), example = 0.5)]
     pub(crate) damping_ratio: f64,
-    /// Smallest step of the voltage, V, above 0: `info` tells it as a stroke, nothing by default; the voltage makes no staircase of it; typical 1 mV to
+    /// Smallest step of the voltage, V, above 0: `info` shows it as a stroke; none by default; the voltage itself is not quantised; typical 1 mV to
     /// 50 mV.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(example = &"2 mV", transform = above_zero)]
@@ -155,7 +155,7 @@ pub(crate) struct DriverForm {
     #[schemars(example = &"charge")]
     pub(crate) control: ControlForm,
     /// Whether the charge kα(e - αV) that strain makes is there, C being the capacitance of the free stack: it flows through the driver and,
-    /// under charge control, stiffens the stack to k/(1 - kα²/C); false by default. `info` tells kα²/C.
+    /// under charge control, stiffens the stack to k/(1 - kα²/C); false by default. `info` shows kα²/C.
     #[serde(default)]
     #[schemars(example = true)]
     pub(crate) reciprocal: bool,

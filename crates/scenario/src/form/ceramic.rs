@@ -88,7 +88,7 @@ fn one() -> f64 {
     1.0
 }
 
-/// Creep: after a step the stroke goes on as L₁[1 + γ lg(t/t₀)], as a sum of exponentials over some decades.
+/// Creep: after a step the stroke continues as L₁[1 + γ lg(t/t₀)], as a sum of exponentials over some decades.
 #[derive(Debug, Clone, Copy, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct CreepForm {

@@ -21,7 +21,7 @@ pub(crate) struct OutputForm {
     #[schemars(example = json!(["slider.x_m", "ball.fx_N"]))]
     pub(crate) channels: Option<Vec<String>>,
     /// Events written to `events.csv`: `all`, `off`, or some kinds or contacts; by default the first 100 000 of the run, in
-    /// scenes of more than 50 contacts fewer, and ever fewer of those that follow. Figures are taken from all of them whatever is written.
+    /// scenarios of more than 50 contacts fewer, and ever fewer of those that follow. Figures are taken from all of them whatever is written.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(example = &"off", example = json!({ "kinds": ["gross slip", "gross slip ends"] }))]
     pub(crate) events: Option<EventsOutputForm>,

@@ -32,7 +32,7 @@ pub(crate) struct RunForm {
     #[serde(default)]
     #[schemars(example = &"equilibrium")]
     pub(crate) start: RunStartForm,
-    /// Time stepping; a tolerance suits every scene, a fixed step must stay below the scene's fastest oscillation.
+    /// Time stepping; a tolerance suits every scenario, a fixed step must stay below its fastest oscillation.
     #[serde(default)]
     #[schemars(example = json!({ "event": { "tolerance": 1e-8 } }), example = json!({ "verlet": { "step": "1 us" } }))]
     pub(crate) stepper: StepperForm,
@@ -53,7 +53,7 @@ pub(crate) enum RunStartForm {
     Equilibrium,
 }
 
-/// Time stepping. A tolerance is relative to the scene's natural scales of length, force and velocity.
+/// Time stepping. A tolerance is relative to the natural scales of length, force and velocity.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub(crate) enum StepperForm {
@@ -99,7 +99,7 @@ impl Default for StepperForm {
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct ToleranceForm {
-    /// Local error per step, relative to the scene's own scales u_c and μF_N, 1e-13 to 1e-2; typical 1e-10 to 1e-6.
+    /// Local error per step, relative to the natural scales u_c and μF_N, 1e-13 to 1e-2; typical 1e-10 to 1e-6.
     #[serde(default = "default_tolerance")]
     #[schemars(range(min = 1e-13, max = 1e-2), example = 1e-8)]
     pub(crate) tolerance: f64,
@@ -122,7 +122,7 @@ pub(crate) struct FramesForm {
     #[schemars(example = &"50 us", transform = above_zero)]
     pub(crate) length: Time,
     /// What may be lost of a stroke in a stroke, 1e-9 to 0.1; typical 1e-5 to 1e-3. A frame has as many steps as the fastest
-    /// swing of the scene needs for it, 4.5 times as many where the normal of a contact moves; `stickslip info` says how many.
+    /// oscillation of the scenario needs for it, 4.5 times as many where the normal of a contact moves; `stickslip info` says how many.
     #[serde(default = "default_accuracy")]
     #[schemars(range(min = 1e-9, max = 0.1), example = 1e-3)]
     pub(crate) accuracy: f64,
@@ -140,19 +140,19 @@ fn default_tolerance() -> f64 {
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct LimitsForm {
-    /// Most accepted and rejected steps, at least 1.
+    /// Maximum number of accepted and rejected steps, at least 1.
     #[serde(default = "default_steps")]
     #[schemars(range(min = 1), example = 1_000_000)]
     pub(crate) steps: Count,
-    /// Most located events, at least 1.
+    /// Maximum number of located events, at least 1.
     #[serde(default = "default_events")]
     #[schemars(range(min = 1), example = 100_000)]
     pub(crate) events: Count,
-    /// Most wall-clock time, s, above 0; without end by default.
+    /// Maximum wall-clock time, s, above 0; no limit by default.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(example = &"10 min", transform = above_zero)]
     pub(crate) wall: Option<Time>,
-    /// Most memory that the run may keep, B, above 0: estimated before it starts, counted while it goes on; without end by
+    /// Maximum memory that the run may keep, B, above 0: estimated before it starts, counted while it runs; no limit by
     /// default. What grows with a run is what its pictures are drawn from.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(example = &"512 MB", transform = above_zero)]

@@ -131,7 +131,7 @@ periodic! {
         #[serde(default = "no_time")]
         #[schemars(example = &"3 ms", transform = at_least_zero)]
         hold: Time,
-        /// Duration of the way back, s, at least 0 (a jump); that of the rise by default. What is left of the period it rests.
+        /// Duration of the return stroke, s, at least 0 (a jump); that of the rise by default. What is left of the period it rests.
         #[serde(default, skip_serializing_if = "Option::is_none")]
         #[schemars(example = &"1 ms", transform = at_least_zero)]
         fall: Option<Time>,

@@ -378,12 +378,14 @@ impl Landmark {
                 "largest amplitude with a step, by the driver's current"
             }
             "zero_step" if self.beyond.is_some() => "largest amplitude with a step",
-            "zero_step" if self.turns => "S\u{2080}, amplitude beyond which it steps forth, and below back",
-            "zero_step" => "S\u{2080}, largest amplitude without a step",
+            "zero_step" if self.turns => {
+                "S\u{2080}, zero-step amplitude: forward steps above it, backward steps below"
+            }
+            "zero_step" => "S\u{2080}, zero-step amplitude",
             "stall" => "stall",
-            "best_speed" => "fastest",
-            "best_power" => "most power",
-            _ => "longest step",
+            "best_speed" => "maximum speed",
+            "best_power" => "maximum power",
+            _ => "maximum step",
         }
     }
 

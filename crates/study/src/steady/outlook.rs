@@ -45,7 +45,7 @@ impl Steady {
             fold: largest.and_then(super::Multiplier::periods).map(Real),
             words: match self.doubt() {
                 None => self.becomes() + &self.not_told().unwrap_or_default() + &led,
-                Some(doubt) => format!("fades or stays, which is not known: {doubt}"),
+                Some(doubt) => format!("decays or is neutral, which is not known: {doubt}"),
             },
             carried,
             shaken_down: self.named(&self.shaken_down),

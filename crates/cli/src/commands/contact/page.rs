@@ -49,7 +49,7 @@ fn constants(sheet: &Sheet) -> String {
         rows.extend([
             ("a, contact radius", quantity(pressed.a, "m")),
             ("F_N, normal force (4.26)", quantity(pressed.normal_force, "N")),
-            ("μF_N, holds at most", quantity(pressed.limit_force, "N")),
+            ("μF_N, maximum tangential force", quantity(pressed.limit_force, "N")),
             ("u_c = κd, gross slip begins (4.28)", quantity(pressed.gross_slip, "m")),
             ("p_max, largest pressure", pressed.peak_pressure.map_or("none: no shape".to_owned(), bounded)),
             ("2G*a, tangential stiffness, stuck", quantity(pressed.tangential_stiffness, "N/m")),

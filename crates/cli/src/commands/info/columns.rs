@@ -12,7 +12,7 @@ const PADDING: usize = 2;
 const NAMED: usize = 4;
 
 const ABOUT_STROKE: &str = "\
-S₀ is that of the quasi-static, damped limit: flyback in no time, slow way back, load against the
+S₀ is that of the quasi-static, damped limit: flyback in no time, slow return, load against the
 steps. Strokes below it make no step there. A real slider rings after the flyback, and its steps
 near S₀ depend on the ringing.";
 
@@ -84,7 +84,7 @@ fn cells_of(contact: Option<&(String, ContactInfo)>) -> Vec<String> {
             c.start.loaded.map_or(String::new(), share)
         }),
         pressed("S₀ against this load", "m", &|p| p.loaded?.zero_step_stroke),
-        pressed("μF_N of all, holds at most", "N", &|p| Some(p.limit_force)),
+        pressed("μF_N of all, maximum force", "N", &|p| Some(p.limit_force)),
         pressed("tangential stiffness of all, stuck", "N/m", &|p| Some(p.tangential_stiffness)),
         pressed("normal stiffness of all", "N/m", &|p| Some(p.normal_stiffness)),
         pressed("contact resonance", "Hz", &|p| p.resonance),

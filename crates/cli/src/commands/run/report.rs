@@ -145,7 +145,7 @@ impl Report {
     /// The same of a run whose steady motion somebody did not wait for.
     pub(crate) fn without_outlook(mut self, job: &Job) -> Self {
         let folder = job.folder.display();
-        let said = "interrupted while its steady motion was looked for; all else is in";
+        let said = "interrupted during the search for the periodic motion; all other results are in";
         self.complain([format!("{}: {said} {folder}", job.name)]);
         self.verdict = self.verdict.max(Verdict::Interrupted);
         self
@@ -182,8 +182,7 @@ fn settling(steps: &DriveSummary) -> String {
         }
         (SettlingSummary::NotSettled { change_m: Some(change), limit_m, limit_error_m }, _) => {
             let limit = limit_m.zip(*limit_error_m);
-            let limit =
-                limit.map(|(l, e)| format!(", heading for {} ± {} if it goes on so", length(l), length(e)));
+            let limit = limit.map(|(l, e)| format!(", extrapolated limit {} ± {}", length(l), length(e)));
             let limit = limit.unwrap_or_default();
             format!("not settled: the step of {last} changes by {} per period{limit}", length(*change))
         }
@@ -191,20 +190,20 @@ fn settling(steps: &DriveSummary) -> String {
             format!("not settled: steps vary by ± {} without a pattern", length(*spread_m))
         }
         (SettlingSummary::Drifts { change_m }, _) if change_m.0.abs() <= EVEN * steps.last().0.abs() => {
-            format!("drifts: the body is carried away, by {last} per period")
+            format!("drifts: the body moves away by {last} per period")
         }
         (SettlingSummary::Drifts { change_m }, _) => {
             format!("drifts: the step of {last} changes by {} per period", length(*change_m))
         }
         (SettlingSummary::Beats { periods, growth, mean_m, amplitude_m }, _) => {
             let growth = growth.filter(|growth| growth.0.abs() >= UNSEEN).map(|growth| {
-                let how = if growth.0 < 0.0 { "fading" } else { "growing" };
+                let how = if growth.0 < 0.0 { "decaying" } else { "growing" };
                 format!(", {how} by {:.2} % per period", 100.0 * growth.0.abs())
             });
             let (about, amplitude) = (length(*mean_m), length(*amplitude_m));
             let growth = growth.unwrap_or_default();
             format!(
-                "steps beat about {about} by {amplitude} with a period of about {:.1} periods{growth}",
+                "the step oscillates about {about} by {amplitude}, with a period of about {:.1} drive periods{growth}",
                 periods.0
             )
         }
@@ -225,7 +224,7 @@ fn back_step(losses: &Losses) -> String {
 fn lasting(outlook: &Outlook) -> String {
     match outlook {
         Outlook::Found(motion) => {
-            format!("steady motion: {}; a disturbance {}", motion.step_words(), motion.words)
+            format!("periodic motion: {}; a disturbance {}", motion.step_words(), motion.words)
         }
         Outlook::NotFound { fault } => fault.clone(),
     }
@@ -239,7 +238,7 @@ fn cycle(fretting: &Fretting) -> String {
     }
     if !fretting.closed {
         let friction = energy(fretting.friction_work());
-        return format!("the last cycle is not closed; friction took {friction} in it");
+        return format!("the last cycle is not closed; friction work {friction}");
     }
     let regime = match fretting.regime {
         Some("stick") => "stick, ".to_owned(),
@@ -248,10 +247,10 @@ fn cycle(fretting: &Fretting) -> String {
     };
     match (fretting.dissipated, fretting.damping) {
         (Some(lost), Some(damping)) => {
-            format!("{regime}{} lost per cycle, {} of it to damping", energy(lost), energy(damping))
+            format!("{regime}{} dissipated per cycle, {} of it by damping", energy(lost), energy(damping))
         }
-        (Some(lost), None) => format!("{regime}{} lost per cycle", energy(lost)),
-        (None, _) => format!("{regime}{} lost to friction per cycle", energy(fretting.friction_work())),
+        (Some(lost), None) => format!("{regime}{} dissipated per cycle", energy(lost)),
+        (None, _) => format!("{regime}{} dissipated by friction per cycle", energy(fretting.friction_work())),
     }
 }
 

@@ -187,7 +187,7 @@ mod tests {
         let (report, summary) = written(&|| false);
         assert_eq!(report.verdict, Verdict::Interrupted);
         assert!(
-            report.error.contains("interrupted while its steady motion was looked for"),
+            report.error.contains("interrupted during the search for the periodic motion"),
             "{}",
             report.error
         );

@@ -86,7 +86,7 @@ impl Walk<'_> {
         }
         next.point.piece = here.point.piece + 1;
         if !self.is_alike(here, &next).map_err(other)? {
-            return Err(lost(&"the drive comes to another motion"));
+            return Err(lost(&"the drive converges to another motion"));
         }
         self.event(here.pace(), here, (value, &next.happened, next.point.is_stable()));
         self.keep(&next);
