@@ -345,3 +345,40 @@ fn every_figure_of_a_loop_is_defined() {
         assert!(found.iter().any(|name| definition.defines("realtime.json", name)), "{}", definition.name);
     }
 }
+
+/// Terms of the field, Greek letters by their names, and words in the midst of texts.
+#[test]
+fn terms_are_explained_with_their_page() {
+    let pages = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs");
+    for term in stickslip_quantity::terms::TERMS {
+        assert!(pages.join(term.page).is_file(), "{}", term.page);
+        for name in term.names {
+            let output = stickslip().args(["explain", name]).output().unwrap();
+            assert_eq!(code(&output), 0, "{name}");
+            assert!(stdout(&output).contains(term.text), "{name}: {}", stdout(&output));
+        }
+    }
+    for (name, found) in
+        [("kappa", "κ = μE*/G*"), ("mu", "μ, coefficient of friction"), ("mean speed", "mean_speed_m_s")]
+    {
+        let output = stickslip().args(["explain", name]).output().unwrap();
+        assert!(stdout(&output).contains(found), "{name}: {}", stdout(&output));
+    }
+}
+
+/// A file, words of other programs and what lacks an argument are answered with the command that is meant.
+#[test]
+fn what_is_meant_is_named() {
+    let cases = [
+        (vec!["drive.json"], "did you mean `stickslip run drive.json`?"),
+        (vec!["characterize"], "did you mean `stickslip curve`?"),
+        (vec!["Optimise"], "did you mean `stickslip curve`?"),
+        (vec!["resume"], "did you mean `stickslip run --resume`?"),
+        (vec!["branch", "drive.json"], "for example stickslip branch drive.json --vary "),
+        (vec!["run"], "for example stickslip run drive.json"),
+    ];
+    for (words, meant) in cases {
+        let output = stickslip().args(&words).output().unwrap();
+        assert!(code(&output) == 2 && stderr(&output).contains(meant), "{words:?}: {}", stderr(&output));
+    }
+}

@@ -76,7 +76,7 @@ pub(crate) enum Command {
     /// summary.json are refused. Exit codes: 0 done, 2 no results, or results without what a plot needs, 3 a plot cannot be written.
     #[command(after_long_help = pictures::PLOT_EXAMPLES)]
     Plot(PlotArguments),
-    /// Compare two results: channels, events and figures within tolerances
+    /// Compare two results within tolerances: channels, events, summary values
     #[command(long_about = compare::ABOUT, after_long_help = compare::EXAMPLES)]
     Compare(CompareArguments),
     /// Explain a key, a column, a result, a symbol or a term
@@ -89,7 +89,7 @@ pub(crate) enum Command {
         #[arg(value_name = "NAME")]
         names: Vec<String>,
     },
-    /// Trace a curve: step over amplitude, speed over frequency or load, holding force
+    /// Trace a curve: step versus amplitude, speed versus frequency or load, holding force
     #[command(long_about = curve::ABOUT, after_long_help = curve::EXAMPLES)]
     Curve(CurveArguments),
     /// Find the periodic motion without a long run: step, speed, stability

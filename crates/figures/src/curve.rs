@@ -123,7 +123,10 @@ fn landmarks(curve: &Curve, traced: &Traced) -> Vec<(String, f64)> {
             unit => quantity(Real(at), unit),
         };
         let sense = curve.sense.map_or(String::new(), |sense| format!(" {}", sense.name()));
-        Some((format!("{}{sense}: {place}", landmark.words()), at))
+        let value = landmark
+            .value
+            .map_or(String::new(), |value| format!("{} at ", quantity(Real(value), landmark.unit())));
+        Some((format!("{}{sense}: {value}{place}", landmark.words()), at))
     });
     found.collect()
 }

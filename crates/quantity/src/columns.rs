@@ -12,9 +12,9 @@ macro_rules! columns {
 
 columns! { TRACE, "trace.csv",
     "time_s": "time t since the start; a row at the moment of a jump shows what is before it, also the last row, where the end in summary.json is after it",
-    "BODY.x_m": "displacement along the slide from the position drawn",
+    "BODY.x_m": "displacement along the slide from the reference position",
     "BODY.vx_m_s": "its rate, dx/dt",
-    "BODY.z_m": "displacement along the normal, up, from the position drawn",
+    "BODY.z_m": "displacement along the normal, up, from the reference position",
     "BODY.vz_m_s": "its rate, dz/dt",
     "BODY.pitch_rad": "angle θ, positive from x towards z",
     "BODY.vpitch_rad_s": "its rate, dθ/dt",

@@ -3,7 +3,7 @@
 //! * [`Real`] – a number of a result, which JSON writes even where it is not finite;
 //! * [`Prefix`] and [`quantity()`] – numbers with units, as people read them;
 //! * [`names`] – what the name of a channel or figure says;
-//! * [`columns`] – the columns of all tables;
+//! * [`columns`] – the columns of all tables; [`terms`] – terms of the field;
 //! * [`report()`] – what the numbers of a report are, from the comments of its fields.
 
 pub mod columns;
@@ -11,6 +11,7 @@ mod definitions;
 pub mod names;
 mod prefix;
 mod real;
+pub mod terms;
 mod text;
 
 pub use definitions::{Columns, Definition, page, report};

@@ -208,6 +208,11 @@ struct Timing {
 }
 
 impl Summary {
+    /// Of each driver that a limit held back, for how much of the run.
+    pub fn driver_limits(&self) -> impl Iterator<Item = String> {
+        self.drivers.0.iter().filter_map(|(name, driver)| driver.line(name))
+    }
+
     /// The summary of a run, still without its list of files.
     pub fn new(job: &Job, outcome: &Outcome) -> Self {
         let mut notes = Vec::new();

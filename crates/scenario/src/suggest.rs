@@ -23,6 +23,8 @@ const SYNONYMS: &[(&str, &str, &str)] = &[
     ("g", "acceleration", ""),
     ("angle", "incline", ""),
     ("normal_force", "normal", "such as \"normal\": {\"force\": \"0.3 N\"}"),
+    ("preload", "normal", "such as \"normal\": {\"force\": \"2 N\"}, the force of one contact"),
+    ("mu", "friction", ""),
     ("force", "x", "the force along the slide"),
     ("body", "on", ""),
     ("bodies", "between", ""),

@@ -8,7 +8,7 @@ use stickslip_scenario::quantity;
 
 /// Long help; paragraphs are broken where the terminal ends.
 pub(crate) const ABOUT: &str = "\
-Compare two results: channels, events and figures within tolerances
+Compare two results within tolerances: channels, events, summary values
 
 B must have everything that A has: every channel, at the times that both have; every event, by source, kind and order; the \
 energies, steps and contact figures of summary.json. Additional content of B is reported. Counts, timing, springs.csv and \

@@ -8,18 +8,18 @@ use stickslip_study::curve::{Kind, holding};
 
 /// Long help; paragraphs are broken where the terminal ends.
 pub(crate) const ABOUT: &str = "\
-Trace a curve: step over amplitude, speed over frequency or load, holding force
+Trace a curve: step versus amplitude, speed versus frequency or load, holding force
 
 Each point is the scenario with one value replaced, and its periodic motion: found directly by shooting, or by a run that \
 waits for it where shooting fails or the motion is unstable. If the step length oscillates, the mean is reported with its \
 error and spread.
 
-  step-amplitude   step over the stroke or amplitude of the drive waveform; S₀, the zero-step amplitude
-  speed-frequency  mean speed over the drive frequency; the maximum
-  force-speed      mean speed and power over a load against the steps; stall force, maximum power
-  step-load        step over such a load; stall force
-  preload          step over the total normal force on the body, shared as in the scenario; the maximum
-  holding-force    maximum load along +x and along -x that the drive holds at rest, over the preload
+  step-amplitude   step length versus stroke or amplitude of the drive waveform; S₀, the zero-step amplitude
+  speed-frequency  mean speed versus drive frequency; the maximum
+  force-speed      mean speed and power versus a load that opposes the steps; stall force, maximum power
+  step-load        step length versus such a load; stall force
+  preload          step length versus total normal force on the body; the maximum
+  holding-force    maximum load along +x and along -x that the drive holds at rest, versus preload
 
 S₀ and stall force are brackets: the drive steps at one end and not at the other.
 

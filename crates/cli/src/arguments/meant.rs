@@ -48,8 +48,11 @@ const MEANT: [(&str, &str); 40] = [
     ("validate", "check"),
 ];
 
-/// The error with the command meant, where a word is no command.
+/// The error with the command meant, where a word is no command, or with an example, where something is missing.
 pub(crate) fn answered(said: clap::Error) -> clap::Error {
+    if said.kind() == ErrorKind::MissingRequiredArgument {
+        return with_example(said);
+    }
     let word = match said.get(ContextKind::InvalidSubcommand) {
         Some(ContextValue::String(word)) if said.kind() == ErrorKind::InvalidSubcommand => word.clone(),
         _ => return said,
@@ -64,4 +67,18 @@ pub(crate) fn answered(said: clap::Error) -> clap::Error {
     let what = if is_file { "is a file and no command" } else { "is no command" };
     let message = format!("\"{}\" {what}; did you mean `{}`?", word.escape_debug(), meant.escape_debug());
     Arguments::command().error(ErrorKind::InvalidSubcommand, message)
+}
+
+/// The error with the first example of its command.
+fn with_example(mut said: clap::Error) -> clap::Error {
+    let command = super::command();
+    let words: Vec<String> = std::env::args().skip(1).take_while(|word| !word.starts_with('-')).collect();
+    let asked = words.iter().map_while(|word| command.find_subcommand(word)).next();
+    let help =
+        asked.and_then(clap::Command::get_after_long_help).map(ToString::to_string).unwrap_or_default();
+    if let Some(example) = help.lines().map(str::trim).find(|line| line.starts_with("stickslip ")) {
+        let tip = ContextValue::StyledStrs(vec![format!("for example {example}").into()]);
+        said.insert(ContextKind::Suggested, tip);
+    }
+    said
 }

@@ -52,7 +52,7 @@ pub(crate) struct RealtimeArguments {
     #[arg(long = "for", value_name = "TIME", value_parser = above_zero)]
     pub(crate) duration: Option<f64>,
     /// frames[:ACCURACY] with bounded work per frame (the default, 1e-3 of a stroke), event[:TOLERANCE], fast on average, verlet[:STEP]
-    /// or rk4[:STEP]; the default step is a fifth of the stability limit. At most 100 000 steps a frame
+    /// or rk4[:STEP]; the default step is a fifth of the stability limit. At most 100 000 time steps per frame
     #[arg(long, value_name = "NAME[:VALUE]")]
     pub(crate) stepper: Option<String>,
     /// Set a value of the scenario, such as contacts.ball.friction=0.3

@@ -16,7 +16,7 @@ error estimate covers curvature and measured noise.
 If the slopes on the two sides differ, the result jumps, an event appears or vanishes, or one side is refused, there is no \
 derivative: both sides are reported with the reason.
 
-Results are numbers of summary.json by their path, channels at the end of the run such as slider.x_m, and steady.step_m and \
+A result is a number of summary.json given by its path, the final value of a channel such as slider.x_m, or steady.step_m and \
 steady.speed_m_s of the periodic motion. Parameters are all numbers of the scenario except zeros, counts and settings of the \
 run; --to names others.
 
@@ -38,7 +38,7 @@ pub(crate) struct SensitivityArguments {
     /// Scenario file
     #[arg(value_name = "FILE")]
     pub(crate) file: PathBuf,
-    /// Results [default: step, speed, losses, ringing; without a drive the loops of the contacts]
+    /// Results [default: step, speed, losses, ringing; for scenarios without a drive the loops of the contacts]
     #[arg(long, value_name = "FIGURE", num_args = 1..)]
     pub(crate) of: Vec<String>,
     /// Key paths of parameters, such as contacts.ball.friction [default: all of bodies, contacts, actuators and waveforms]

@@ -3,6 +3,7 @@
 use super::check;
 use stickslip_console::answer::{complain, say};
 use stickslip_console::verdict::Verdict;
+use stickslip_quantity::terms::{TERMS, letter};
 use stickslip_quantity::{Definition, columns, page, report};
 use stickslip_scenario::{explained, suggestion};
 
@@ -25,29 +26,45 @@ fn definitions() -> Vec<Definition> {
     all
 }
 
-/// Whether anything has a name: what is called so, else what holds others by that name, else symbols and states, which are names of
-/// nothing.
+/// Most texts that are shown where a word stands in the midst of them.
+const MOST: usize = 6;
+
+/// Whether anything has a name: a term, what is called so, else what holds others by that name, else symbols and states, which are names
+/// of nothing, else texts with all of its words.
 fn explain_one(name: &str, all: &[Definition]) -> bool {
-    let print = |fits: &dyn Fn(&Definition) -> bool| {
-        let found = all.iter().filter(|definition| fits(definition));
+    let print = |fits: &dyn Fn(&Definition) -> bool, most: usize| {
+        let found = all.iter().filter(|definition| fits(definition)).take(most);
         found.map(|one| say(format_args!("{}  {}\n    {}", one.file, one.name, one.text))).count() > 0
     };
-    let mut found = print(&|definition| definition.is(name));
+    let lower = name.to_lowercase();
+    let terms = TERMS.iter().filter(|term| term.names.contains(&lower.as_str()));
+    let mut found =
+        terms.map(|term| say(format_args!("{name}\n    {}; see docs/{}", term.text, term.page))).count() > 0;
+    found |= print(&|definition| definition.is(name), usize::MAX);
     for (path, text) in explained(name) {
         found = true;
         say(format_args!("scenario  {path}\n    {text}"));
     }
+    let symbol = letter(name).unwrap_or(name);
+    let words: Vec<&str> = lower.split([' ', '-', '_']).filter(|word| word.len() > 2).collect();
+    let has_words = |definition: &Definition| {
+        let text = format!("{} {}", definition.name, definition.text).to_lowercase();
+        !words.is_empty() && words.iter().all(|word| text.contains(word))
+    };
     found = found
-        || print(&|definition| definition.is_within(name))
-        || print(&|definition| definition.has_symbol(name))
-        || print(&|definition| definition.says(name));
+        || print(&|definition| definition.is_within(name), usize::MAX)
+        || print(&|definition| definition.has_symbol(symbol), usize::MAX)
+        || print(&|definition| definition.says(name), usize::MAX);
     if !found {
         let known = all.iter().filter_map(|definition| definition.name.rsplit('.').next());
         let help = suggestion(name, known).filter(|help| help.starts_with("did you mean"));
+        found = help.is_none() && print(&has_words, MOST);
         let help = help.unwrap_or_else(|| {
-            "stickslip explain lists columns and figures, stickslip schema the keys of scenarios".to_owned()
+            "stickslip explain lists columns and results, stickslip schema the keys of scenarios".to_owned()
         });
-        complain(format_args!("nothing is called \"{}\"\n   help: {help}", name.escape_debug()));
+        if !found {
+            complain(format_args!("nothing is called \"{}\"\n   help: {help}", name.escape_debug()));
+        }
     }
     found
 }

@@ -50,8 +50,7 @@ pub(super) struct FootMotion {
 
 /// How the foot moves in a period, or why none is told. `ways` are those of the waveform, forth and back.
 pub(super) fn foot(job: &Job, outcome: &Outcome, ways: [&Way; 2]) -> Result<FootMotion, &'static str> {
-    let foot =
-        Foot::of(job).ok_or("no single foot under the body is moved by the waveform of the figures")?;
+    let foot = Foot::of(job).ok_or("it needs exactly one foot, moved by the waveform of the figures")?;
     let [forth, back] = ways.map(|way| way.time.0);
     if (forth - back).abs() <= SAME * (forth + back) {
         return Err(

@@ -86,20 +86,20 @@ fn contact_line(name: &str, contact: &ContactPeriod) -> String {
         share(contact.slip_share_return)
     );
     let times = match contact.reversals_forward {
-        1 => "1 reversal".to_owned(),
-        times => format!("{times} reversals"),
+        1 => "1 reversal of the sliding direction".to_owned(),
+        times => format!("{times} reversals of the sliding direction"),
     };
     let ringing = match contact.settling {
         _ if contact.reversals_forward == 0 => "no ringing".to_owned(),
         None => format!(
-            "{times} in the forward stroke and residual ringing of {} of μF_N at its end, so the step depends on the period",
+            "{times} in the forward stroke; at its end the tangential force still oscillates by {} of μF_N, so the step depends on the period",
             percent(contact.ringing_left.0)
         ),
         Some(settling) if settling.0 == 0.0 => {
-            format!("{times} in the forward stroke, with ringing below 5 % of μF_N")
+            format!("{times} in the forward stroke; the tangential force oscillates by less than 5 % of μF_N")
         }
         Some(settling) => format!(
-            "{times} in the forward stroke and ringing above 5 % of μF_N for {}",
+            "{times} in the forward stroke; the tangential force oscillates by more than 5 % of μF_N for {}",
             quantity(settling, "s")
         ),
     };
@@ -141,7 +141,7 @@ fn work(work: &PeriodWork) -> Option<String> {
     };
     let friction = share(work.friction);
     Some(format!(
-        "energy balance of {} from the drive{gave}: friction {friction}, dampers {}{load}",
+        "energy from the drive: {}{gave}, of which friction {friction}, dampers {}{load}",
         quantity(drive, "J"),
         share(work.damping)
     ))

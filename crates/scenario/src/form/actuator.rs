@@ -43,7 +43,7 @@ pub(crate) struct ActuatorForm {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(example = &"2 g", transform = above_zero)]
     pub(crate) mass: Option<Mass>,
-    /// Free stroke s, m; this or `voltage`; typical 10 nm to 100 um.
+    /// Free stroke s, m; give either this or `voltage`; typical 10 nm to 100 um.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(example = json!({ "follows": "drive" }))]
     pub(crate) stroke: Option<Moving<dimension::Length>>,
@@ -107,7 +107,7 @@ pub(crate) struct DataSheetForm {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(example = &"7.2 uF", transform = above_zero)]
     pub(crate) capacitance: Option<Capacitance>,
-    /// First resonance without a load, Hz, above 0, both ends free: the stack's own mass follows; unknown by default; typical 10 kHz to 500 kHz.
+    /// First resonance without a load, Hz, above 0, both ends free; it gives the mass of the stack; unknown by default; typical 10 kHz to 500 kHz.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(example = &"120 kHz", transform = above_zero)]
     pub(crate) free_resonance: Option<Frequency>,

@@ -7,7 +7,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use serde_json::json;
 
-/// A rigid body in the plane. Its coordinates are displacements from the position drawn.
+/// A rigid body in the plane. Its coordinates are displacements from the reference position.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 #[schemars(transform = inertia_where_free)]
@@ -35,7 +35,7 @@ pub(crate) struct BodyForm {
     #[serde(default, skip_serializing_if = "FreedomForm::is_fixed")]
     #[schemars(example = &"free", example = json!({ "follows": "rock" }))]
     pub(crate) pitch: FreedomForm,
-    /// Where the body is at t = 0, and how fast; by default at rest where it is drawn.
+    /// Where the body is at t = 0, and how fast; by default at rest in the reference position.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(example = json!({ "z": "20 um", "vx": "2 mm/s" }))]
     pub(crate) start: Option<BodyStartForm>,
@@ -68,7 +68,7 @@ impl FreedomForm {
 #[derive(Debug, Clone, Copy, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct BodyStartForm {
-    /// Position x, m, as a displacement from the position drawn, 0 by default; not where x follows a waveform.
+    /// Position x, m, as a displacement from the reference position, 0 by default; not allowed if x follows a waveform.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(example = &"1 um")]
     pub(crate) x: Option<Length>,
@@ -76,7 +76,7 @@ pub(crate) struct BodyStartForm {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(example = &"2 mm/s")]
     pub(crate) vx: Option<Velocity>,
-    /// Position z, m, as a displacement from the position drawn, 0 by default; not where z follows a waveform.
+    /// Position z, m, as a displacement from the reference position, 0 by default; not allowed if z follows a waveform.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(example = &"20 um")]
     pub(crate) z: Option<Length>,

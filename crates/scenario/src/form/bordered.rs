@@ -49,7 +49,7 @@ pub(crate) struct TippedParaboloidForm {
     /// Radius of curvature R of the paraboloid, m, above 0; typical 0.1 mm to 50 mm.
     #[schemars(example = &"5 mm", transform = above_zero)]
     pub(crate) radius: Length,
-    /// Radius up to which it is a cone, of the slope tip/R, m, above 0; typical 1 um to 50 um.
+    /// Radius of the conical tip, m; the cone has the slope tip/R and joins the paraboloid smoothly, above 0; typical 1 um to 50 um.
     #[schemars(example = &"5 um", transform = above_zero)]
     pub(crate) tip: Length,
 }

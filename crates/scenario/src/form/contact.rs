@@ -44,7 +44,7 @@ pub(crate) struct ContactForm {
     #[serde(default, skip_serializing_if = "Points::is_empty")]
     #[schemars(example = json!({ "slider": { "x": "5 mm", "z": "-3 mm" } }))]
     pub(crate) at: Points,
-    /// Gap between the bodies in the position drawn, m, 0 by default; negative: pressed. Only of a contact whose normal
+    /// Gap between the bodies in the reference position, m, 0 by default; a negative value is an initial overlap. Only of a contact whose normal
     /// is "coupled".
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(example = &"2 um")]

@@ -32,7 +32,7 @@ pub(crate) struct GeneratorForm {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(example = 10)]
     pub(crate) steps: Option<Count>,
-    /// What a caller may command. What is checked before a run is checked for all of it.
+    /// What a caller may command. Checks before a run cover the whole time.
     #[schemars(example = json!({ "stroke": ["0 nm", "300 nm"], "frequency": ["0 Hz", "2 kHz"] }))]
     pub(crate) range: CommandsForm,
 }

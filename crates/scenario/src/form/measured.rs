@@ -15,20 +15,20 @@ use std::fmt;
 #[serde(deny_unknown_fields)]
 #[schemars(transform = gaps_or_file)]
 pub(crate) struct GapTableForm {
-    /// Pairs of radius and gap, 2 to 4000: the first [0, 0], radii rising, gaps not falling; this or `file`.
+    /// Pairs of radius and gap, 2 to 4000: the first [0, 0], radii rising, gaps not falling; give either this or `file`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(length(min = 2, max = 4000), example = json!([[0, 0], ["10 um", "5 nm"], ["20 um", "20 nm"]]))]
     pub(crate) points: Option<Vec<GapPoint>>,
     /// CSV file with a header, at or below the scenario's own folder, whose columns have a unit in their heads, as in `f (nm)`,
-    /// `r [um]`, `r_um` and `f/nm`; this or `points`.
+    /// `r [um]`, `r_um` and `f/nm`; give either this or `points`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(example = &"worn.csv")]
     pub(crate) file: Option<String>,
-    /// Name of the column of radii, which may leave out the unit in its head; needed with `file`.
+    /// Name of the column of radii; its header may omit the unit; required with `file`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(example = &"r")]
     pub(crate) radius: Option<String>,
-    /// Name of the column of gaps, which may leave out the unit in its head; needed with `file`.
+    /// Name of the column of gaps; its header may omit the unit; required with `file`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(example = &"f")]
     pub(crate) gap: Option<String>,
@@ -45,20 +45,20 @@ pub(crate) struct GapTableForm {
 #[schemars(transform = law_or_file)]
 pub(crate) struct NormalLawForm {
     /// Pairs of indentation and normal force of one contact between its two materials, at least two: the first [0, 0], both
-    /// rising, ever more steeply; this or `file`.
+    /// rising, ever more steeply; give either this or `file`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(length(min = 2), example = json!([[0, 0], ["50 nm", "20 mN"], ["100 nm", "60 mN"]]))]
     pub(crate) points: Option<Vec<LawPoint>>,
     /// CSV file with a header, at or below the scenario's own folder, whose columns have a unit in their heads, as in `d (nm)`
-    /// and `F_mN`; this or `points`.
+    /// and `F_mN`; give either this or `points`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(example = &"indenter.csv")]
     pub(crate) file: Option<String>,
-    /// Name of the column of indentations, which may leave out the unit in its head; needed with `file`.
+    /// Name of the column of indentations; its header may omit the unit; required with `file`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(example = &"d")]
     pub(crate) indentation: Option<String>,
-    /// Name of the column of forces, which may leave out the unit in its head; needed with `file`.
+    /// Name of the column of forces; its header may omit the unit; required with `file`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(example = &"F")]
     pub(crate) force: Option<String>,
@@ -79,15 +79,15 @@ pub(crate) struct RoughForm {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(example = &"line.csv")]
     pub(crate) file: Option<String>,
-    /// Name of the column of heights, which may leave out the unit in its head; needed with `file`.
+    /// Name of the column of heights; its header may omit the unit; required with `file`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(example = &"z")]
     pub(crate) height: Option<String>,
-    /// Distance from height to height, m, above 0; needed with `heights` and `file`; typical 10 nm to 10 um.
+    /// Spacing of the heights, m, above 0; required with `heights` and `file`; typical 10 nm to 10 um.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(example = &"1 um", transform = above_zero)]
     pub(crate) spacing: Option<Length>,
-    /// A line made by numbers, the same on every machine; this or `heights`.
+    /// A line made by numbers, the same on every machine; give either this or `heights`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(example = json!({ "rms": "20 nm", "hurst": 0.8, "longest": "20 um", "shortest": "1 um", "length": "100 um", "points": 1024, "seed": 1 }))]
     pub(crate) self_affine: Option<SelfAffineForm>,

@@ -101,15 +101,15 @@ pub(crate) struct FieldsOutputForm {
     #[serde(default = "default_radii")]
     #[schemars(range(min = 2, max = 10_000), example = 200)]
     pub(crate) radii: Count,
-    /// The largest of them, m, above 0; by default 1.5 times the largest contact radius that is known.
+    /// Largest radius of the output, m, above 0; by default 1.5 times the largest known contact radius.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(example = &"10 um", transform = above_zero)]
     pub(crate) extent: Option<Length>,
-    /// Interval of the moments, s, above 0; this or `at`.
+    /// Interval of the moments, s, above 0; give either this or `at`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(example = &"1 ms", transform = above_zero)]
     pub(crate) every: Option<Time>,
-    /// Moments, s, ascending, within the run; this or `every`.
+    /// Moments, s, ascending, within the run; give either this or `every`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(length(min = 1), transform = at_least_zero, example = json!(["91 ms", "95 ms", "100 ms"]))]
     pub(crate) at: Option<Vec<Time>>,
@@ -131,11 +131,11 @@ fn default_radii() -> Count {
 #[serde(deny_unknown_fields)]
 #[schemars(extend("maxProperties" = 1))]
 pub(crate) struct MemoryOutputForm {
-    /// Interval of the moments, s, above 0; this or `at`.
+    /// Interval of the moments, s, above 0; give either this or `at`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(example = &"1 ms", transform = above_zero)]
     pub(crate) every: Option<Time>,
-    /// Moments, s, ascending, within the run; this or `every`.
+    /// Moments, s, ascending, within the run; give either this or `every`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(length(min = 1), transform = at_least_zero, example = json!(["91 ms", "95 ms", "100 ms"]))]
     pub(crate) at: Option<Vec<Time>>,

@@ -14,11 +14,11 @@ pub(crate) struct BurstForm {
     /// How many cycles, a whole number from 1 to 10 000.
     #[schemars(range(min = 1, max = 10_000), example = 5)]
     pub(crate) cycles: Count,
-    /// From the start of a burst to that of the next, s, at least as long as its cycles; this or `dwell`.
+    /// From the start of a burst to that of the next, s, at least as long as its cycles; give either this or `dwell`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(example = &"20 ms", transform = above_zero)]
     pub(crate) period: Option<Time>,
-    /// Rest between two bursts, s, above 0; this or `period`.
+    /// Rest between two bursts, s, above 0; give either this or `period`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(example = &"15 ms", transform = above_zero)]
     pub(crate) dwell: Option<Time>,
@@ -29,7 +29,7 @@ pub(crate) struct BurstForm {
 #[serde(deny_unknown_fields)]
 #[schemars(transform = cycles_or_dwell)]
 pub(crate) struct SectionForm {
-    /// How many cycles, a whole number of at least 1, at most 10 000 in all; this or `dwell`.
+    /// How many cycles, a whole number of at least 1, at most 10 000 in all; give either this or `dwell`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 1, max = 10_000), example = 10)]
     pub(crate) cycles: Option<Count>,
@@ -38,7 +38,7 @@ pub(crate) struct SectionForm {
     #[serde(default, skip_serializing_if = "is_false")]
     #[schemars(example = true)]
     pub(crate) reversed: bool,
-    /// Rest, s, above 0, at the value with which a cycle begins; this or `cycles`.
+    /// Rest, s, above 0, at the value with which a cycle begins; give either this or `cycles`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(example = &"5 ms", transform = above_zero)]
     pub(crate) dwell: Option<Time>,
@@ -70,11 +70,11 @@ macro_rules! periodic {
         #[schemars(transform = period_or_frequency)]
         pub(crate) struct $name {
             $($(#[$field_meta])* pub(crate) $field: $type,)*
-            /// Period, s, above 0; this or `frequency`; typical 1 us to 1 s.
+            /// Period, s, above 0; give either this or `frequency`; typical 1 us to 1 s.
             #[serde(default, skip_serializing_if = "Option::is_none")]
             #[schemars(example = &"10 ms", transform = above_zero)]
             pub(crate) period: Option<Time>,
-            /// Frequency, Hz, above 0; this or `period`; typical 1 Hz to 1 MHz.
+            /// Frequency, Hz, above 0; give either this or `period`; typical 1 Hz to 1 MHz.
             #[serde(default, skip_serializing_if = "Option::is_none")]
             #[schemars(example = &"100 Hz", transform = above_zero)]
             pub(crate) frequency: Option<Frequency>,
@@ -91,7 +91,7 @@ macro_rules! periodic {
             #[serde(default, skip_serializing_if = "Option::is_none")]
             #[schemars(extend("exclusiveMinimum" = 0), example = 10)]
             pub(crate) cycles: Option<f64>,
-            /// Some cycles, then a rest at the value with which they begin, again and again; this or `sequence`.
+            /// Some cycles, then a rest at the value with which they begin, again and again; give either this or `sequence`.
             #[serde(default, skip_serializing_if = "Option::is_none")]
             #[schemars(example = json!({ "cycles": 5, "period": "20 ms" }))]
             pub(crate) burst: Option<BurstForm>,

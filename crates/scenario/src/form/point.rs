@@ -7,7 +7,7 @@ use serde::de::{self, MapAccess, Visitor};
 use serde::{Deserialize, Deserializer, Serialize};
 use std::fmt;
 
-/// A point of a body in the position drawn, relative to its reference point, the centre of mass.
+/// A point of a body in the reference position, relative to its reference point, the centre of mass.
 #[derive(Debug, Clone, Copy, Serialize, JsonSchema)]
 #[schemars(deny_unknown_fields)]
 pub(crate) struct PointForm {

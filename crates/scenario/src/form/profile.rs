@@ -94,7 +94,7 @@ struct FlatKeys {
     /// Radius of the flat face, m, above 0; typical 10 um to 5 mm. Give this or `diameter`.
     #[schemars(example = &"50 um", transform = above_zero)]
     radius: Option<Length>,
-    /// Diameter of the flat face, m, above 0; this or `radius`, which results name.
+    /// Diameter of the flat face, m, above 0; give either this or `radius`; results always use `radius`.
     #[schemars(example = &"100 um", transform = above_zero)]
     diameter: Option<Length>,
 }
@@ -113,7 +113,7 @@ struct BallKeys {
     /// Radius of curvature R, m, above 0; typical 0.1 mm to 50 mm. Give this or `diameter`.
     #[schemars(example = &"0.5 mm", transform = above_zero)]
     radius: Option<Length>,
-    /// Diameter 2R, m, above 0; this or `radius`, which results name.
+    /// Diameter 2R, m, above 0; give either this or `radius`; results always use `radius`.
     #[schemars(example = &"1 mm", transform = above_zero)]
     diameter: Option<Length>,
 }

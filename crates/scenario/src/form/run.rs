@@ -13,11 +13,11 @@ use stickslip_drive::{Limits, Stepper};
 #[serde(deny_unknown_fields)]
 #[schemars(transform = duration_or_cycles)]
 pub(crate) struct RunForm {
-    /// Simulated time, s, above 0; this or `cycles`; typical 1 ms to 10 s.
+    /// Simulated time, s, above 0; give either this or `cycles`; typical 1 ms to 10 s.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(example = &"100 ms", transform = above_zero)]
     pub(crate) duration: Option<Time>,
-    /// Simulated time in cycles of the waveform of `figures`, above 0, after its delay; this or `duration`.
+    /// Simulated time in cycles of the waveform of `figures`, above 0, after its delay; give either this or `duration`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(extend("exclusiveMinimum" = 0), example = 10)]
     pub(crate) cycles: Option<f64>,

@@ -19,7 +19,7 @@ periodic! {
         #[serde(default, skip_serializing_if = "Option::is_none")]
         #[schemars(example = &"10 us", transform = at_least_zero)]
         flyback: Option<Time>,
-        /// Resonance that the flyback shall not excite, Hz, above 0: the flyback takes one period of it; this or `flyback`.
+        /// Resonance that the flyback shall not excite, Hz, above 0: the flyback takes one period of it; give either this or `flyback`.
         #[serde(default, skip_serializing_if = "Option::is_none")]
         #[schemars(example = &"4.15 kHz", transform = above_zero)]
         resonance: Option<Frequency>,

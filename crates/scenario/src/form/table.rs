@@ -26,20 +26,20 @@ pub(crate) enum JoinForm {
 #[serde(deny_unknown_fields)]
 #[schemars(transform = points_or_file)]
 pub(crate) struct TableForm {
-    /// Pairs of time and value, at least two, times rising; two equal times are a jump; this or `file`.
+    /// Pairs of time and value, at least two, times rising; two equal times are a jump; give either this or `file`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(length(min = 2), example = json!([[0, 0], ["1 ms", "200 nm"], ["2 ms", 0]]))]
     pub(crate) points: Option<Vec<Point>>,
     /// CSV file with a header, at or below the scenario's own folder; numbers in SI, or in the unit that the head of their
-    /// column names, as in `disp (µm)`, `t [ms]`, `disp_um` and `time/ms`; this or `points`.
+    /// column names, as in `disp (µm)`, `t [ms]`, `disp_um` and `time/ms`; give either this or `points`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(example = &"measured.csv")]
     pub(crate) file: Option<String>,
-    /// Name of the column of times, s or the unit in its head, which the name may leave out; needed with `file`.
+    /// Name of the column of times, s or the unit in its head, which the name may leave out; required with `file`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(example = &"time_s")]
     pub(crate) time: Option<String>,
-    /// Name of the column of values, SI or the unit in its head, which the name may leave out; needed with `file`.
+    /// Name of the column of values, SI or the unit in its head, which the name may leave out; required with `file`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(example = &"stroke_m")]
     pub(crate) value: Option<String>,

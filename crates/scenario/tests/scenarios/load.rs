@@ -342,7 +342,7 @@ fn a_bad_override_is_blamed_itself() {
 --set run.duration=-5 ms  run.duration: expected a time above 0 s, got -5 ms
       | run.duration=-5 ms
                      ^^^^^
-   help: simulated time, s, above 0; this or \"cycles\"; typical 1 ms to 10 s"
+   help: simulated time, s, above 0; give either this or \"cycles\"; typical 1 ms to 10 s"
     );
     assert_eq!(
         refused(&[("contacts.bal.friction", "0.3")]),

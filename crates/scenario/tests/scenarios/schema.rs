@@ -139,7 +139,7 @@ fn every_key_is_described_with_unit_default_and_examples() {
             units += 1;
         }
         let says = |words: &[&str]| words.iter().any(|word| text.contains(word));
-        let optional = says(&["default", "needed", "this or", "Only \"fixed\""]);
+        let optional = says(&["default", "needed", "required", "this or", "Only \"fixed\""]);
         assert!(is_required || schema.get("default").is_some() || optional, "{name}: no default in {text}");
         let mut alone = schema.clone();
         alone["$defs"] = root["$defs"].clone();

@@ -268,6 +268,7 @@ fn result(job: &Job, outcome: &Outcome, summary: &Summary) -> String {
             summary.outlook().filter(|it| matches!(it, Outlook::Found(_)) || steps.steady.is_none());
         lines.extend(outlook.map(|outlook| format!("  {}", lasting(outlook))));
     }
+    lines.extend(summary.driver_limits().map(|line| format!("  {line}")));
     for (name, contact) in &summary.contacts.0 {
         if let Some(fretting) = &contact.fretting {
             lines.push(format!("  {name}: {}", cycle(fretting)));

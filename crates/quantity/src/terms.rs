@@ -1,0 +1,166 @@
+//! Terms of the field that are the name of no key, column or result, and names of Greek letters.
+
+/// A term, and what it is here: names in lower case, a sentence, an example, the page.
+pub struct Term {
+    /// What it is called.
+    pub names: &'static [&'static str],
+    /// What it is, and how to get it.
+    pub text: &'static str,
+    /// The page of docs/.
+    pub page: &'static str,
+}
+
+/// The terms.
+pub const TERMS: &[Term] = &[
+    Term {
+        names: &["mdr", "method of dimensionality reduction"],
+        text: "the method of dimensionality reduction maps a contact to a one-dimensional row of independent springs with the same forces",
+        page: "physics.md",
+    },
+    Term {
+        names: &["partial slip", "mixed regime"],
+        text: "an outer ring of the contact slips while its core sticks; `state` is `partial`, the regime of a loop `partial`: stickslip run fretting.json",
+        page: "physics.md",
+    },
+    Term {
+        names: &["gross slip", "sliding"],
+        text: "the whole contact slips, from the displacement u_c on: contacts.CONTACT.gross_slip_displacement_m",
+        page: "physics.md",
+    },
+    Term {
+        names: &["stick-slip", "stick–slip", "stick slip"],
+        text: "the contact sticks in the slow stroke and slips in the fast one, which makes a drive step: stickslip new, stickslip run drive.json",
+        page: "guide/drive_designer.md",
+    },
+    Term {
+        names: &["slip memory", "memory curve", "return-point memory"],
+        text: "the reversals that a contact remembers, over depth; a reversal is forgotten when its loop closes: \"output\": {\"memory\": {}}",
+        page: "physics.md",
+    },
+    Term {
+        names: &["masing", "masing's rules"],
+        text: "unloading follows the first loading curve, doubled in force and displacement: stickslip contact FILE --history \"30 nm, -30 nm\"",
+        page: "contact.md",
+    },
+    Term {
+        names: &["hysteresis curve", "hysteresis loop", "fretting loop", "friction loop"],
+        text: "tangential force over displacement: the plot `loop`, its numbers in cycles.csv and contacts.CONTACT.fretting; measured ones: stickslip measure FILE.csv",
+        page: "figures.md",
+    },
+    Term {
+        names: &["running-condition map", "fretting map", "fretting regime"],
+        text: "slip regimes over amplitude and load; each run gives one point: contacts.CONTACT.fretting.regime",
+        page: "figures.md",
+    },
+    Term {
+        names: &["zero-step stroke", "zero-step amplitude", "dead zone", "zero step"],
+        text: "S₀, the stroke below which a drive makes no step, since partial slip takes it up: stickslip curve FILE --curve step-amplitude",
+        page: "curves.md",
+    },
+    Term {
+        names: &["stall", "stall force", "blocking load"],
+        text: "the load against the steps at which the mean speed is zero: stickslip curve FILE --curve force-speed",
+        page: "curves.md",
+    },
+    Term {
+        names: &["holding force"],
+        text: "the maximum load that the drive holds at rest: stickslip curve FILE --curve holding-force",
+        page: "curves.md",
+    },
+    Term {
+        names: &["preload", "clamping force"],
+        text: "the normal force of the contacts; contacts.NAME.normal.force is that of one contact, so 6 N on a count of 3 are 2 N: stickslip curve FILE --curve preload",
+        page: "curves.md",
+    },
+    Term {
+        names: &["friction coefficient", "coefficient of friction", "static friction", "kinetic friction"],
+        text: "contacts.NAME.friction, μ, one coefficient per contact for stick and slip",
+        page: "limits.md",
+    },
+    Term { names: &["wear", "archard", "adhesion", "temperature"], text: "not modelled", page: "limits.md" },
+    Term {
+        names: &["contact stiffness", "tangential contact stiffness"],
+        text: "2G*a of one contact, where all of it sticks: contacts.CONTACT.LOAD.tangential_stiffness_N_m of stickslip info --json",
+        page: "physics.md",
+    },
+    Term {
+        names: &["current limit", "slew rate", "driver limit"],
+        text: "actuators.NAME.driver.current, A: the voltage changes no faster than I/C; drivers.ACTUATOR.at_limit gives the share of time",
+        page: "piezo.md",
+    },
+    Term {
+        names: &["charge control"],
+        text: "a driver that controls the charge: \"control\": \"charge\" in actuators.NAME.driver",
+        page: "piezo.md",
+    },
+    Term {
+        names: &["prandtl-ishlinskii", "prandtl–ishlinskii", "bouc-wen", "bouc–wen", "piezo hysteresis"],
+        text: "models of actuators.NAME.hysteresis: `loop`, `plays` and `bouc_wen`",
+        page: "piezo_material.md",
+    },
+    Term {
+        names: &["quality factor"],
+        text: "Q = √(k m)/c of a stack; give actuators.NAME.damping = √(k m)/Q instead",
+        page: "piezo.md",
+    },
+    Term {
+        names: &[
+            "limit cycle",
+            "periodic orbit",
+            "shooting",
+            "poincaré map",
+            "poincare map",
+            "floquet multiplier",
+            "monodromy matrix",
+        ],
+        text: "the periodic motion of a drive, found by shooting on its Poincaré map, with Floquet multipliers: stickslip steady FILE",
+        page: "steady.md",
+    },
+    Term {
+        names: &[
+            "bifurcation",
+            "continuation",
+            "pseudo-arclength",
+            "period doubling",
+            "neimark-sacker",
+            "fold",
+        ],
+        text: "what the periodic motion does as a parameter changes: stickslip branch FILE --vary PATH=FROM..TO",
+        page: "continuation.md",
+    },
+    Term {
+        names: &[
+            "event function",
+            "zero crossing",
+            "event location",
+            "dense output",
+            "step size",
+            "tolerance",
+        ],
+        text: "the stepper `event` locates every event as a zero of its event function on the dense output; its step size follows one tolerance",
+        page: "numerics.md",
+    },
+    Term {
+        names: &["parameter sweep", "sweep", "design of experiments"],
+        text: "one parameter: stickslip curve FILE --vary PATH=FROM..TO; many: stickslip run with --set",
+        page: "curves.md",
+    },
+];
+
+/// The Greek letter of a name: `kappa` is κ.
+#[must_use]
+pub fn letter(name: &str) -> Option<&'static str> {
+    const LETTERS: [(&str, &str); 10] = [
+        ("alpha", "α"),
+        ("beta", "β"),
+        ("delta", "δ"),
+        ("kappa", "κ"),
+        ("lambda", "λ"),
+        ("mu", "μ"),
+        ("nu", "ν"),
+        ("omega", "ω"),
+        ("rho", "ρ"),
+        ("theta", "θ"),
+    ];
+    LETTERS.iter().find(|(known, _)| known.eq_ignore_ascii_case(name)).map(|(_, letter)| *letter)
+}
