@@ -100,7 +100,11 @@ fn the_lost_stroke_is_the_travel_of_the_foot_less_the_step() {
         let why: Vec<&str> = steps["why"].as_array().unwrap().iter().filter_map(Value::as_str).collect();
         if !drive.is_lost_told {
             assert_eq!(told, None, "{}", drive.name);
-            assert!(why.iter().any(|line| line.starts_with("no lost stroke: ")), "{}: {why:?}", drive.name);
+            assert!(
+                why.iter().any(|line| line.starts_with("lost stroke not computed: ")),
+                "{}: {why:?}",
+                drive.name
+            );
             continue;
         }
         let seen = width(&foot[foot.len() / 2..]) - number(&steps, "/last_period/step_m").abs();

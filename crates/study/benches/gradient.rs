@@ -52,10 +52,7 @@ fn load(file: &str, set: &Settings) -> Scenario {
 impl Case {
     fn new(file: &str, set: &Settings, paths: &[&str]) -> Self {
         let scenario = load(file, set);
-        let model = |scenario: &Scenario| {
-            let model = Model::new(&scenario.scene).unwrap();
-            model
-        };
+        let model = |scenario: &Scenario| Model::new(&scenario.scene).unwrap();
         let own = model(&scenario);
         let parameter = |path: &&str| {
             let number = scenario.parameter(path).unwrap();

@@ -25,7 +25,7 @@ S₀ and stall force are brackets: the drive steps at one end and not at the oth
 
 --both traces the curve forward and backward, with the waveforms reversed in time. Jumps, tables and patterns cannot be \
 reversed. --vary traces the step, or with `--curve holding-force` the holding force, over any parameter of the scenario. \
-Waveforms of the same period and stroke along an axis are varied together. The duration and output of the scenario do not \
+Waveforms that act along the same axis with the same period and stroke are varied together. The duration and output of the scenario do not \
 matter.
 
 Writes curve.csv, curve.json and the plot curve.png. A point without a result is a row with the reason. The result does not \

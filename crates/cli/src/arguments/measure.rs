@@ -17,8 +17,7 @@ or q; others are given by --time, --displacement and --force.
 A cycle runs from one reversal to the next of its kind, robust against noise, or over --period. Openings are taken at \
 mid-force. If the force opposes the motion its sign is reversed, and a note says so.
 
-With --beside a contact of simulated results is evaluated in the same way and drawn over the last cycle, each loop about its \
-own center. Writes cycles.csv and loop.png. Exit codes: 0 done, 2 bad input, 3 a file cannot be written.";
+With --beside, a contact of a simulation is evaluated in the same way and its last cycle is plotted for comparison, each loop shifted to its own center. Writes cycles.csv and loop.png. Exit codes: 0 done, 2 bad input, 3 a file cannot be written.";
 
 pub(crate) const EXAMPLES: &str = "\
 Examples:

@@ -63,7 +63,8 @@ mod tests {
         let mut listed: Vec<&str> = GROUPS.iter().flat_map(|(_, names)| *names).copied().collect();
         let command = command();
         let mut known: Vec<&str> = command.get_subcommands().map(clap::Command::get_name).collect();
-        (listed.sort_unstable(), known.sort_unstable());
+        listed.sort_unstable();
+        known.sort_unstable();
         assert_eq!(listed, known);
         let help = command.clone().render_help().to_string();
         assert!(help.lines().count() <= 45 && help.lines().all(|line| line.chars().count() <= 100), "{help}");

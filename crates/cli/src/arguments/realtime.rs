@@ -24,7 +24,7 @@ limit). Without --inputs they keep their initial values. docs/realtime.md descri
 by byte, with clients in C and Python. All values are in SI.
 
 Some hundred frames are computed before the start; a period shorter than the median of them is refused unless --force is \
-given. If the system denies priority, processor or locked memory, the loop runs without and reports it.
+given. If the operating system refuses real-time priority, the processor or locked memory, the loop runs without that setting and reports it.
 
 Writes DIR/NAME/realtime.json, histogram.csv, frames.csv (the slowest frames and their work), realtime.png and timeline.png. \
 Exit codes: 0 all frames were computed, 2 bad input (no input came, a port is in use), 3 the run stopped early, --overrun stop \
@@ -51,8 +51,8 @@ pub(crate) struct RealtimeArguments {
     /// Simulated time [default: that of the replayed recording, or of the scenario]
     #[arg(long = "for", value_name = "TIME", value_parser = above_zero)]
     pub(crate) duration: Option<f64>,
-    /// frames[:ACCURACY] with bounded work per frame (the default, 1e-3 of a stroke), event[:TOLERANCE], fast on average, verlet[:STEP]
-    /// or rk4[:STEP]; the default step is a fifth of the stability limit. At most 100 000 time steps per frame
+    /// `frames` or `frames:ACCURACY` with bounded work per frame (the default, 1e-3 of a stroke), `event` or `event:TOLERANCE`, fast on average,
+    /// `verlet`, `verlet:STEP`, `rk4` or `rk4:STEP`; the default step is a fifth of the stability limit. At most 100 000 time steps per frame
     #[arg(long, value_name = "NAME[:VALUE]")]
     pub(crate) stepper: Option<String>,
     /// Set a value of the scenario, such as contacts.ball.friction=0.3

@@ -18,7 +18,7 @@ derivative: both sides are reported with the reason.
 
 A result is a number of summary.json given by its path, the final value of a channel such as slider.x_m, or steady.step_m and \
 steady.speed_m_s of the periodic motion. Parameters are all numbers of the scenario except zeros, counts and settings of the \
-run; --to names others.
+run; --to replaces this list.
 
 Writes sensitivity.csv, sensitivity.json and the plot sensitivity.png. The result does not depend on the number of threads. \
 Exit codes: 0 done, 2 bad input, 3 the scenario's run stops, has no periodic motion, no derivative is known, or a file cannot \
@@ -38,7 +38,7 @@ pub(crate) struct SensitivityArguments {
     /// Scenario file
     #[arg(value_name = "FILE")]
     pub(crate) file: PathBuf,
-    /// Results [default: step, speed, losses, ringing; for scenarios without a drive the loops of the contacts]
+    /// Results [default: step, speed, losses, ringing; without a drive: dissipated energy and forces of each contact]
     #[arg(long, value_name = "FIGURE", num_args = 1..)]
     pub(crate) of: Vec<String>,
     /// Key paths of parameters, such as contacts.ball.friction [default: all of bodies, contacts, actuators and waveforms]

@@ -31,7 +31,7 @@ pub(crate) const BRANCH_ABOUT: &str = "\
 Follow the periodic motion while a parameter changes: folds, bifurcations
 
 Starts from the periodic motion of the scenario and follows it to both ends of the range by pseudo-arclength continuation, around folds \
-and where it is unstable. Reports folds, period doublings, Neimark-Sacker bifurcations, and events that appear in a period or vanish. \
+and where it is unstable. Reports folds, period doublings, Neimark-Sacker bifurcations, and parameter values at which an event, such as the start of slip, is added to the period or vanishes from it. \
 Writes branch.csv, branch.json and the plot branch.png, stable motions solid, unstable ones dashed. If the branch ends within the range, \
 for example because gross slip ceases, the reason is given.
 

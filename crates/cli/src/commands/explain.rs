@@ -13,8 +13,9 @@ pub(crate) fn explain(names: &[String]) -> Verdict {
     if names.is_empty() {
         say(format_args!("{}", page(&all).trim_end()));
     }
-    let known = names.iter().map(|name| explain_one(name, &all));
-    if known.fold(true, |all, known| all && known) { Verdict::Done } else { Verdict::BadInput }
+    // Each is explained, whatever becomes of the others.
+    let unknown = names.iter().filter(|name| !explain_one(name, &all)).count();
+    if unknown == 0 { Verdict::Done } else { Verdict::BadInput }
 }
 
 /// All that the program prints.

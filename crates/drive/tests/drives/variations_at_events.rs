@@ -165,8 +165,7 @@ fn a_turn_that_grazes_is_told() {
         let terms = vec![harmonic(1e-6, 1.0), harmonic(share * 1e-6, 4.0)];
         let mut scene = p1();
         scene.waveforms[0] = wave("drive", Shape::Harmonics { terms }, 1e-3);
-        let model = Model::new(&scene).unwrap();
-        model
+        Model::new(&scene).unwrap()
     };
     let until = 1e-3;
     let events = |share: f64| {

@@ -123,8 +123,7 @@ fn taller(waveform: &mut Waveform, by: f64) {
 }
 
 pub(crate) fn built(scene: &Scene) -> Model {
-    let model = Model::new(scene).unwrap();
-    model
+    Model::new(scene).unwrap()
 }
 
 /// x and ẋ of all bodies.

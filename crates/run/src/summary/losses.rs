@@ -50,11 +50,12 @@ pub(super) struct FootMotion {
 
 /// How the foot moves in a period, or why none is told. `ways` are those of the waveform, forth and back.
 pub(super) fn foot(job: &Job, outcome: &Outcome, ways: [&Way; 2]) -> Result<FootMotion, &'static str> {
-    let foot = Foot::of(job).ok_or("it needs exactly one foot, moved by the waveform of the figures")?;
+    let foot = Foot::of(job)
+        .ok_or("it is defined for a drive with exactly one foot, moved by the waveform of `figures`")?;
     let [forth, back] = ways.map(|way| way.time.0);
     if (forth - back).abs() <= SAME * (forth + back) {
         return Err(
-            "the waveform goes back as slowly as it goes forward, and a step may exceed the travel of the foot",
+            "the waveform returns as slowly as it advances, so the step may exceed the travel of the foot",
         );
     }
     let Foot::Driven { body, stack } = foot else {

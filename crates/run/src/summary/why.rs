@@ -73,7 +73,7 @@ fn lost(last: &LastPeriod) -> Option<String> {
             format!("the step exceeds the travel of the foot by {}", length(-lost.0))
         }
         (Some(lost), _) => format!("lost stroke: {} of the travel of the foot", length(lost.0)),
-        (None, foot) => format!("no lost stroke: {}", foot.err()?),
+        (None, foot) => format!("lost stroke not computed: {}", foot.err()?),
     })
 }
 

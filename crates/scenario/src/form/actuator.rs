@@ -121,7 +121,7 @@ pub(crate) struct DataSheetForm {
 #[derive(Debug, Clone, Copy, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct DriverForm {
-    /// Smallest and largest voltage, V: the command is cut there; no window by default. Unipolar such as 0 V to 120 V, or bipolar.
+    /// Smallest and largest voltage, V: the commanded voltage is limited to this range; unlimited by default. Unipolar such as 0 V to 120 V, or bipolar.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(example = json!(["-20 V", "120 V"]))]
     pub(crate) window: Option<[Voltage; 2]>,
@@ -129,7 +129,7 @@ pub(crate) struct DriverForm {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(example = &"2 A", transform = above_zero)]
     pub(crate) current: Option<Current>,
-    /// Largest current out of the stack, A, above 0; by default as `current`.
+    /// Largest current out of the stack, A, above 0; by default the same as `current`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(example = &"1 A", transform = above_zero)]
     pub(crate) sink_current: Option<Current>,

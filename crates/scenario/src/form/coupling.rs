@@ -69,7 +69,7 @@ pub(crate) struct LoadForm {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(example = &"-1 N")]
     pub(crate) z: Option<Moving<dimension::Force>>,
-    /// Moment on the pitch, N m, 0 by default; positive from x towards z.
+    /// Moment about the pitch axis, N m, 0 by default; positive from x towards z.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(example = &"0.5 mN m")]
     pub(crate) pitch: Option<Moving<dimension::Moment>>,

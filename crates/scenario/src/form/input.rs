@@ -21,9 +21,8 @@ pub(crate) struct InputForm {
     /// checked for all of it, and a caller's value outside is refused.
     #[schemars(example = json!(["-1 um", "1 um"]))]
     pub(crate) range: Bounds,
-    /// How it goes from one value to the next: "held" stays until a caller gives another value, "linear" goes straight to
-    /// a value at a time that the caller gives. A held input jumps: contacts move along their path straight and in no time,
-    /// and the work of that is booked; a damper whose end would jump is refused, for it would need an infinite force.
+    /// How the input changes between supplied values: "held" keeps each until the next comes, "linear" ramps to the
+    /// supplied value at the supplied time. A held input jumps: contacts move straight along their path in no time, and that work counts; a damper whose end would jump is refused, for it would need an infinite force.
     #[serde(default)]
     #[schemars(example = &"linear")]
     pub(crate) interpolation: InterpolationForm,

@@ -43,7 +43,7 @@ pub(crate) struct TableForm {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(example = &"stroke_m")]
     pub(crate) value: Option<String>,
-    /// How it goes from point to point: "straight" by default, or "cubic": smooth, and between the two values beside it
+    /// Interpolation between the points: "straight" by default, or "cubic": smooth, and between the two values beside it
     /// everywhere.
     #[serde(default, skip_serializing_if = "is_straight")]
     #[schemars(example = &"cubic")]

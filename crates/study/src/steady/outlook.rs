@@ -86,9 +86,9 @@ fn steps(scene: &Scene) -> u64 {
 
 /// What is said where a share of a run's steps does not lead to it.
 fn too_few(steps: u64) -> Outlook {
-    let asked = "`stickslip steady` takes all it needs, and so does a run with figures.steady_motion=true";
+    let asked = "`stickslip steady` and figures.steady_motion=true search without this limit";
     Outlook::NotFound {
-        fault: format!("no steady motion found within {steps} steps, a fifth of the run's: {asked}"),
+        fault: format!("no steady motion found within {steps} steps, a fifth of those of the run; {asked}"),
     }
 }
 
