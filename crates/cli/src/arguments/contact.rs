@@ -21,8 +21,7 @@ other four follow, with friction work and energies.
 
 With --history or --out, files are written: history.csv (forces and energies along the path), fields.csv (pressure, shear \
 stress, displacement, slip over r at each corner), line.csv (line loads, limits and stretches of the row of springs), \
-friction.csv (friction work over r), normal.csv, universal.csv, contact.json and plots. A history is a polyline of d and u. If \
-its first corner gives a load, it starts there unstretched, otherwise at u = 0 under the given load.
+friction.csv (friction work over r), normal.csv, universal.csv, contact.json and plots. A history is a polyline of d and u. If its first corner gives a normal load, the history starts there without tangential force, otherwise at u = 0 under the given load.
 
 The exact curve of the profile is used, whatever engine the scenario names. All results are for one contact, even if its count \
 is larger. Exit codes: 0 done, 2 bad input, 3 a file cannot be written.";

@@ -14,7 +14,7 @@ force, and time if there is one, from a CSV file whose first line names the colu
 (um),F_mN\"; without units, SI is assumed. Columns are found by the names t or time; u, x, disp or displacement; fx, f, force \
 or q; others are given by --time, --displacement and --force.
 
-A cycle runs from one reversal to the next of its kind, robust against noise, or over --period. Openings are taken at \
+A cycle runs from one reversal to the next in the same direction (noise is no reversal); with --period it is one period long. Openings are taken at \
 mid-force. If the force opposes the motion its sign is reversed, and a note says so.
 
 With --beside, a contact of a simulation is evaluated in the same way and its last cycle is plotted for comparison, each loop shifted to its own center. Writes cycles.csv and loop.png. Exit codes: 0 done, 2 bad input, 3 a file cannot be written.";

@@ -51,6 +51,18 @@ pub(crate) fn command() -> clap::Command {
             ))
         });
     }
+    // So many options fit on two pages only side by side with what they do.
+    command = command.mut_subcommand("realtime", |sub| {
+        let long =
+            |text: Option<&clap::builder::StyledStr>| text.map(ToString::to_string).unwrap_or_default();
+        let (about, examples) = (long(sub.get_long_about()), long(sub.get_after_long_help()));
+        let help = clap::Arg::new("help")
+            .short('h')
+            .long("help")
+            .action(clap::ArgAction::HelpShort)
+            .help("Print help");
+        sub.about(about).after_help(examples).disable_help_flag(true).arg(help)
+    });
     command.help_template(TEMPLATE).after_help(overview + EXIT_CODES)
 }
 
@@ -70,13 +82,13 @@ mod tests {
         assert!(help.lines().count() <= 45 && help.lines().all(|line| line.chars().count() <= 100), "{help}");
     }
 
-    /// `realtime` asks for more than one page can hold.
     #[test]
     fn the_help_of_a_command_takes_a_page_or_two() {
         for sub in command().get_subcommands_mut() {
-            let (name, lines) =
-                (sub.get_name().to_owned(), sub.render_long_help().to_string().lines().count());
-            assert!(lines <= 100 || name == "realtime", "{name}: {lines}");
+            let name = sub.get_name().to_owned();
+            let help = if name == "realtime" { sub.render_help() } else { sub.render_long_help() };
+            let lines = help.to_string().lines().count();
+            assert!(lines <= 100, "{name}: {lines}");
         }
     }
 }

@@ -23,8 +23,7 @@ the end. A \"generator\" has four inputs: NAME.stroke, NAME.frequency (Hz), NAME
 limit). Without --inputs they keep their initial values. docs/realtime.md describes packets, shared memory and recordings byte \
 by byte, with clients in C and Python. All values are in SI.
 
-Some hundred frames are computed before the start; a period shorter than the median of them is refused unless --force is \
-given. If the operating system refuses real-time priority, the processor or locked memory, the loop runs without that setting and reports it.
+About a hundred frames are computed before the start; a period shorter than their median computing time is refused unless --force is given. If the operating system refuses real-time priority, the processor or locked memory, the loop runs without that setting and reports it.
 
 Writes DIR/NAME/realtime.json, histogram.csv, frames.csv (the slowest frames and their work), realtime.png and timeline.png. \
 Exit codes: 0 all frames were computed, 2 bad input (no input came, a port is in use), 3 the run stopped early, --overrun stop \

@@ -38,7 +38,7 @@ pub(crate) struct ActuatorForm {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(example = &"0.5 N s/m", transform = at_least_zero)]
     pub(crate) damping: Option<Damping>,
-    /// Its own mass m, kg, above 0; none by default. Of it 4m/π² goes to an end whose body is free where the other end is held,
+    /// Its own mass m, kg, above 0; none by default. Of this mass 4m/π² is added to an end whose body is free where the other end is held,
     /// 2m/π² to each of two free ends: so its first resonance comes out.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(example = &"2 g", transform = above_zero)]
@@ -47,7 +47,7 @@ pub(crate) struct ActuatorForm {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(example = json!({ "follows": "drive" }))]
     pub(crate) stroke: Option<Moving<dimension::Length>>,
-    /// Voltage, V, that is commanded: the free stroke is `stroke_per_volt` times what of it the driver makes; this or
+    /// Voltage, V, that is commanded: the free stroke is `stroke_per_volt` times the voltage that the driver makes of it; this or
     /// `stroke`; typical 10 V to 200 V.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(example = json!({ "follows": "drive" }))]
@@ -61,7 +61,7 @@ pub(crate) struct ActuatorForm {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(example = &"7.2 uF", transform = above_zero)]
     pub(crate) capacitance: Option<Capacitance>,
-    /// What a maker says of it, nothing by default; what is not given here follows from it.
+    /// Values of the manufacturer's data sheet, none by default; missing keys of the stack follow from them.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(example = json!({ "stroke": "4.6 um", "voltage": "120 V", "blocking_force": "460 N", "capacitance": "7.2 uF" }))]
     pub(crate) data_sheet: Option<DataSheetForm>,

@@ -7,8 +7,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use serde_json::json;
 
-/// Hysteresis between the stroke that is asked for and the one that a stack makes, independent of the rate; what goes in and
-/// comes out is a free stroke, m. One-way and without an energy of its own: see docs/piezo_material.md.
+/// Hysteresis between the stroke that is asked for and the one that a stack makes, independent of the rate; input and output are free strokes, m. It acts on the stroke only, without feedback on the voltage, and has no part in the energy balance: see docs/piezo_material.md.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub(crate) enum HysteresisForm {
@@ -92,7 +91,7 @@ fn one() -> f64 {
 #[derive(Debug, Clone, Copy, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct CreepForm {
-    /// γ: what a decade of time adds to the stroke, above 0 and below 0.5; typical 0.01 to 0.02.
+    /// γ: relative stroke added per decade of time, above 0 and below 0.5; typical 0.01 to 0.02.
     #[schemars(extend("exclusiveMinimum" = 0, "exclusiveMaximum" = 0.5), example = 0.015)]
     pub(crate) per_decade: f64,
     /// t₀, s, above 0: when after a step the stroke is the nominal one; 0.1 s by default.

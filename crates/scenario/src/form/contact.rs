@@ -49,8 +49,7 @@ pub(crate) struct ContactForm {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(example = &"2 um")]
     pub(crate) gap: Option<Length>,
-    /// Time constant β of the stuck springs, s, at least 0, 0 by default: they carry βG*ṡ beside G*s, slipping ones
-    /// nothing of it.
+    /// Time constant β of the stuck springs, s, at least 0, 0 by default: they carry βG*ṡ beside G*s, slipping springs carry none of it.
     #[serde(default = "no_time", skip_serializing_if = "is_zero")]
     #[schemars(example = &"1 us", transform = at_least_zero)]
     pub(crate) damping: Time,

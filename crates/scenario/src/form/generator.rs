@@ -10,7 +10,7 @@ use serde_json::json;
 
 /// Generator: cycles that a caller commands while they run. A cycle begins and ends at 0 and takes the stroke, frequency and
 /// heading that are in force when it begins; with nothing to do it rests at 0, and a command begins a cycle at once.
-/// `stickslip run`, where there is no caller, goes by the values given here. It has no phase, no delay and no number of
+/// `stickslip run`, where there is no caller, uses the values given here. It has no phase, no delay and no number of
 /// cycles: a caller says when, and `steps` how many.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
@@ -18,7 +18,7 @@ pub(crate) struct GeneratorForm {
     /// Form of a cycle.
     #[schemars(example = json!({ "sawtooth": { "flyback": "10 us" } }))]
     pub(crate) shape: CycleForm,
-    /// Peak-to-peak value at first, in the unit of what follows, within its range; 0 is rest; typical 10 nm to 10 um.
+    /// Peak-to-peak value at first, in the unit of the driven quantity, within its range; 0 is rest; typical 10 nm to 10 um.
     #[schemars(example = &"200 nm")]
     pub(crate) stroke: AnyQuantity,
     /// Frequency at first, Hz, at least 0, within its range; 0 is rest; typical 1 Hz to 10 kHz.
@@ -73,7 +73,7 @@ pub(crate) enum HeadingForm {
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct CommandsForm {
-    /// Smallest and largest stroke, in the unit of what follows.
+    /// Smallest and largest stroke, in the unit of the driven quantity.
     #[schemars(example = json!(["0 nm", "300 nm"]))]
     pub(crate) stroke: Bounds<AnyQuantity>,
     /// Smallest and largest frequency, Hz, at least 0; periods are longer than the flyback.

@@ -9,15 +9,15 @@ use std::borrow::Cow;
 use std::fmt;
 use std::marker::PhantomData;
 
-/// Input: what a caller gives while it runs.
+/// Input: values that a calling program supplies during the run.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct InputForm {
-    /// Value from the start on until a caller gives another, in the unit of what follows; within the range. `stickslip run`,
+    /// Value from the start on until a caller gives another, in the unit of the driven quantity; within the range. `stickslip run`,
     /// where there is no caller, holds it.
     #[schemars(example = &"0 nm")]
     pub(crate) initial: AnyQuantity,
-    /// Smallest and largest value that a caller may give, in the unit of what follows. What is checked before a run is
+    /// Smallest and largest value that a caller may give, in the unit of the driven quantity. What is checked before a run is
     /// checked for all of it, and a caller's value outside is refused.
     #[schemars(example = json!(["-1 um", "1 um"]))]
     pub(crate) range: Bounds,

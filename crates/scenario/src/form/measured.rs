@@ -64,7 +64,7 @@ pub(crate) struct NormalLawForm {
     pub(crate) force: Option<String>,
 }
 
-/// A rough line, that of the one-dimensional foundation.
+/// A rough line: the profile of the one-dimensional foundation.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 #[schemars(transform = heights_or_file)]

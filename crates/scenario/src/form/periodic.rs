@@ -14,7 +14,7 @@ pub(crate) struct BurstForm {
     /// How many cycles, a whole number from 1 to 10 000.
     #[schemars(range(min = 1, max = 10_000), example = 5)]
     pub(crate) cycles: Count,
-    /// From the start of a burst to that of the next, s, at least as long as its cycles; give either this or `dwell`.
+    /// Time from the start of a burst to the start of the next, s, at least as long as its cycles; give either this or `dwell`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(example = &"20 ms", transform = above_zero)]
     pub(crate) period: Option<Time>,
@@ -33,7 +33,7 @@ pub(crate) struct SectionForm {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 1, max = 10_000), example = 10)]
     pub(crate) cycles: Option<Count>,
-    /// Each cycle the other way round in time, so that a drive steps the other way; its values stay what they are. Not by
+    /// Each cycle the other way round in time, so that a drive steps the other way; its values are unchanged. Not by
     /// default.
     #[serde(default, skip_serializing_if = "is_false")]
     #[schemars(example = true)]

@@ -172,7 +172,7 @@ pub(crate) struct FoundationForm {
     /// Heights of the springs above the lowest point, m, at least 0, in any order; typical 1 nm to 10 um.
     #[schemars(length(min = 1), example = json!([0, "10 nm", "20 nm"]), transform = at_least_zero)]
     pub(crate) heights: Vec<Length>,
-    /// Length of foundation at each height, m, above 0: one for all, or one each; typical 10 nm to 100 um.
+    /// Length of foundation at each height, m, above 0: one value for all heights, or one for each; typical 10 nm to 100 um.
     #[schemars(example = &"1 um", example = json!(["1 um", "2 um", "1 um"]), transform = above_zero)]
     pub(crate) length: Lengths,
 }

@@ -22,7 +22,7 @@ pub(crate) struct RunForm {
     #[schemars(extend("exclusiveMinimum" = 0), example = 10)]
     pub(crate) cycles: Option<f64>,
     /// Largest change of the step from period to period at which the run ends early as steady, a share of the step, 1e-12 to
-    /// 0.1; by default it goes to its end; typical 1e-9 to 1e-3. The step is that of the body and the waveform of `figures`,
+    /// 0.1; by default the run is not stopped early; typical 1e-9 to 1e-3. The step is that of the body and the waveform of `figures`,
     /// a free one and one with a period. The end is that of the period with which three steps running are as long as the one
     /// before; where steps are shorter than u_c, the share is one of that. Until then the run is the same to the last bit.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -153,7 +153,7 @@ pub(crate) struct LimitsForm {
     #[schemars(example = &"10 min", transform = above_zero)]
     pub(crate) wall: Option<Time>,
     /// Maximum memory that the run may keep, B, above 0: estimated before it starts, counted while it runs; no limit by
-    /// default. What grows with a run is what its pictures are drawn from.
+    /// default. The data for the plots grow with the run.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(example = &"512 MB", transform = above_zero)]
     pub(crate) memory: Option<Storage>,
@@ -177,7 +177,7 @@ fn default_events() -> Count {
 #[derive(Debug, Clone, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct FiguresForm {
-    /// Name of a waveform with a period; the only waveform there is by default.
+    /// Name of a waveform with a period; by default the only waveform.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(example = &"drive")]
     pub(crate) waveform: Option<String>,

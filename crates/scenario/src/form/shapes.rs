@@ -11,7 +11,7 @@ periodic! {
     /// Sawtooth.
     #[schemars(transform = flyback_or_resonance)]
     SawtoothForm {
-        /// Peak-to-peak value, in the unit of what follows; typical 10 nm to 10 um.
+        /// Peak-to-peak value, in the unit of the driven quantity; typical 10 nm to 10 um.
         #[schemars(example = &"200 nm")]
         stroke: AnyQuantity,
         /// Duration of the fall, s, at least 0 (a jump) and below the period; typical a hundredth of the period; this or
@@ -23,7 +23,7 @@ periodic! {
         #[serde(default, skip_serializing_if = "Option::is_none")]
         #[schemars(example = &"4.15 kHz", transform = above_zero)]
         resonance: Option<Frequency>,
-        /// Largest rate of what comes of it, per s, in the unit of what follows, at least that of the rise: it falls at this
+        /// Largest rate of what comes of it, per s, in the unit of the driven quantity, at least that of the rise: it falls at this
         /// rate until it meets the next rise; no limit by default.
         #[serde(default, skip_serializing_if = "Option::is_none")]
         #[schemars(example = &"20 mm/s", transform = above_zero)]
@@ -34,7 +34,7 @@ periodic! {
 periodic! {
     /// Triangle.
     TriangleForm {
-        /// Peak-to-peak value, in the unit of what follows; typical 10 nm to 10 um.
+        /// Peak-to-peak value, in the unit of the driven quantity; typical 10 nm to 10 um.
         #[schemars(example = &"200 nm")]
         stroke: AnyQuantity,
     }
@@ -43,10 +43,10 @@ periodic! {
 periodic! {
     /// Sine.
     SineForm {
-        /// Half the peak-to-peak value, in the unit of what follows; typical 10 nm to 10 um.
+        /// Half the peak-to-peak value, in the unit of the driven quantity; typical 10 nm to 10 um.
         #[schemars(example = &"100 nm")]
         amplitude: AnyQuantity,
-        /// Mean value, in the unit of what follows.
+        /// Mean value, in the unit of the driven quantity.
         #[serde(default = "no_value")]
         #[schemars(example = &"100 nm")]
         offset: AnyQuantity,
@@ -65,7 +65,7 @@ periodic! {
 periodic! {
     /// Cycloid.
     CycloidForm {
-        /// Peak-to-peak value, in the unit of what follows; typical 10 nm to 10 um.
+        /// Peak-to-peak value, in the unit of the driven quantity; typical 10 nm to 10 um.
         #[schemars(example = &"200 nm")]
         stroke: AnyQuantity,
         /// Duration of the fall, s, above 0 and below the period; half a period by default.
@@ -79,7 +79,7 @@ periodic! {
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct HarmonicForm {
-    /// Amplitude, in the unit of what follows; typical 1 nm to 10 um.
+    /// Amplitude, in the unit of the driven quantity; typical 1 nm to 10 um.
     #[schemars(example = &"100 nm")]
     pub(crate) amplitude: AnyQuantity,
     /// Multiple of the frequency, a whole number, 1 to 1000.
@@ -94,7 +94,7 @@ pub(crate) struct HarmonicForm {
 periodic! {
     /// Two harmonics.
     TwoHarmonicsForm {
-        /// Amplitude of the fundamental, in the unit of what follows; typical 10 nm to 10 um.
+        /// Amplitude of the fundamental, in the unit of the driven quantity; typical 10 nm to 10 um.
         #[schemars(example = &"100 nm")]
         amplitude: AnyQuantity,
         /// Amplitude of the second harmonic as a share of it, -0.25 to 0.25, not 0; 0.25 by default. Above 0 it rises fast and
@@ -108,7 +108,7 @@ periodic! {
 periodic! {
     /// Parabola.
     ParabolaForm {
-        /// Peak-to-peak value, in the unit of what follows; typical 10 nm to 10 um.
+        /// Peak-to-peak value, in the unit of the driven quantity; typical 10 nm to 10 um.
         #[schemars(example = &"200 nm")]
         stroke: AnyQuantity,
         /// Duration of the turn at the top, s, at least 0 (a cusp, the default) and below the period.
@@ -121,7 +121,7 @@ periodic! {
 periodic! {
     /// Trapezoid.
     TrapezoidForm {
-        /// Peak-to-peak value, in the unit of what follows; typical 10 nm to 10 um.
+        /// Peak-to-peak value, in the unit of the driven quantity; typical 10 nm to 10 um.
         #[schemars(example = &"200 nm")]
         stroke: AnyQuantity,
         /// Duration of the way to the stroke, s, at least 0 (a jump).
@@ -131,7 +131,7 @@ periodic! {
         #[serde(default = "no_time")]
         #[schemars(example = &"3 ms", transform = at_least_zero)]
         hold: Time,
-        /// Duration of the return stroke, s, at least 0 (a jump); that of the rise by default. What is left of the period it rests.
+        /// Duration of the return stroke, s, at least 0 (a jump); by default equal to the rise. What is left of the period it rests.
         #[serde(default, skip_serializing_if = "Option::is_none")]
         #[schemars(example = &"1 ms", transform = at_least_zero)]
         fall: Option<Time>,
@@ -141,7 +141,7 @@ periodic! {
 periodic! {
     /// S-curve.
     SCurveForm {
-        /// Peak-to-peak value, in the unit of what follows; typical 10 nm to 10 um.
+        /// Peak-to-peak value, in the unit of the driven quantity; typical 10 nm to 10 um.
         #[schemars(example = &"200 nm")]
         stroke: AnyQuantity,
         /// Duration of the fall, s, above 0 and below the period; half a period by default.
@@ -158,10 +158,10 @@ periodic! {
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct ChirpForm {
-    /// Half the peak-to-peak value, in the unit of what follows; typical 1 nm to 1 um.
+    /// Half the peak-to-peak value, in the unit of the driven quantity; typical 1 nm to 1 um.
     #[schemars(example = &"100 nm")]
     pub(crate) amplitude: AnyQuantity,
-    /// Mean value, in the unit of what follows.
+    /// Mean value, in the unit of the driven quantity.
     #[serde(default = "no_value")]
     #[schemars(example = &"100 nm")]
     pub(crate) offset: AnyQuantity,
@@ -188,10 +188,10 @@ pub(crate) struct ChirpForm {
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct StepForm {
-    /// Value after the step, in the unit of what follows; 0 before.
+    /// Value after the step, in the unit of the driven quantity; 0 before.
     #[schemars(example = &"100 nm")]
     pub(crate) height: AnyQuantity,
-    /// When, s, at least 0, which is the default.
+    /// Time, s, at least 0, which is the default.
     #[serde(default = "no_time")]
     #[schemars(example = &"1 ms", transform = at_least_zero)]
     pub(crate) at: Time,

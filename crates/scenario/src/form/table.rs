@@ -35,16 +35,15 @@ pub(crate) struct TableForm {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(example = &"measured.csv")]
     pub(crate) file: Option<String>,
-    /// Name of the column of times, s or the unit in its head, which the name may leave out; required with `file`.
+    /// Name of the column of times, s or the unit in its header, which the name may omit; required with `file`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(example = &"time_s")]
     pub(crate) time: Option<String>,
-    /// Name of the column of values, SI or the unit in its head, which the name may leave out; required with `file`.
+    /// Name of the column of values, SI or the unit in its header, which the name may omit; required with `file`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(example = &"stroke_m")]
     pub(crate) value: Option<String>,
-    /// Interpolation between the points: "straight" by default, or "cubic": smooth, and between the two values beside it
-    /// everywhere.
+    /// Interpolation between the points: "straight" by default, or "cubic": smooth and without overshoot.
     #[serde(default, skip_serializing_if = "is_straight")]
     #[schemars(example = &"cubic")]
     pub(crate) interpolation: JoinForm,
@@ -52,7 +51,7 @@ pub(crate) struct TableForm {
     #[serde(default = "one", skip_serializing_if = "is_one")]
     #[schemars(example = 0.5, extend("not" = json!({ "const": 0 }), "default" = 1.0))]
     pub(crate) gain: f64,
-    /// Added to all values after the gain, in the unit of what follows; 0 by default.
+    /// Added to all values after the gain, in the unit of the driven quantity; 0 by default.
     #[serde(default = "no_value")]
     #[schemars(example = &"100 nm")]
     pub(crate) offset: AnyQuantity,

@@ -32,7 +32,7 @@ pub(crate) enum WaveformForm {
     #[schemars(example = json!({ "table": { "points": [[0, 0], ["1 ms", "200 nm"], ["2 ms", 0]] } }))]
     Table(TableForm),
     /// Given by a caller while it runs, held or straight from value to value; `stickslip run` holds the initial value. It
-    /// has no period: no figures of steps per period are made of it.
+    /// has no period: steps per period are not evaluated.
     #[schemars(example = json!({ "input": { "initial": 0, "range": ["-1 um", "1 um"] } }))]
     Input(InputForm),
     /// Made inside: cycles whose stroke, frequency, heading and number a caller commands while they run. `stickslip run` takes

@@ -133,7 +133,7 @@ fn every_key_is_described_with_unit_default_and_examples() {
         assert!(text.len() > 10 && text.ends_with('.') && !text.contains('\n'), "{name}: {text}");
         if let Some(unit) = unit(&root, schema) {
             let words: Vec<&str> = text.split([',', ';', ':', '.', '(']).map(str::trim).collect();
-            let of_another = unit == "SI" && words.contains(&"in the unit of what follows");
+            let of_another = unit == "SI" && words.contains(&"in the unit of the driven quantity");
             let said = words.iter().any(|word| *word == unit || *word == format!("a number in {unit}"));
             assert!(said || of_another, "{name}: no word of {unit} in {text}");
             units += 1;

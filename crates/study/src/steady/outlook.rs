@@ -88,7 +88,9 @@ fn steps(scene: &Scene) -> u64 {
 fn too_few(steps: u64) -> Outlook {
     let asked = "`stickslip steady` and figures.steady_motion=true search without this limit";
     Outlook::NotFound {
-        fault: format!("no steady motion found within {steps} steps, a fifth of those of the run; {asked}"),
+        fault: format!(
+            "no steady motion found within {steps} integration steps, a fifth of those of the run; {asked}"
+        ),
     }
 }
 
