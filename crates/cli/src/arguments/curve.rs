@@ -28,7 +28,7 @@ reversed. --vary traces the step, or with `--curve holding-force` the holding fo
 Waveforms that act along the same axis with the same period and stroke are varied together. The duration and output of the scenario do not \
 matter.
 
-Writes curve.csv, curve.json and the plot curve.png. A point without a result is a row with the reason. The result does not \
+Writes curve.csv, curve.json and the plot curve.png. A point that gives no result is written as a row with the reason. The result does not \
 depend on the number of threads. Exit codes: 0 done, 2 bad input, 3 no point has a result, or a file cannot be written, 130 \
 interrupted: finished points are in curve-partial.csv, .json and .png, and an earlier result is kept.";
 

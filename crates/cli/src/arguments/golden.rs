@@ -10,8 +10,7 @@ Record reference results of scenarios and check whether they change: regression 
 
 `record` runs scenarios and keeps an excerpt of each in DIR/NAME: some rows, the events, the figures, the SHA-256 of all rows \
 and events, and the scenario. `check` runs the files as they are now and compares as `stickslip compare` does, so it finds \
-changes of the program and of the scenario; the latter are reported first. `accept` replaces what has changed, for a reason \
-that it writes into DIR/log.md. All use every core.
+changes of the program and of the scenario; the latter are reported first. `accept` replaces the recorded results that have changed by the new ones; you give a reason, which it adds to DIR/log.md. All use every core.
 
 A golden result detects change only: an error in it when it was recorded stays.
 

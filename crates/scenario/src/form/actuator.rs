@@ -65,7 +65,7 @@ pub(crate) struct ActuatorForm {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(example = json!({ "stroke": "4.6 um", "voltage": "120 V", "blocking_force": "460 N", "capacitance": "7.2 uF" }))]
     pub(crate) data_sheet: Option<DataSheetForm>,
-    /// What makes the voltage of the command; an ideal source by default.
+    /// Driver electronics that turn the command into the voltage of the stack; an ideal source by default.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(example = json!({ "window": ["0 V", "120 V"], "current": "2 A" }))]
     pub(crate) driver: Option<DriverForm>,

@@ -32,7 +32,7 @@ pub(crate) struct ContactForm {
     #[serde(default = "one")]
     #[schemars(range(min = 1, max = 1_000_000), example = 3)]
     pub(crate) count: Count,
-    /// The contact's own state at t = 0; u counts from where the bodies start.
+    /// Initial state of the contact at t = 0; u is measured from the initial positions of the bodies.
     #[serde(default)]
     #[schemars(example = json!({ "force": "10 mN" }))]
     pub(crate) start: ContactStartForm,

@@ -35,11 +35,11 @@ pub(crate) struct TableForm {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(example = &"measured.csv")]
     pub(crate) file: Option<String>,
-    /// Name of the column of times, s or the unit in its header, which the name may omit; required with `file`.
+    /// Name of the column of times, s or the unit in the column header, which may be omitted here; required with `file`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(example = &"time_s")]
     pub(crate) time: Option<String>,
-    /// Name of the column of values, SI or the unit in its header, which the name may omit; required with `file`.
+    /// Name of the column of values, SI or the unit in the column header, which may be omitted here; required with `file`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(example = &"stroke_m")]
     pub(crate) value: Option<String>,
