@@ -71,19 +71,25 @@ pub fn report<T: JsonSchema>(file: &'static str) -> Vec<Definition> {
     found.into_iter().map(definition).collect()
 }
 
-/// Names and texts of what a schema holds: a leaf is what holds no others.
-fn leaves(schema: &Map<String, Value>, name: &str, above: &str, found: &mut Vec<(String, String)>) {
-    let text = schema.get("description").and_then(Value::as_str).unwrap_or(above);
+/// Names and texts of what a schema of a name and a text holds: a leaf is what holds no others. What has no comment takes that of the variant
+/// that it stands in, but for the word that says which variant it is: there the comment of the field counts.
+fn leaves(schema: &Map<String, Value>, name: &str, text: &str, found: &mut Vec<(String, String)>) {
+    let comment =
+        |schema: &'_ Map<String, Value>| schema.get("description").and_then(Value::as_str).map(str::to_owned);
+    let described = |inner: &Map<String, Value>| {
+        let of_variant = || comment(schema).filter(|_| !inner.contains_key("const"));
+        comment(inner).or_else(of_variant).unwrap_or_else(|| text.to_owned())
+    };
     let mut holds = false;
     for (key, inner) in schema.get("properties").and_then(Value::as_object).into_iter().flatten() {
         let Some(inner) = inner.as_object() else { continue };
         let key = named(inner).filter(|_| !inner.contains_key("additionalProperties")).unwrap_or(key);
-        leaves(inner, &joined(name, key), text, found);
+        leaves(inner, &joined(name, key), &described(inner), found);
         holds = true;
     }
     let map = schema.get("additionalProperties").and_then(Value::as_object);
     if let (Some(key), Some(inner)) = (named(schema), map) {
-        leaves(inner, &joined(name, key), text, found);
+        leaves(inner, &joined(name, key), &described(inner), found);
         holds = true;
     }
     let items = schema.get("items").and_then(Value::as_object);
@@ -231,6 +237,8 @@ mod tests {
         flat: Option<Flat>,
         /// `a` or `b`
         state: Tagged,
+        /// `still`, or what moves it
+        moves: Moves,
         list: Vec<Part>,
     }
 
@@ -252,11 +260,22 @@ mod tests {
     #[serde(tag = "kind", rename_all = "snake_case")]
     #[allow(dead_code, reason = "only the types are read")]
     enum Tagged {
+        /// The first of two.
         A,
         B {
             /// of b
             height_m: f64,
         },
+    }
+
+    #[derive(Serialize, JsonSchema)]
+    #[serde(rename_all = "snake_case")]
+    #[allow(dead_code, reason = "only the types are read")]
+    enum Moves {
+        /// The first of two.
+        Still,
+        /// its waveform
+        Follows(String),
     }
 
     #[test]
@@ -269,6 +288,8 @@ mod tests {
             ("inner", "flat"),
             ("state.kind", "`a` or `b`"),
             ("state.height_m", "of b"),
+            ("moves.follows", "its waveform"),
+            ("moves", "`still`, or what moves it"),
             ("list.force_N", "a force of two lines"),
         ];
         assert_eq!(found, expected);
