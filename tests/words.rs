@@ -80,7 +80,7 @@ fn readme_and_changelog_are_short_and_plain() {
 }
 
 #[test]
-fn help_is_plain() {
+fn help_and_definitions_are_plain() {
     let first = stdout(&stickslip().arg("--help").output().unwrap());
     let mut all = found(&rules(), "--help", &first);
     let commands =
@@ -91,6 +91,8 @@ fn help_is_plain() {
         let help = stdout(&stickslip().args([name, "--help"]).output().unwrap());
         all += &found(&rules(), name, &prose(&help));
     }
+    // All definitions.
+    all += &found(&rules(), "explain", &prose(&stdout(&stickslip().arg("explain").output().unwrap())));
     assert_eq!(all, "");
 }
 

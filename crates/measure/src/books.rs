@@ -264,7 +264,7 @@ mod tests {
             ),
             "{message}"
         );
-        // Rounding is relative to all that is stored: without a tolerance it is not told of, with one as what it is.
+        // Rounding is relative to all that is stored: without a tolerance it is left out for, with one as what it is.
         assert!(said(verlet, 1e11, [0.0, 0.0, 0.05]).is_none());
         assert!(
             said(event, 1e11, [0.0, 0.0, 2e-6]).is_some() && said(event, 1e13, [0.0, 0.0, 2e-6]).is_none()

@@ -15,7 +15,7 @@ pub struct Warning {
     /// the place in the scenario that it is about
     #[serde(skip_serializing_if = "Option::is_none")]
     pub path: Option<String>,
-    /// what is odd, or what the results are not worth
+    /// what is implausible, or why the results are unreliable
     pub message: String,
     /// what to try
     #[serde(skip_serializing_if = "Option::is_none")]

@@ -120,7 +120,7 @@ pub struct RowTimes {
     pub springs: Vec<usize>,
     /// 99 of 100 frames on each took no longer
     pub p99_us: Vec<f64>,
-    /// springs for which a straight line through these comes to the period; null where that is not to be seen from them
+    /// number of springs at which a straight line through these reaches the period; null where that is not to be seen from them
     pub fit_in_period: Option<u64>,
 }
 

@@ -136,7 +136,7 @@ struct Stepper {
 
 #[derive(Debug, Serialize, JsonSchema)]
 struct Stop {
-    /// why the run did not come to its end
+    /// why the run stopped early
     message: String,
     /// what to try
     advice: &'static str,

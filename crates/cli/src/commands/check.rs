@@ -24,7 +24,7 @@ struct Finding<'a> {
     /// Everything that is wrong and no consequence of something else, in the order of the file; at most twenty.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     errors: Vec<Fault>,
-    /// `true` where more is known to be wrong than the twenty that are told
+    /// `true` where there are more errors than the twenty listed
     #[serde(skip_serializing_if = "std::ops::Not::not")]
     more: bool,
     /// what was not judged, or not all of it, because of the errors: `form` (keys, units, ranges), `meaning` (what parts are to

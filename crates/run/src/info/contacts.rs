@@ -64,7 +64,7 @@ pub struct Pressed {
     /// a, contact radius, where g(a) = d (4.26)
     #[serde(rename = "contact_radius_m")]
     pub radius: Real,
-    /// p_max, largest pressure; infinite at tips and edges, not told of a list of springs
+    /// p_max, largest pressure; infinite at tips and edges, left out for a list of springs
     #[serde(rename = "peak_pressure_Pa", skip_serializing_if = "Option::is_none")]
     pub peak_pressure: Option<Real>,
     /// u_c = κd, where gross slip of a first loading begins (4.28)
@@ -77,7 +77,7 @@ pub struct Pressed {
     /// What the constant load on the slider makes of it.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub loaded: Option<Loaded>,
-    /// μF_N, what all count contacts hold at most without damping; the stuck springs of a damped one bear βG*ṡ beside G*s
+    /// μF_N, maximum force of all count contacts without damping; the stuck springs of a damped one bear βG*ṡ beside G*s
     #[serde(rename = "limit_force_N")]
     pub limit_force: Real,
     /// ∂F_x/∂u of all count contacts where all of them sticks: count · 2G*a
@@ -86,7 +86,7 @@ pub struct Pressed {
     /// ∂F_N/∂d of all count contacts: count · 2E*a
     #[serde(rename = "normal_stiffness_N_m")]
     pub normal_stiffness: Real,
-    /// √(k/m)/2π, with k the tangential stiffness and m the reduced mass of its two bodies; not told where neither is free
+    /// √(k/m)/2π, with k the tangential stiffness and m the reduced mass of its two bodies; left out where neither is free
     #[serde(rename = "contact_resonance_Hz", skip_serializing_if = "Option::is_none")]
     pub resonance: Option<Real>,
 }
@@ -99,7 +99,7 @@ pub struct Loaded {
     pub force: Real,
     /// its magnitude over μF_N of all count contacts
     pub share: Real,
-    /// S₀ where this load opposes the steps; not told where the contact does not hold it
+    /// S₀ where this load opposes the steps; left out where the contact does not hold it
     #[serde(rename = "zero_step_stroke_m", skip_serializing_if = "Option::is_none")]
     pub zero_step_stroke: Option<Real>,
 }

@@ -12,7 +12,7 @@ use stickslip_quantity::Real;
 /// A body.
 #[derive(Debug, Serialize, JsonSchema)]
 pub struct BodyInfo {
-    /// m, mass; not told of a body that needs none
+    /// m, mass; left out for a body that needs none
     #[serde(rename = "mass_kg", skip_serializing_if = "Option::is_none")]
     pub mass: Option<Real>,
     /// What each coordinate does, by name.
@@ -37,7 +37,7 @@ pub enum Freed {
 /// A waveform.
 #[derive(Debug, Serialize, JsonSchema)]
 pub struct WaveformInfo {
-    /// T, period; not told of what does not repeat
+    /// T, period; left out for what does not repeat
     #[serde(rename = "period_s", skip_serializing_if = "Option::is_none")]
     pub period: Option<Real>,
     /// smallest and largest frequency that may be commanded of a generator

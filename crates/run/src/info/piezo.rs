@@ -43,7 +43,7 @@ pub struct PiezoInfo {
     /// smallest step of its driver as a stroke
     #[serde(rename = "resolution_m", skip_serializing_if = "Option::is_none")]
     pub resolution: Option<Real>,
-    /// kα²/C: share of the electrical energy that the charge of strain comes to, left out unless the driver is reciprocal
+    /// kα²/C: charge of strain as a share of the electrical energy, left out unless the driver is reciprocal
     #[serde(skip_serializing_if = "Option::is_none")]
     pub coupling: Option<Real>,
     /// What it is commanded.

@@ -21,7 +21,7 @@ pub struct Usage {
 pub struct Item {
     /// what a run computes
     pub what: &'static str,
-    /// of which parts of the scene; not told of the whole
+    /// of which parts of the scenario; left out for the whole
     #[serde(rename = "parts", skip_serializing_if = "Vec::is_empty")]
     pub of: Vec<String>,
     /// why, or how

@@ -24,8 +24,7 @@ pub struct Fretting {
     /// δ₀, half of the way between the places where F_x passes the middle of its range
     #[serde(rename = "half_opening_m", skip_serializing_if = "Option::is_none")]
     half_opening: Option<Real>,
-    /// E_d, all that the contact loses in the cycle: friction work, and of a damped contact what its damping takes; not told
-    /// where other parts lose energy as well, for their share is not told apart
+    /// E_d, all that the contact loses in the cycle: friction work, and of a damped contact what its damping takes; left out where other parts lose energy as well, for their share is not told apart
     #[serde(rename = "dissipated_J", skip_serializing_if = "Option::is_none")]
     pub dissipated: Option<Real>,
     /// friction's part of E_d, of a damped contact
@@ -37,13 +36,13 @@ pub struct Fretting {
     /// A = E_d/(4Q*δ*)
     #[serde(skip_serializing_if = "Option::is_none")]
     energy_ratio: Option<Real>,
-    /// B = E_d/(4Q*δ₀); not told where δ₀ is rounding, as in full stick
+    /// B = E_d/(4Q*δ₀); left out where δ₀ is rounding, as in full stick
     #[serde(skip_serializing_if = "Option::is_none")]
     system_free_ratio: Option<Real>,
     /// D = δ₀/δ*
     #[serde(skip_serializing_if = "Option::is_none")]
     slip_ratio: Option<Real>,
-    /// μ_e = E_d/(4Pδ₀), P the mean normal force; not told where δ₀ is rounding
+    /// μ_e = E_d/(4Pδ₀), P the mean normal force; left out where δ₀ is rounding
     #[serde(skip_serializing_if = "Option::is_none")]
     energy_coefficient_of_friction: Option<Real>,
     /// tangent right after the reversal at the largest u: count · 2G*a
@@ -52,7 +51,7 @@ pub struct Fretting {
     /// the same at the smallest u
     #[serde(rename = "stiffness_after_minimum_N_m", skip_serializing_if = "Option::is_none")]
     stiffness_after_minimum: Option<Real>,
-    /// secant over the first tenth of the way back from the largest u
+    /// secant over the first tenth of the displacement range after the largest u
     #[serde(rename = "secant_after_maximum_N_m", skip_serializing_if = "Option::is_none")]
     secant_after_maximum: Option<Real>,
     /// the same from the smallest u

@@ -80,10 +80,10 @@ pub struct Pressed {
     /// u_c = κd (4.28)
     #[serde(rename = "gross_slip_displacement_m")]
     pub gross_slip: Real,
-    /// μF_N, what it holds at most; with damping F_x may be larger while it moves, by up to βG*m(c)|u̇|
+    /// μF_N, its maximum tangential force; with damping F_x may be larger while it moves, by up to βG*m(c)|u̇|
     #[serde(rename = "limit_force_N")]
     pub limit_force: Real,
-    /// p_max, largest pressure; infinite at tips and edges, not told of a list of springs
+    /// p_max, largest pressure; infinite at tips and edges, left out for a list of springs
     #[serde(rename = "peak_pressure_Pa", skip_serializing_if = "Option::is_none")]
     pub peak_pressure: Option<Real>,
     /// 2G*a, ∂F_x/∂u where all of it sticks

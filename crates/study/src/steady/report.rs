@@ -27,9 +27,9 @@ pub struct Report {
     /// step over period
     #[serde(skip_serializing_if = "Option::is_none")]
     speed_m_s: Option<Real>,
-    /// whether a run that is disturbed a little comes back; left out where a disturbance neither fades nor grows, of a
+    /// whether a run that is disturbed a little comes back; left out where a disturbance neither decays nor grows, of a
     /// shakedown unless it grows, as a run may end in another of its family, and where the memory of a contact that never slips
-    /// grossly is `carried`: of that no multipliers are told
+    /// grossly is `carried`: its multipliers are not known
     #[serde(skip_serializing_if = "Option::is_none")]
     stable: Option<bool>,
     /// ρ, largest magnitude of a multiplier; 0 where there is none, null where they are not known
@@ -40,12 +40,12 @@ pub struct Report {
     aftermath: Option<AftermathReport>,
     /// the numbers that the map of a period is of
     unknowns: Vec<String>,
-    /// those of which no multiplier is told: memories come back with other knots when one of them is disturbed
+    /// those without a multiplier: memories come back with other knots when one of them is disturbed
     #[serde(rename = "without_multiplier")]
     untold: Vec<String>,
     /// number of ways along which nothing changes but the place
     drifts: usize,
-    /// contacts whose memories are no numbers of the map: they are led along, and multipliers do not know of them
+    /// contacts whose memories are no numbers of the map: they are propagated beside it, and multipliers do not include them
     #[serde(rename = "memories_not_in_map")]
     carried: Vec<String>,
     /// contacts that never slip grossly: what they hold near the centre they hold for ever, and this motion is the nearest of a
@@ -74,7 +74,7 @@ struct MultiplierReport {
     error: Real,
     /// what a disturbance does: it is `forgotten` after a period, `decays`, is `neutral` (stays as it is) or `grows`
     kind: &'static str,
-    /// 2π/|arg λ|, periods of a beat; none where it does not turn
+    /// 2π/|arg λ|, drive periods of one oscillation; none where it does not oscillate
     #[serde(skip_serializing_if = "Option::is_none")]
     oscillation_periods: Option<Real>,
     /// 1/|ln |λ||, periods in which it becomes e times smaller, or larger
@@ -114,7 +114,7 @@ struct AftermathReport {
 
 #[derive(Debug, Clone, Serialize, JsonSchema)]
 struct DefectReport {
-    /// largest change of a number in a period on the way, in natural scales
+    /// largest change of a number in a period of the search, in natural scales
     size: Real,
     /// how the state of that period was found: `iteration`, from the end of the period before, or `newton`
     #[serde(rename = "method")]

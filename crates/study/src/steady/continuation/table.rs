@@ -43,7 +43,7 @@ struct Report<'a> {
     to: Real,
     /// local error per step of the runs
     tolerance: Real,
-    /// how exactly places are told, as a share of the range
+    /// accuracy of special points, as a share of the range
     accuracy: Real,
     /// place of the start among the points, counted from 0
     start: usize,
