@@ -171,7 +171,10 @@ fn a_load_past_the_limit_of_friction_ends_a_run_and_leaves_what_it_computed() {
     let output = run(&scenario("fretting_force"), out.path(), &["waveforms.pull.sine.amplitude=7.2 N"]);
     assert_eq!((code(&output), stdout(&output)), (3, String::new()));
     let said = stderr(&output);
-    assert!(said.contains("a load of 7.200 N on holder is more than its contacts hold, 6.000 N"), "{said}");
+    assert!(
+        said.contains("a load of 7.200 N on holder exceeds the friction limit of its contacts, 6.000 N"),
+        "{said}"
+    );
     // Holder and far holder carry the same load on the same contact: either gives way first.
     let stopped = said.lines().find(|line| line.starts_with("fretting_force: stopped: ")).unwrap_or_default();
     assert!(stopped.contains(": nothing balances 6.000e0 N along x of `"), "{said}");

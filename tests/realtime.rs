@@ -264,10 +264,10 @@ fn frames_under_a_normal_from_outside_are_warned_of() {
     fs::write(&file, text).unwrap();
     let check = |set: &[&str]| stderr(&stickslip().arg("check").arg(&file).args(set).output().unwrap());
     let said = check(&["--set", "run.stepper.frames.length=20 us"]);
-    assert!(said.contains("contacts.ball.normal.force: an input presses this contact"), "{said}");
-    assert!(!check(&[]).contains("an input presses"), "{}", check(&[]));
+    assert!(said.contains("contacts.ball.normal.force: an input sets the normal load of this contact"), "{said}");
+    assert!(!check(&[]).contains("an input sets the normal load"), "{}", check(&[]));
     let output = realtime(&file, folder.path()).args(["--for", "10 ms", "--unpaced"]).output().unwrap();
-    assert_eq!(stderr(&output).matches("an input presses this contact").count(), 1, "{}", stderr(&output));
+    assert_eq!(stderr(&output).matches("an input sets the normal load of this contact").count(), 1, "{}", stderr(&output));
 }
 
 /// Frames lost 2 % of a stroke at any accuracy, and said nothing.
@@ -285,10 +285,10 @@ fn frames_on_damped_springs_under_a_moving_normal_are_warned_of() {
         stderr(&stickslip().arg("check").arg(&file).args(set).output().unwrap())
     };
     let (frames, damped) = ("run.stepper.frames.length=20 us", "contacts.ball.damping=0.1 ms");
-    let words = "contacts.ball.damping: springs of this contact are damped under a normal that moves";
+    let words = "contacts.ball.damping: springs of this contact are damped under a moving normal load";
     assert!(check(&[frames, damped]).contains(words), "{}", check(&[frames, damped]));
     for quiet in [&[frames][..], &[damped], &[frames, "contacts.ball.damping=1 ns"]] {
-        assert!(!check(quiet).contains("under a normal that moves"), "{}", check(quiet));
+        assert!(!check(quiet).contains("under a moving normal load"), "{}", check(quiet));
     }
 }
 

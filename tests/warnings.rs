@@ -185,7 +185,8 @@ fn what_is_implausible_is_said_by_every_command_and_refused_by_none() {
         (stderr(&output), stdout(&output))
     };
     let (checked, _) = said("check", &[]);
-    let words = "loads[0].x: a load of 1.000 N on slider is more than its contacts hold, 180.0 mN (μF_N)";
+    let words =
+        "loads[0].x: a load of 1.000 N on slider exceeds the friction limit of its contacts, 180.0 mN (μF_N)";
     assert!(checked.starts_with("warning: --set loads[0].x=-1 N  ") && checked.contains(words), "{checked}");
     let folder = out.path().join("quickstart");
     assert_eq!(said("info", &[]).0, checked);

@@ -31,7 +31,7 @@ The last line is the verdict:
   equal      no difference exceeds its tolerance; the line before gives the largest
   differs    a difference exceeds its tolerance; with --exact everything but identical
 
-Each folder must be complete: tables as recorded in summary.json, rows and events as counted. Anything else is damaged, which \
+Each folder must be complete: every table that summary.json lists, with its number of rows and events. Anything else is damaged, which \
 is bad input, with file and line. Rows on different time grids are compared at common times; nothing is interpolated. Runs of \
 different length are compared until the shorter one ends. States, and rows at an event whose time is rounded differently, are \
 not compared.

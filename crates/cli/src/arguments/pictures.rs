@@ -28,7 +28,7 @@ pub(crate) struct PlotArguments {
     /// Plots to draw instead of those of the scenario; xy: channels over a channel
     #[arg(long, value_name = "NAME,…", value_delimiter = ',', value_parser = plot_names())]
     pub(crate) plots: Vec<PlotName>,
-    /// Folder of the plots: those of a folder NAME go to OUT/NAME/ [default: beside the results]
+    /// Folder for the plots; those of the results folder NAME are written to OUT/NAME/ [default: beside the results]
     #[arg(long, value_name = "OUT")]
     pub(crate) out: Option<PathBuf>,
     /// Overlay all results in one plot of each kind: OUT/over-NAME.png (needs --out); loop, trajectory, phase and xy only

@@ -99,7 +99,7 @@ fn trace(arguments: &CurveArguments, kind: Kind) -> Result<Verdict, CurveFailure
     let values = match asked {
         Some(range) => range.values()?,
         None => {
-            progress.tell(format_args!("{name}: looking for a range"));
+            progress.tell(format_args!("{name}: searching for a range"));
             let found = wide(&curves, &interrupt);
             // What was tried until then is no range.
             if interrupt.is_raised() {
@@ -284,7 +284,7 @@ fn complain_of_warnings<'a>(job: &Job, points: impl Iterator<Item = &'a [Warning
 
 /// The points as a table.
 fn tell_rows(curve: &Curve, traced: &Traced) {
-    let heads = [curve.variation.name.as_str(), "step", "\u{b1}", "swings by", "mean speed"].into_iter();
+    let heads = [curve.variation.name.as_str(), "step", "\u{b1}", "oscillates by", "mean speed"].into_iter();
     let mut table = table::plain(heads.chain(curve.kind.is_of_load().then_some("power")).chain(["motion"]));
     for (place, point) in traced.points.iter().enumerate() {
         table.add_row(row(curve, traced, (place, point)));
@@ -297,13 +297,13 @@ fn tell_landmarks(curve: &Curve, traced: &Traced) {
     for landmark in &traced.landmarks {
         match &landmark.at {
             Ok(at) => {
-                let off = 100.0 * landmark.half_width / at.abs();
                 let there = landmark.value.map(|value| shown(value, landmark.unit()) + " at ");
                 say(format_args!(
-                    "{}: {}{} \u{b1} {off:.2e} %, {} points",
+                    "{}: {}{} \u{b1} {} ({} points)",
                     landmark.words(),
                     there.unwrap_or_default(),
                     shown(*at, curve.variation.unit),
+                    shown(landmark.half_width, curve.variation.unit),
                     landmark.runs
                 ));
             }

@@ -34,8 +34,13 @@ impl Implausible<'_> {
                 continue;
             }
             let [own, low, high] = [modulus, low, high].map(|e| told(e, "Pa"));
-            let message = format!("{own} is far from {}, which has {low} to {high}", kind.name);
-            self.find("modulus", &path, message, "a bare number is in Pa; is its prefix right, or its name?");
+            let message = format!("{own} is outside the range of {}, {low} to {high}", kind.name);
+            self.find(
+                "modulus",
+                &path,
+                message,
+                "a number without a unit is in Pa; check the unit prefix and the name of the material",
+            );
         }
     }
 
@@ -53,13 +58,23 @@ impl Implausible<'_> {
                 .map_or(0.0, |contact| contact.part.interface.friction());
             if given > law.friction() {
                 let message = format!(
-                    "a friction of {given:e} holds less than rounding makes of the forces and places beside it: it counts as none"
+                    "a friction coefficient of {given:e} gives forces below the rounding error of the other forces: it is treated as 0"
                 );
-                self.find("friction", &path, message, "a larger friction, or 0 where none is meant");
+                self.find(
+                    "friction",
+                    &path,
+                    message,
+                    "give a larger coefficient, or 0 for a contact without friction",
+                );
             } else if law.friction() == 0.0 && !setting.is_coupled(c) {
                 // A contact that its bodies press bears them all the same.
-                let message = "without friction nothing holds: it slides under any force, and loses nothing";
-                self.find("friction", &path, message.to_owned(), "is that what was meant?");
+                let message = "without friction this contact slides under any force and dissipates nothing";
+                self.find(
+                    "friction",
+                    &path,
+                    message.to_owned(),
+                    "check that a friction coefficient of 0 is intended",
+                );
             }
             if d > 0.0 {
                 self.pressures(c, (name, law), d);
@@ -80,20 +95,23 @@ impl Implausible<'_> {
             .filter_map(substance)
             .min_by(|a, b| a.strength.total_cmp(&b.strength));
         let path = format!("contacts.{name}.normal");
-        let help = "press it less, or with a larger radius: the theory is elastic";
+        let help = "reduce the normal force or use a larger radius: the contact theory is elastic";
         if let Some(kind) = weaker.filter(|kind| mean > ONSET * kind.strength) {
             let [mean, onset, strength] = [mean, ONSET * kind.strength, kind.strength].map(|p| told(p, "Pa"));
             let message = format!(
-                "a mean pressure of {mean}, and {}, of a yield stress up to {strength}, begins to yield at about {onset}",
+                "a mean contact pressure of {mean}; {}, with a yield stress of up to {strength}, begins to yield at about {onset}",
                 kind.name
             );
             let stronger = kind.strongest().map_or_else(String::new, |other| {
                 let onset = told(ONSET * other.strength, "Pa");
-                format!("; if it is {}, name it so: that begins at {onset}", other.name)
+                format!("; {} begins to yield at {onset}: give that name if it is the material", other.name)
             });
             self.find("pressure", &path, message, &format!("{help}{stronger}"));
         } else if peak.is_finite() && peak > PRESSURE {
-            let message = format!("a largest pressure of {}, more than hard ceramics bear", told(peak, "Pa"));
+            let message = format!(
+                "a maximum contact pressure of {}, more than hard ceramics withstand",
+                told(peak, "Pa")
+            );
             self.find("pressure", &path, message, help);
         }
     }
@@ -104,15 +122,14 @@ impl Implausible<'_> {
         let share = law.profile().radius(d) / radius;
         if share > FLAT {
             let (theory, word) = if is_paraboloid {
-                ("no ball is a paraboloid so far out", "paraboloid")
+                ("the paraboloid is no longer a good approximation of a ball", "paraboloid")
             } else {
-                ("so near to its size no body is a half-space", "sphere")
+                ("the body is no longer well approximated by a half-space", "sphere")
             };
             let a = told(law.profile().radius(d), "m");
-            let message =
-                format!("the contact radius, {a}, is {share:.2} of the radius of the ball: {theory}");
+            let message = format!("the contact radius, {a}, is {share:.2} of the ball's radius: {theory}");
             let path = format!("contacts.{name}.profile.{word}.radius");
-            self.find("geometry", &path, message, "is the radius in the unit that was meant?");
+            self.find("geometry", &path, message, "check the unit of the radius");
         }
     }
 }

@@ -22,8 +22,8 @@ impl Implausible<'_> {
             let Some(spec) = &piezo.driver else { continue };
             if spec.current.is_some() && spec.resistance.is_none() {
                 let path = format!("actuators.{}.driver.reciprocal", piezo.name);
-                let message = "without events a reciprocal driver chatters at its limit of current, whatever the step: what it draws may be a third too much, what dampers take many times as much".to_owned();
-                let help = "take the stepper event, or give the driver its resistance";
+                let message = "without events a reciprocal driver chatters at its current limit at any step size: its energy may be a third too large, that of dampers many times too large".to_owned();
+                let help = "use the stepper `event`, or set the driver's resistance";
                 self.find("driver_chatters", &path, message, help);
             }
         }
@@ -53,9 +53,9 @@ impl Implausible<'_> {
             let key = if low { "bandwidth" } else { "resistance" };
             let time = told(rate.recip(), "s");
             let message = format!(
-                "this driver settles in {time}, which each step has to resolve: some {steps:.0e} steps"
+                "this driver settles within {time}, which every step has to resolve: about {steps:.0e} steps"
             );
-            let help = "leave it out, the voltage then follows at once; or run for a shorter time";
+            let help = "omit it (the voltage then follows without delay), or simulate a shorter time";
             self.find("stiff_driver", &format!("actuators.{}.driver.{key}", piezo.name), message, help);
         }
     }

@@ -44,15 +44,19 @@ impl Implausible<'_> {
             let name = self.setting.scenario.scene.bodies[body].name.clone();
             let path = pull.cause.1.map_or("gravity".to_owned(), |i| format!("loads[{i}].x"));
             let [load, holds] = [counts, holds].map(|force| told(force, "N"));
-            let then =
-                if pull.is_balanced { "nothing balances it, and a run ends there" } else { "it slides away" };
-            let message =
-                format!("a load of {load} on {name} is more than its contacts hold, {holds} (μF_N): {then}");
+            let then = if pull.is_balanced {
+                "nothing balances it, and the run stops there"
+            } else {
+                "it slides away"
+            };
+            let message = format!(
+                "a load of {load} on {name} exceeds the friction limit of its contacts, {holds} (μF_N): {then}"
+            );
             self.find(
                 "load",
                 &path,
                 message,
-                "less load, more normal force, or a spring that holds the body",
+                "reduce the load, increase the normal force, or hold the body by a spring",
             );
         }
     }
@@ -140,7 +144,7 @@ impl Implausible<'_> {
             let frequency = told((part.stiffness * mobility).sqrt() / TAU, "Hz");
             let proposed = (part.stiffness / mobility).sqrt() / QUALITY;
             let message =
-                format!("nothing damps this stack: it rings for ever, at about {frequency} by itself");
+                format!("this stack has no damping: it rings without end, at about {frequency} when free");
             let help = format!("a quality factor of {QUALITY} has \"damping\": {proposed:.2}, in N s/m");
             self.find("damping", &format!("actuators.{name}"), message, &help);
         }
@@ -157,8 +161,9 @@ impl Implausible<'_> {
             for (key, value, (low, high), unit, typical) in numbers {
                 let Some(value) = value.filter(|value| !(low..=high).contains(value)) else { continue };
                 let [said, low, high] = [value, low, high].map(|number| told(number, unit));
-                let message = format!("a {key} of {said}: piezo actuators have {low} to {high}");
-                let help = format!("a stack has about {typical}; a bare number is in {unit}");
+                let message =
+                    format!("a {key} of {said} is outside the range of piezo actuators, {low} to {high}");
+                let help = format!("typical of a stack: {typical}; a number without a unit is in {unit}");
                 self.find(key, &setting.scenario.stack_path(&piezo.name, key), message, &help);
             }
         }
@@ -173,11 +178,11 @@ impl Implausible<'_> {
             let said = told(1e3 * mass, "g");
             if mass > MASSES.1 {
                 let most = told(1e3 * MASSES.1, "g");
-                let message = format!("{said} are more than a stick-slip drive moves, {most} at most");
-                self.find("mass", &path, message, "a bare number is in kg; ten grams are \"10 g\"");
+                let message = format!("a mass of {said} is more than stick-slip drives move, {most} at most");
+                self.find("mass", &path, message, "a number without a unit is in kg; ten grams are \"10 g\"");
             } else if mass < MASSES.0 {
-                let message = format!("{said} are less than a grain of dust has");
-                self.find("mass", &path, message, "a bare number is in kg; ten grams are \"10 g\"");
+                let message = format!("a mass of {said} is less than that of a grain of dust");
+                self.find("mass", &path, message, "a number without a unit is in kg; ten grams are \"10 g\"");
             }
         }
     }

@@ -82,19 +82,19 @@ impl Implausible<'_> {
             let (low, high) = self.setting.scenario.scene.waveforms[w].part.range();
             let (stroke, path) = (high - low, self.setting.scenario.waveform_path(w).unwrap_or_default());
             let said = told(stroke, "m");
-            let help = "a bare number is in m; in a table the head of a column may say its unit, as in \"disp (µm)\"";
+            let help = "a number without a unit is in m; the header of a table column may give its unit, as in \"disp (µm)\"";
             if stroke > STROKES.1 {
                 self.find(
                     "stroke",
                     &path,
-                    format!("a stroke of {said}, more than any piezo drive has"),
+                    format!("a stroke of {said} is more than any piezo drive has"),
                     help,
                 );
             } else if stroke > 0.0 && stroke < STROKES.0 {
                 self.find(
                     "stroke",
                     &path,
-                    format!("a stroke of {said}, less than an atom's hundredth"),
+                    format!("a stroke of {said} is less than a hundredth of an atom's diameter"),
                     help,
                 );
             }
@@ -114,10 +114,10 @@ impl Implausible<'_> {
             }
             let [said, most, period] = [time, DAMPED * period, period].map(|time| told(time, "s"));
             let message = format!(
-                "a damping time of {said}, more than {most}, a tenth of the period of {period}: dampers carry the contact, not its springs"
+                "a damping time of {said} exceeds {most}, a tenth of the period of {period}: the contact force comes from dampers rather than from springs"
             );
             let path = format!("contacts.{}.damping", contact.name);
-            self.find("damping_time", &path, message, "typical are 0.1 us to 10 us: is its unit right?");
+            self.find("damping_time", &path, message, "typical values are 0.1 us to 10 us; check the unit");
         }
     }
 
@@ -136,11 +136,11 @@ impl Implausible<'_> {
             let name = &scene.contacts[c].name;
             let [said, least, passage] = [flank, PASSAGES * passage, passage].map(|time| told(time, "s"));
             let message = format!(
-                "a flank of {said}, shorter than {least}, in which a shear wave crosses the contact {name} {PASSAGES} times \
-                 ({passage} each): the contact is taken as a spring without inertia"
+                "a flank of {said} is shorter than {least}, {PASSAGES} passages of a shear wave through the contact {name} \
+                 ({passage} each): the contact is modelled as a spring without inertia"
             );
             let path = setting.scenario.waveform_path(w).unwrap_or_default();
-            self.find("flank", &path, message, "is the time in the unit that was meant?");
+            self.find("flank", &path, message, "check the unit of the time");
         }
     }
 
@@ -195,14 +195,14 @@ impl Implausible<'_> {
                 }
                 let (name, at) = (&scene.contacts[c].name, told(frequency, "Hz"));
                 let message = format!(
-                    "harmonic {order} of this drive, {share:.2} of its largest, meets the resonance of {name} at {at}"
+                    "harmonic {order} of this drive, {share:.2} of its largest, excites the resonance of {name} at {at}"
                 );
                 let path = setting.scenario.waveform_path(w).unwrap_or_default();
                 self.find(
                     "resonance",
                     &path,
                     message,
-                    "what comes out changes much with the period: vary it by some per cent",
+                    "the result depends strongly on the period: vary it by a few per cent",
                 );
                 break;
             }
@@ -232,10 +232,10 @@ impl Implausible<'_> {
             if expected > 0.0 && tolerance * unit > expected {
                 let [expected, unit] = [expected, unit].map(|length| told(length, "m"));
                 let message = format!(
-                    "{tolerance:e} of u_c, {unit} at {name}, is more than the step to be expected, {expected}"
+                    "{tolerance:e} of u_c, {unit} at {name}, is larger than the expected step length, {expected}"
                 );
                 let path = format!("run.stepper.{}.tolerance", stepper.name());
-                return self.find("tolerance", &path, message, "take a smaller one");
+                return self.find("tolerance", &path, message, "use a smaller tolerance");
             }
         }
     }
@@ -254,11 +254,10 @@ impl Implausible<'_> {
                 let path = format!("run.stepper.{}.step", stepper.name());
                 let [step, quickest] = [step, quickest].map(|time| told(time, "s"));
                 let message = format!(
-                    "{} turns within {quickest}: a step of {step} does not see what happens in between",
+                    "{} reverses within {quickest}: a time step of {step} cannot resolve it",
                     waveform.name
                 );
-                let help =
-                    "take steps of a fifth of that at most, or run.stepper.event, whose steps end at corners";
+                let help = "use time steps of at most a fifth of that, or run.stepper.event, whose steps end at corners";
                 return self.find("step", &path, message, help);
             }
         }
@@ -276,8 +275,9 @@ impl Implausible<'_> {
         };
         if count > MANY {
             let days = count / (RATE * 86_400.0);
-            let message = format!("about {count:.0e} {what}, which is {days:.0e} days at a million a second");
-            let help = "is a unit missing at a mass, a length or a time? else let it run for less";
+            let message =
+                format!("about {count:.0e} {what} are expected, {days:.0e} days at a million per second");
+            let help = "check the units of masses, lengths and times, or simulate a shorter time";
             self.find("endless", "run", message, help);
         }
     }
@@ -304,9 +304,9 @@ impl Implausible<'_> {
             if is_fed(varying) {
                 let path = format!("contacts.{}.normal.{key}", contact.name);
                 let message = format!(
-                    "an input presses this contact, and frames keep no accuracy there: more than {accuracy:e} may be lost of a stroke"
+                    "an input sets the normal load of this contact, where frames have no bound of error: it may exceed {accuracy:e} of a stroke"
                 );
-                let help = "compare with shorter frames, or take the stepper event in frames";
+                let help = "compare with shorter frames, or use the stepper `event`";
                 self.find("frames_under_input", &path, message, help);
             }
         }
@@ -333,10 +333,10 @@ impl Implausible<'_> {
                 let path = format!("contacts.{}.normal", contact.name);
                 let (lift, depth) = (told(lift, "m"), told(depth, "m"));
                 let message = format!(
-                    "a foot lifts by {lift}, and this contact is {depth} deep at the start: {}",
+                    "a foot lifts by {lift}, and the indentation of this contact is {depth} at the start: {}",
                     multiplied(accuracy)
                 );
-                let help = "compare with a smaller accuracy, or take the stepper event in frames";
+                let help = "compare with a smaller accuracy, or use the stepper `event`";
                 self.find("frames_under_impacts", &path, message, help);
             }
         }
@@ -351,19 +351,19 @@ impl Implausible<'_> {
             let plays =
                 matches!(piezo.ceramic.hysteresis, Some(Hysteresis::Plays(..))) && !piezo.ceramic.idle;
             let (key, what) = if spec.is_some_and(|spec| spec.current.is_some()) && accuracy < LIMITS {
-                ("driver.current", "meet this limit")
+                ("driver.current", "reach this limit")
             } else if follows && accuracy < HARD_LIMITS && piezo.cut(&setting.scenario.scene).is_some() {
-                ("driver.window", "meet an end of this window")
+                ("driver.window", "reach an end of this window")
             } else if plays && accuracy < LIMITS {
-                ("hysteresis", "see plays of this hysteresis turn")
+                ("hysteresis", "follow reversals of this hysteresis")
             } else {
                 continue;
             };
             let path = format!("actuators.{}.{key}", piezo.name);
             let message = format!(
-                "frames {what} late by up to a step: more than {accuracy:e} may be lost of a stroke where it acts"
+                "frames {what} up to one step late: the error may exceed {accuracy:e} of a stroke where it acts"
             );
-            let help = "compare with shorter frames, or take the stepper event in frames";
+            let help = "compare with shorter frames, or use the stepper `event`";
             self.find("frames_under_limits", &path, message, help);
         }
     }
@@ -392,17 +392,17 @@ impl Implausible<'_> {
             let own = flanks.iter().filter(|(_, sides)| meets(sides)).map(|(flank, _)| *flank);
             let way = contact.part.interface.damping() * own.fold(0.0, f64::max);
             let what = if !is_still && way > STRUCK * natural.displacement {
-                "damped under a normal that moves, and a flank strikes them"
+                "damped under a moving normal load and excited by a flank"
             } else if jumps {
-                "damped, and their stiffness jumps with the depth"
+                "damped, and their stiffness jumps with the indentation"
             } else {
                 continue;
             };
             let path = format!("contacts.{}.damping", contact.name);
             let message = format!(
-                "springs of this contact are {what}: more than the {accuracy:e} that frames are asked for may be lost of a stroke"
+                "springs of this contact are {what}: the error of frames may exceed the requested {accuracy:e} of a stroke"
             );
-            let help = "compare with the stepper event, or take it in frames";
+            let help = "compare with the stepper `event`, or use it";
             self.find("frames_under_damping", &path, message, help);
         }
     }
@@ -410,9 +410,7 @@ impl Implausible<'_> {
 
 /// What frames lose of an accuracy where contacts part and touch.
 pub fn multiplied(accuracy: f64) -> String {
-    format!(
-        "each touch multiplies errors, and more than the {accuracy:e} that frames are asked for may be lost of a stroke"
-    )
+    format!("each impact multiplies errors: they may exceed the requested {accuracy:e} of a stroke")
 }
 
 /// Amplitude of a harmonic in parts of the largest of the first ones.

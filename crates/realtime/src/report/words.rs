@@ -5,8 +5,8 @@ use crate::plant::WORK;
 use crate::worst::Slow;
 
 /// What nobody can promise here.
-pub const PROMISE: &str = "as seen in this run, not a bound: without a real-time kernel (PREEMPT_RT), a processor of its own and locked \
-memory the system may keep the loop waiting for milliseconds at any time, and no program can prevent it";
+pub const PROMISE: &str = "measured in this run, not a bound: without a real-time kernel (PREEMPT_RT), a reserved processor and locked \
+memory the operating system may delay the loop by milliseconds at any time";
 
 /// The report for people. `worst` is the slowest frame.
 pub fn text(report: &Report, worst: Option<&Slow>) -> String {
@@ -68,7 +68,7 @@ fn inputs(report: &Report) -> Option<String> {
     let refused = received.refused();
     let refused = refused.map_or_else(|| "none refused".to_owned(), |refused| format!("refused: {refused}"));
     Some(format!(
-        "  inputs: {} good, {refused}; {} of {} frames had no new one, {} in a row at most",
+        "  inputs: {} valid, {refused}; {} of {} frames had no new input, at most {} in a row",
         received.good, received.stale_frames, report.frames, received.most_stale
     ))
 }
@@ -89,10 +89,13 @@ fn springs(report: &Report) -> Option<String> {
     let measured: Vec<String> =
         rows.springs.iter().zip(&rows.p99_us).map(|(n, time)| format!("{n} springs {time:.2} µs")).collect();
     let fits = match rows.fit_in_period {
-        Some(n) => format!("about {n} springs a contact would fill the period"),
-        None => "how many would fill the period is not measured".to_owned(),
+        Some(n) => format!("about {n} springs per contact would fill the period"),
+        None => "the number that would fill the period is not measured".to_owned(),
     };
-    Some(format!("  on rows of springs 99 % of the frames took: {}; {fits}", measured.join(", ")))
+    Some(format!(
+        "  with contacts as rows of springs 99 % of the frames took: {}; {fits}",
+        measured.join(", ")
+    ))
 }
 
 /// Kept or not.
@@ -101,7 +104,7 @@ fn verdict(report: &Report) -> String {
     let Report { overruns, frames, deadlines_skipped, longest_skip, .. } = report;
     match report.ended {
         "stopped" | "memory" => format!("stopped: {}", report.error.as_deref().unwrap_or_default()),
-        "no_input" => "not begun: no input came".to_owned(),
+        "no_input" => "not started: no input came".to_owned(),
         _ if !report.paced => {
             format!("not paced; 99.99 % of the frames took up to {share:.1} % of the period")
         }
@@ -116,10 +119,10 @@ fn verdict(report: &Report) -> String {
                 "silence" => ", ended by silence",
                 _ => "",
             };
-            let kept = if *overruns == 0 { "kept until then" } else { "not kept" };
+            let kept = if *overruns == 0 { "no overrun until then" } else { "not kept" };
             format!(
-                "{kept}{ended}: {overruns} of {frames} frames overran, {deadlines_skipped} deadlines left out, {longest_skip} \
-                 in a row at most; 99.99 % of the frames took up to {share:.1} % of the period"
+                "{kept}{ended}: {overruns} of {frames} frames overran, {deadlines_skipped} deadlines skipped, at most {longest_skip} \
+                 in a row; 99.99 % of the frames took up to {share:.1} % of the period"
             )
         }
     }

@@ -20,7 +20,7 @@ pub struct Stepping {
     /// length of a frame, of the stepper `frames`
     #[serde(rename = "frame_s", skip_serializing_if = "Option::is_none")]
     pub frame: Option<Real>,
-    /// steps that a frame takes without those that corners and contacts add
+    /// time steps of a frame, without those added at corners and contact events
     #[serde(skip_serializing_if = "Option::is_none")]
     pub substeps: Option<Real>,
     /// simulated time

@@ -86,13 +86,13 @@ fn contact_line(name: &str, contact: &ContactPeriod) -> String {
         share(contact.slip_share_return)
     );
     let times = match contact.reversals_forward {
-        1 => "1 reversal of the sliding direction".to_owned(),
-        times => format!("{times} reversals of the sliding direction"),
+        1 => "1 reversal of the relative motion".to_owned(),
+        times => format!("{times} reversals of the relative motion"),
     };
     let ringing = match contact.settling {
         _ if contact.reversals_forward == 0 => "no ringing".to_owned(),
         None => format!(
-            "{times} in the forward stroke; at its end the tangential force still oscillates by {} of μF_N, so the step depends on the period",
+            "{times} in the forward stroke; at the end of that stroke the tangential force still oscillates by {} of μF_N, so the step depends on the period",
             percent(contact.ringing_left.0)
         ),
         Some(settling) if settling.0 == 0.0 => {

@@ -78,9 +78,27 @@ const FLYBACK: &str = "waveforms.drive.sawtooth.flyback";
 type Slip = (&'static str, &'static str, [&'static str; 2], (&'static str, &'static str), [&'static str; 2]);
 
 const SLIPS: [Slip; 9] = [
-    ("driven_stage", "bodies.stage.mass", ["100 kg", "25 kg"], NONE, ["mass", "100.0 kg are more than"]),
-    ("driven_stage", STIFFNESS, ["0.1 N/m", "0.2 N/um"], NONE, ["stiffness", "a stiffness of 100.0 mN/m: "]),
-    ("driven_stage", STIFFNESS, ["100 N/mm", "1 N/um"], NONE, ["stiffness", "a stiffness of 100.0 kN/m: "]),
+    (
+        "driven_stage",
+        "bodies.stage.mass",
+        ["100 kg", "25 kg"],
+        NONE,
+        ["mass", "a mass of 100.0 kg is more than"],
+    ),
+    (
+        "driven_stage",
+        STIFFNESS,
+        ["0.1 N/m", "0.2 N/um"],
+        NONE,
+        ["stiffness", "a stiffness of 100.0 mN/m is outside"],
+    ),
+    (
+        "driven_stage",
+        STIFFNESS,
+        ["100 N/mm", "1 N/um"],
+        NONE,
+        ["stiffness", "a stiffness of 100.0 kN/m is outside"],
+    ),
     (
         "driven_stage",
         STIFFNESS,
@@ -88,13 +106,19 @@ const SLIPS: [Slip; 9] = [
         NONE,
         ["stiffness", "200.0 kN/m to 10.00 GN/m"],
     ),
-    ("driven_stage", CAPACITANCE, ["7.2 mF", "1 mF"], NONE, ["capacitance", "a capacitance of 7.200 mF: "]),
+    (
+        "driven_stage",
+        CAPACITANCE,
+        ["7.2 mF", "1 mF"],
+        NONE,
+        ["capacitance", "a capacitance of 7.200 mF is outside"],
+    ),
     (
         "quickstart",
         "contacts.ball.damping",
         ["1.1 ms", "1 ms"],
         NONE,
-        ["damping_time", "1.100 ms, more than 1.000 ms"],
+        ["damping_time", "1.100 ms exceeds 1.000 ms"],
     ),
     // 2a = 18.16 µm of √(G/ρ) = 3.208 km/s in steel: 5.661 ns each.
     (
@@ -102,17 +126,17 @@ const SLIPS: [Slip; 9] = [
         FLYBACK,
         ["56 ns", "57 ns"],
         NONE,
-        ["flank", "a flank of 56.00 ns, shorter than 56.61 ns"],
+        ["flank", "a flank of 56.00 ns is shorter than 56.61 ns"],
     ),
     // The voltage of a stack: 2a = 58.4 µm, 91 ns a passage ten times.
-    ("driven_stage", FLYBACK, ["10 ns", "1 us"], NONE, ["flank", "a flank of 10.00 ns, shorter than"]),
+    ("driven_stage", FLYBACK, ["10 ns", "1 us"], NONE, ["flank", "a flank of 10.00 ns is shorter than"]),
     // 1.07 of 355 MPa: 1.159 GPa under 300 mN, and pressures go with the third root of the force.
     (
         "quickstart",
         PRESS,
         ["10.6 mN", "10.5 mN"],
         STEEL,
-        ["pressure", "structural steel, of a yield stress up to 355.0 MPa"],
+        ["pressure", "structural steel, with a yield stress of up to 355.0 MPa"],
     ),
 ];
 

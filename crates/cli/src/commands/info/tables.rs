@@ -133,7 +133,7 @@ fn run(info: &Info) -> String {
     let stepper = match (stepping.tolerance, stepping.step, stepping.frame.zip(stepping.substeps)) {
         (Some(tolerance), ..) => format!("{}, tolerance {:e}", stepping.stepper, tolerance.0),
         (_, _, Some((frame, steps))) => format!(
-            "{} of {}, of {} steps and those that corners and contacts add",
+            "{} of {}, {} time steps each, more at corners and contact events",
             stepping.stepper,
             quantity(frame, "s"),
             whole(steps.0)

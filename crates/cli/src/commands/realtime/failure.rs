@@ -101,9 +101,9 @@ pub(crate) enum Failure {
     },
     /// More than the machine can do.
     #[error(
-        "--period: this machine cannot keep {period:.3} µs: of {frames} frames without waiting half took up to {median:.3} µs, the \
-         longest {worst:.3} µs\n   help: a period of {help:.0} µs or more, another stepper or a coarser tolerance; --force starts all the \
-         same, --unpaced without a clock"
+        "--period: this machine cannot keep {period:.3} µs: of {frames} frames computed without waiting the median took {median:.3} µs, the \
+         longest {worst:.3} µs\n   help: use a period of {help:.0} µs or more, another stepper or a coarser tolerance; --force starts \
+         anyway, --unpaced runs without a clock"
     )]
     TooShort {
         /// The period, µs.

@@ -119,7 +119,7 @@ impl<'a> Stage<'a> {
             Accuracy::Frame { length, error } => {
                 let steps = self.job.model.substeps(length, error);
                 format!(
-                    "{}, accuracy {error:e}, of {steps} steps and those that corners and contacts add",
+                    "{}, accuracy {error:e}, {steps} time steps each, more at corners and contact events",
                     stepper.name()
                 )
             }
@@ -180,7 +180,7 @@ impl<'a> Stage<'a> {
         }
         if tells {
             complain(format_args!(
-                "{}: of {frames} frames without waiting half took up to {median:.2} µs, 99 % up to {most:.2} µs, the longest {worst:.2} µs",
+                "{}: {frames} frames computed without waiting: median {median:.2} µs, 99 % within {most:.2} µs, longest {worst:.2} µs",
                 self.job.name
             ));
         }
