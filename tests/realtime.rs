@@ -264,10 +264,18 @@ fn frames_under_a_normal_from_outside_are_warned_of() {
     fs::write(&file, text).unwrap();
     let check = |set: &[&str]| stderr(&stickslip().arg("check").arg(&file).args(set).output().unwrap());
     let said = check(&["--set", "run.stepper.frames.length=20 us"]);
-    assert!(said.contains("contacts.ball.normal.force: an input sets the normal load of this contact"), "{said}");
+    assert!(
+        said.contains("contacts.ball.normal.force: an input sets the normal load of this contact"),
+        "{said}"
+    );
     assert!(!check(&[]).contains("an input sets the normal load"), "{}", check(&[]));
     let output = realtime(&file, folder.path()).args(["--for", "10 ms", "--unpaced"]).output().unwrap();
-    assert_eq!(stderr(&output).matches("an input sets the normal load of this contact").count(), 1, "{}", stderr(&output));
+    assert_eq!(
+        stderr(&output).matches("an input sets the normal load of this contact").count(),
+        1,
+        "{}",
+        stderr(&output)
+    );
 }
 
 /// Frames lost 2 % of a stroke at any accuracy, and said nothing.

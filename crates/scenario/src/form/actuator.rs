@@ -11,20 +11,20 @@ use serde::{Deserialize, Serialize};
 use serde_json::json;
 use std::f64::consts::FRAC_1_SQRT_2;
 
-/// Piezo stack: force on the second body k(s-e) + c(ṡ-ė), e = x(second) - x(first) at its ends, or
-/// z(second) - z(first), s the free stroke. Numbers of a data sheet suffice: see docs/piezo.md.
+/// Piezo stack: a spring and a damper with a free stroke s. Its force on the second body is k(s-e) + c(ṡ-ė). The elongation is e =
+/// x(second) - x(first) at its ends, or z(second) - z(first). Values of a data sheet are enough to describe it: see docs/piezo.md.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 #[schemars(transform = stroke_or_voltage)]
 pub(crate) struct ActuatorForm {
-    /// First and second body; `ground` is one too.
+    /// Names of the first and the second body; the fixed `ground` counts as a body.
     #[schemars(extend("uniqueItems" = true), example = json!(["ground", "slider"]))]
     pub(crate) between: Two,
-    /// Along x or z.
+    /// Direction in which the stack acts: "x", along the slide, by default, or "z", normal to the slide.
     #[serde(default)]
     #[schemars(example = &"z")]
     pub(crate) direction: DirectionForm,
-    /// Its end on each body by the body's name, relative to the body's reference point, which it is by default.
+    /// End point of the stack on each body by body name, relative to the body's reference point; by default the reference point itself.
     #[serde(default, skip_serializing_if = "Points::is_empty")]
     #[schemars(example = json!({ "slider": { "x": "5 mm" } }))]
     pub(crate) at: Points,
@@ -32,14 +32,15 @@ pub(crate) struct ActuatorForm {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(example = &"20 N/um", transform = above_zero)]
     pub(crate) stiffness: Option<Stiffness>,
-    /// Damping c, N s/m, at least 0; typical 0.1 N s/m to 100 N s/m. By default 0 where the scenario says nothing of the stack
-    /// but its stiffness and stroke, else √(k m)/50: the quality factor 50 of a soft ceramic with its electrodes, m the mass
-    /// that it moves, m₁m₂/(m₁ + m₂) of the bodies at its ends.
+    /// Damping c, N s/m, at least 0; typical 0.1 N s/m to 100 N s/m. By default it is 0 for a stack without `voltage`, `data_sheet` and
+    /// `mass`. For other stacks the default is √(k m)/50, with the reduced mass m = m₁m₂/(m₁ + m₂) of the bodies at the ends. A body that
+    /// is not free counts as infinitely heavy. This gives the quality factor 50 of a soft ceramic with its electrodes.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(example = &"0.5 N s/m", transform = at_least_zero)]
     pub(crate) damping: Option<Damping>,
-    /// Its own mass m, kg, above 0; none by default. Of this mass 4m/π² is added to an end whose body is free where the other end is held,
-    /// 2m/π² to each of two free ends: so its first resonance comes out.
+    /// Mass m of the stack itself, kg, above 0; none by default unless `data_sheet` gives a resonance. If one end is held, 4m/π² is added
+    /// to the free body at the other end. If both ends are free, 2m/π² is added to each body. These shares reproduce the first resonance of
+    /// the stack.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(example = &"2 g", transform = above_zero)]
     pub(crate) mass: Option<Mass>,
@@ -47,8 +48,8 @@ pub(crate) struct ActuatorForm {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(example = json!({ "follows": "drive" }))]
     pub(crate) stroke: Option<Moving<dimension::Length>>,
-    /// Voltage, V, that is commanded: the free stroke is `stroke_per_volt` times the voltage that the driver makes of it; this or
-    /// `stroke`; typical 10 V to 200 V.
+    /// Commanded voltage, V; give either this or `stroke`; typical 10 V to 200 V. Without hysteresis and creep, the free stroke is
+    /// `stroke_per_volt` times the output voltage of the driver.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(example = json!({ "follows": "drive" }))]
     pub(crate) voltage: Option<Moving<dimension::Voltage>>,
@@ -56,16 +57,16 @@ pub(crate) struct ActuatorForm {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(example = &"38 nm/V", transform = above_zero)]
     pub(crate) stroke_per_volt: Option<StrokePerVoltage>,
-    /// Capacitance C, F, above 0, at the fields it is driven with; needed by a driver; by default that of `data_sheet`; typical 10 nF to
-    /// 10 uF.
+    /// Capacitance C, F, above 0; needed with a `driver`; by default that of `data_sheet`; typical 10 nF to 10 uF. Give the value at the
+    /// amplitude of the drive voltage, which is up to twice that at 1 V.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(example = &"7.2 uF", transform = above_zero)]
     pub(crate) capacitance: Option<Capacitance>,
-    /// Values of the manufacturer's data sheet, none by default; missing keys of the stack follow from them.
+    /// Values of the manufacturer's data sheet; none by default. Keys of the stack that are left out are computed from these values.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(example = json!({ "stroke": "4.6 um", "voltage": "120 V", "blocking_force": "460 N", "capacitance": "7.2 uF" }))]
     pub(crate) data_sheet: Option<DataSheetForm>,
-    /// Driver electronics that turn the command into the voltage of the stack; an ideal source by default.
+    /// Driver electronics that turn the command into the voltage of the stack; an ideal voltage source by default.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(example = json!({ "window": ["0 V", "120 V"], "current": "2 A" }))]
     pub(crate) driver: Option<DriverForm>,
@@ -77,13 +78,13 @@ pub(crate) struct ActuatorForm {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(example = json!({ "per_decade": 0.015 }))]
     pub(crate) creep: Option<CreepForm>,
-    /// Whether the command is led through the inverses of hysteresis and creep before the driver; not by default.
+    /// Feedforward compensation: whether the inverse models of hysteresis and creep act on the command before the driver; false by default.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     #[schemars(example = true)]
     pub(crate) compensate: bool,
 }
 
-/// Numbers of a stack's data sheet. Those that say the same must agree within 1 %.
+/// Values of the data sheet of a stack. Values that determine the same quantity must agree within 1 %.
 #[derive(Debug, Clone, Copy, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct DataSheetForm {
@@ -107,25 +108,28 @@ pub(crate) struct DataSheetForm {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(example = &"7.2 uF", transform = above_zero)]
     pub(crate) capacitance: Option<Capacitance>,
-    /// First resonance without a load, Hz, above 0, both ends free; it gives the mass of the stack; unknown by default; typical 10 kHz to 500 kHz.
+    /// First resonance without a load, both ends free, Hz, above 0; unknown by default; typical 10 kHz to 500 kHz. It determines the mass
+    /// of the stack.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(example = &"120 kHz", transform = above_zero)]
     pub(crate) free_resonance: Option<Frequency>,
-    /// The same with one end held, Hz, above 0, half of that; unknown by default.
+    /// First resonance without a load, one end held, Hz, above 0; unknown by default. It is half of `free_resonance`, and determines the
+    /// mass of the stack as well.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(example = &"60 kHz", transform = above_zero)]
     pub(crate) held_resonance: Option<Frequency>,
 }
 
-/// Driver electronics between the command and the stack. What is not given does not limit.
+/// Driver electronics between the command and the stack. A limit whose key is left out does not act.
 #[derive(Debug, Clone, Copy, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct DriverForm {
-    /// Smallest and largest voltage, V: the commanded voltage is limited to this range; unlimited by default. Unipolar such as 0 V to 120 V, or bipolar.
+    /// Smallest and largest voltage, V, to which the commanded voltage is limited; unlimited by default. The range may be unipolar, such as
+    /// 0 V to 120 V, or bipolar.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(example = json!(["-20 V", "120 V"]))]
     pub(crate) window: Option<[Voltage; 2]>,
-    /// Largest current I, A, above 0: the voltage changes no faster than I/C; no limit by default; typical 10 mA to 20 A.
+    /// Largest current I into the stack, A, above 0; no limit by default; typical 10 mA to 20 A. The voltage changes no faster than I/C.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(example = &"2 A", transform = above_zero)]
     pub(crate) current: Option<Current>,
@@ -133,42 +137,47 @@ pub(crate) struct DriverForm {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(example = &"1 A", transform = above_zero)]
     pub(crate) sink_current: Option<Current>,
-    /// Resistance R between driver and stack, Ω, at least 0, none by default: the voltage follows with the time constant RC; typical 1 ohm to 1 kohm.
+    /// Resistance R between driver and stack, Ω, at least 0; none by default; typical 1 ohm to 1 kohm. The voltage of the stack follows the
+    /// driver with the time constant RC.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(example = &"10 ohm", transform = at_least_zero)]
     pub(crate) resistance: Option<Resistance>,
-    /// Bandwidth, Hz, above 0: the natural frequency of a second-order low-pass before the output stage; no limit by default; typical 100 Hz to 100 kHz.
+    /// Bandwidth, Hz, above 0; no limit by default; typical 100 Hz to 100 kHz. It is the natural frequency of a second-order low-pass
+    /// before the output stage.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(example = &"10 kHz", transform = above_zero)]
     pub(crate) bandwidth: Option<Frequency>,
-    /// Damping ratio ζ of that low-pass, 0.05 to 10; 1/√2, no overshoot in frequency, by default.
+    /// Damping ratio ζ of the low-pass with the natural frequency `bandwidth`, 0.05 to 10; 1/√2 by default. At 1/√2 and above, the
+    /// frequency response has no resonance peak.
     #[serde(default = "no_peak")]
     #[schemars(extend("minimum" = 0.05, "maximum" = 10), example = 0.5)]
     pub(crate) damping_ratio: f64,
-    /// Smallest step of the voltage, V, above 0: `info` shows it as a stroke; none by default; the voltage itself is not quantised; typical 1 mV to
-    /// 50 mV.
+    /// Resolution, the smallest step of the voltage, V, above 0; none by default; typical 1 mV to 50 mV. `info` shows it as a stroke. The
+    /// simulated voltage is not quantised.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(example = &"2 mV", transform = above_zero)]
     pub(crate) resolution: Option<Voltage>,
-    /// What the driver controls: the voltage, or the charge C·V, which a stack follows without hysteresis and creep.
+    /// Controlled quantity of the driver: the "voltage" by default, or the "charge" C·V. Under charge control the stack has no hysteresis
+    /// and no creep.
     #[serde(default)]
     #[schemars(example = &"charge")]
     pub(crate) control: ControlForm,
-    /// Whether the charge kα(e - αV) that strain makes is there, C being the capacitance of the free stack: it flows through the driver and,
-    /// under charge control, stiffens the stack to k/(1 - kα²/C); false by default. `info` shows kα²/C.
+    /// Direct piezoelectric effect: whether strain of the stack generates the charge kα(e - αV); false by default. α is the free stroke per
+    /// volt, C the capacitance of the free stack. This charge flows through the driver. Under charge control it stiffens the stack to k/(1
+    /// - kα²/C). `info` shows kα²/C.
     #[serde(default)]
     #[schemars(example = true)]
     pub(crate) reciprocal: bool,
 }
 
-/// What a driver controls.
+/// Controlled quantity of a driver.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub(crate) enum ControlForm {
     /// The voltage.
     #[default]
     Voltage,
-    /// The charge.
+    /// The charge C·V.
     Charge,
 }
 

@@ -7,7 +7,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use serde_json::json;
 
-/// A rigid body in the plane. Its coordinates are displacements from the reference position.
+/// A rigid body in the plane of x, along the slide, and z, normal to it. Its coordinates are displacements from the reference position.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 #[schemars(transform = inertia_where_free)]
@@ -16,44 +16,45 @@ pub(crate) struct BodyForm {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(example = &"10 g", transform = above_zero)]
     pub(crate) mass: Option<Mass>,
-    /// Moment of inertia about the reference point, the centre of mass, kg m², above 0; needed where pitch is free. A
-    /// solid ball of radius R has 2/5 m R², a block of length l and height h m (l² + h²)/12.
+    /// Moment of inertia about the reference point, the centre of mass, kg m², above 0; needed where pitch is free. A solid ball of radius
+    /// R has 2/5 m R². A block of length l and height h has m (l² + h²)/12.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(example = &"250 g mm^2", transform = above_zero)]
     pub(crate) inertia: Option<Inertia>,
-    /// The coordinate along the slide: "fixed", "free", "balanced", or one that follows a waveform of lengths.
+    /// Coordinate along the slide: "fixed" by default, "free", "balanced", or one that follows a waveform of lengths.
     #[serde(default)]
     #[schemars(example = &"free", example = json!({ "follows": "drive" }))]
     pub(crate) x: FreedomForm,
-    /// The coordinate normal to the slide, up: "fixed" by default, "free", "balanced", or one that follows a waveform of
-    /// lengths. While it is fixed, its guide carries weight and loads.
+    /// Coordinate normal to the slide, upwards: "fixed" by default, "free", "balanced", or one that follows a waveform of lengths. While it
+    /// is fixed, a guide carries weight and loads.
     #[serde(default, skip_serializing_if = "FreedomForm::is_fixed")]
     #[schemars(example = &"free", example = json!({ "follows": "lift" }))]
     pub(crate) z: FreedomForm,
-    /// The small angle θ of rotation, positive from x towards z: "fixed" by default, "free", or one that follows a waveform of
-    /// angles. A point at (X, Z) from the reference point moves by -Zθ along x and by Xθ along z.
+    /// Small angle θ of rotation, positive from x towards z: "fixed" by default, "free", or one that follows a waveform of angles. A point
+    /// at (X, Z) from the reference point moves by -Zθ along x and by Xθ along z.
     #[serde(default, skip_serializing_if = "FreedomForm::is_fixed")]
     #[schemars(example = &"free", example = json!({ "follows": "rock" }))]
     pub(crate) pitch: FreedomForm,
-    /// Where the body is at t = 0, and how fast; by default at rest in the reference position.
+    /// Initial position and velocity of the body at t = 0; by default at rest in the reference position.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(example = json!({ "z": "20 um", "vx": "2 mm/s" }))]
     pub(crate) start: Option<BodyStartForm>,
 }
 
-/// What a coordinate does: "fixed", "free", "balanced", or {"follows": waveform}.
+/// Type of motion of a coordinate: "fixed", "free", "balanced", or {"follows": waveform}.
 #[derive(Debug, Clone, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub(crate) enum FreedomForm {
-    /// Stays where it is.
+    /// The coordinate does not move.
     #[default]
     Fixed,
-    /// Obeys Newton; needs a mass, a pitch a moment of inertia.
+    /// The coordinate obeys Newton's second law; x and z need a mass, pitch needs a moment of inertia.
     Free,
-    /// Force control without mass: x or z is where loads, springs and contacts balance at every moment. What acts at t = 0
-    /// moves it there from where it is drawn. Takes no mass and no damping, and no other coordinate may be free.
+    /// Force control without mass: x or z takes the position at which the forces of loads, springs and contacts balance at every moment.
+    /// The forces at t = 0 move it there from the reference position. It takes no mass and no damping. No coordinate of the scenario may be
+    /// free beside it.
     Balanced,
-    /// Follows a waveform of lengths, m, a pitch one of angles, rad: its name, or one written out here.
+    /// The coordinate follows a waveform: of lengths, m, for x and z, of angles, rad, for pitch. Give its name, or write the waveform here.
     #[schemars(example = json!({ "follows": "drive" }))]
     Follows(WaveformRef),
 }
@@ -64,7 +65,7 @@ impl FreedomForm {
     }
 }
 
-/// Where a body is at t = 0, and how fast.
+/// Initial position and velocity of a body at t = 0.
 #[derive(Debug, Clone, Copy, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct BodyStartForm {

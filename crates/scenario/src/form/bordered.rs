@@ -6,7 +6,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use serde_json::json;
 
-/// A worn cone.
+/// A worn cone, whose tip is a flat.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct TruncatedConeForm {
@@ -18,7 +18,7 @@ pub(crate) struct TruncatedConeForm {
     pub(crate) slope: f64,
 }
 
-/// A worn ball.
+/// A worn ball, whose lowest part is a flat.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct TruncatedParaboloidForm {
@@ -49,16 +49,16 @@ pub(crate) struct TippedParaboloidForm {
     /// Radius of curvature R of the paraboloid, m, above 0; typical 0.1 mm to 50 mm.
     #[schemars(example = &"5 mm", transform = above_zero)]
     pub(crate) radius: Length,
-    /// Radius of the conical tip, m; the cone has the slope tip/R and joins the paraboloid smoothly, above 0; typical 1 um to 50 um.
+    /// Radius of the conical tip, m, above 0; typical 1 um to 50 um. The cone has the slope tip/R and joins the paraboloid smoothly.
     #[schemars(example = &"5 um", transform = above_zero)]
     pub(crate) tip: Length,
 }
 
-/// A sum of powers.
+/// A sum of powers of the radius r.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct PowersForm {
-    /// Terms A rⁿ, at least one of them above 0.
+    /// Terms A rⁿ of the sum, at least one of them above 0.
     #[schemars(length(min = 1), example = json!([{ "coefficient": 100, "exponent": 2 }, { "coefficient": 1e9, "exponent": 4 }]))]
     pub(crate) terms: Vec<TermForm>,
 }

@@ -7,25 +7,25 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use serde_json::json;
 
-/// A frictional contact: u = x(first) - x(second) at the contact point; friction pulls the second body along with the
-/// first.
+/// A frictional contact between two bodies. Its tangential displacement is u = x(first) - x(second) at the contact point. Friction drags
+/// the second body along with the first.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct ContactForm {
-    /// First (lower) and second body; `ground` is one too.
+    /// Names of the first (lower) and the second body; the fixed `ground` counts as a body.
     #[schemars(extend("uniqueItems" = true), example = json!(["foot", "slider"]))]
     pub(crate) between: Two,
-    /// Names of the two materials; their order does not matter. Those of `materials`, or alumina, aluminium, brass, glass,
+    /// Names of the two materials; their order does not matter. They are names of `materials`, or alumina, aluminium, brass, glass,
     /// hardened steel, PTFE, ruby, sapphire, silicon, steel, titanium, zirconia.
     #[schemars(example = json!(["ruby", "hardened steel"]))]
     pub(crate) materials: Two,
-    /// Profile of the gap.
+    /// Profile of the gap between the undeformed bodies.
     #[schemars(example = json!({ "paraboloid": { "radius": "0.5 mm" } }))]
     pub(crate) profile: ProfileForm,
     /// The Coulomb coefficient of the pair, 0 to 1000; typical 0.05 to 0.6.
     #[schemars(range(min = 0.0, max = 1000.0), example = 0.2)]
     pub(crate) friction: f64,
-    /// What presses the contact.
+    /// Normal loading of the contact: a force, an indentation or a contact radius, or the motion of the bodies.
     #[schemars(example = json!({ "force": "0.3 N" }))]
     pub(crate) normal: NormalForm,
     /// Number of identical contacts that share this motion, 1 to 1 000 000.
@@ -36,20 +36,21 @@ pub(crate) struct ContactForm {
     #[serde(default)]
     #[schemars(example = json!({ "force": "10 mN" }))]
     pub(crate) start: ContactStartForm,
-    /// How the tangential problem is solved.
+    /// Method that solves the tangential contact problem: an exact memory curve by default, or a row of springs.
     #[serde(default)]
     #[schemars(example = &"curve", example = json!({ "springs": { "count": 1024 } }))]
     pub(crate) engine: EngineForm,
-    /// Contact point on each body by its name, relative to the body's reference point, which it is by default.
+    /// Contact point on each body by body name, relative to the body's reference point; by default the reference point itself.
     #[serde(default, skip_serializing_if = "Points::is_empty")]
     #[schemars(example = json!({ "slider": { "x": "5 mm", "z": "-3 mm" } }))]
     pub(crate) at: Points,
-    /// Gap between the bodies in the reference position, m, 0 by default; a negative value is an initial overlap. Only of a contact whose normal
-    /// is "coupled".
+    /// Gap between the bodies in the reference position, m, 0 by default; a negative value is an initial overlap. Only a contact whose
+    /// `normal` is "coupled" takes it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(example = &"2 um")]
     pub(crate) gap: Option<Length>,
-    /// Time constant β of the stuck springs, s, at least 0, 0 by default: they carry βG*ṡ beside G*s, slipping springs carry none of it.
+    /// Damping time constant β of the contact's sticking springs, s, at least 0, 0 by default. A sticking spring of stretch s carries βG*ṡ
+    /// in addition to G*s. A slipping spring has no damping.
     #[serde(default = "no_time", skip_serializing_if = "is_zero")]
     #[schemars(example = &"1 us", transform = at_least_zero)]
     pub(crate) damping: Time,
@@ -67,60 +68,60 @@ fn is_zero(time: &Time) -> bool {
     time.si == 0.0
 }
 
-/// What presses a contact.
+/// Normal loading of a contact.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub(crate) enum NormalForm {
-    /// Normal force of one contact, N, at least 0; at 0 the contact touches and its memory is gone; typical 1 mN to
-    /// 100 N.
+    /// Normal force of one contact, N, at least 0; typical 1 mN to 100 N. At 0 the bodies just touch, and the contact loses its memory of
+    /// earlier motion.
     #[schemars(transform = at_least_zero, example = json!({ "force": "0.3 N" }))]
     Force(Moving<dimension::Force>),
-    /// Indentation, m; negative: open; typical 1 nm to 1 um.
+    /// Indentation depth d, m; typical 1 nm to 1 um. At a negative depth the contact is open.
     #[schemars(example = json!({ "indentation": "50 nm" }))]
     Indentation(Moving<dimension::Length>),
     /// Contact radius, m, at least 0; typical 1 um to 100 um.
     #[schemars(transform = at_least_zero, example = json!({ "radius": "5 um" }))]
     Radius(Moving<dimension::Length>),
-    /// From the bodies' motion: d = z(first) - z(second) - gap at the contact point.
+    /// Indentation depth d = z(first) - z(second) - gap at the contact point, set by the motion of the bodies.
     Coupled,
 }
 
-/// State of a contact at t = 0. The preloaded kinds are reached monotonically from the untouched contact.
+/// Initial tangential state of a contact at t = 0. A preload is applied monotonically to the untouched contact.
 #[derive(Debug, Clone, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub(crate) enum ContactStartForm {
-    /// Springs unstretched.
+    /// No preload: all springs of the contact are unstretched.
     #[default]
     Untouched,
-    /// Preloaded to this tangential force of one contact, N; below friction times normal force in magnitude.
+    /// Tangential preload force of one contact, N; its magnitude is below the friction coefficient times the normal force.
     #[schemars(example = json!({ "force": "10 mN" }))]
     Force(Force),
-    /// Preloaded by this displacement u, m; typical below the displacement of gross slip, some 10 nm.
+    /// Tangential displacement u of the preload, m; typical below the onset of gross slip, some 10 nm.
     #[schemars(example = json!({ "displacement": "3 nm" }))]
     Displacement(Length),
 }
 
-/// How the tangential problem of a contact is solved.
+/// Method that solves the tangential problem of a contact.
 #[derive(Debug, Clone, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub(crate) enum EngineForm {
-    /// The exact memory curve.
+    /// Exact memory curve, which stores the turning points of the loading history.
     #[default]
     Curve,
-    /// A row of springs.
+    /// Row of discrete springs in place of the continuous contact.
     #[schemars(example = json!({ "springs": { "count": 1024 } }))]
     Springs(SpringsForm),
 }
 
-/// A row of springs.
+/// Row of discrete springs in place of the continuous contact.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct SpringsForm {
     /// Number of springs, 1 to 1 000 000; typical 256 to 4096.
     #[schemars(range(min = 1, max = 1_000_000), example = 1024)]
     pub(crate) count: Count,
-    /// Length of the row, m, above 0; by default the contact's width at the largest indentation known, or as much as it takes to bear
-    /// the largest force known.
+    /// Length of the row, m, above 0; by default that of the largest known load. This is the contact width at the largest known
+    /// indentation, or the length that bears the largest known force.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(example = &"20 um", transform = above_zero)]
     pub(crate) span: Option<Length>,

@@ -22,20 +22,20 @@ pub(crate) enum DirectionForm {
     Z,
 }
 
-/// Linear spring with a damper: force on the second body preload - k e - c ė, e = x(second) - x(first) at its ends, or
-/// z(second) - z(first).
+/// Linear spring with a damper. Its force on the second body is preload - k e - c ė. The elongation is e = x(second) - x(first) at its
+/// ends, or z(second) - z(first).
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 #[schemars(transform = something_to_do)]
 pub(crate) struct SpringForm {
-    /// First and second body; `ground` is one too.
+    /// Names of the first and the second body; the fixed `ground` counts as a body.
     #[schemars(extend("uniqueItems" = true), example = json!(["ground", "slider"]))]
     pub(crate) between: Two,
-    /// Along x or z.
+    /// Direction in which the spring acts: "x", along the slide, by default, or "z", normal to the slide.
     #[serde(default)]
     #[schemars(example = &"z")]
     pub(crate) direction: DirectionForm,
-    /// Its end on each body by the body's name, relative to the body's reference point, which it is by default.
+    /// End point of the spring on each body by body name, relative to the body's reference point; by default the reference point itself.
     #[serde(default, skip_serializing_if = "Points::is_empty")]
     #[schemars(example = json!({ "slider": { "x": "5 mm" } }))]
     pub(crate) at: Points,
@@ -47,18 +47,18 @@ pub(crate) struct SpringForm {
     #[serde(default = "no_damping")]
     #[schemars(example = &"0.5 N s/m", transform = at_least_zero)]
     pub(crate) damping: Damping,
-    /// Force on the second body at e = 0, N; typical 1 mN to 100 N.
+    /// Preload, the force on the second body at e = 0, N; typical 1 mN to 100 N.
     #[serde(default = "no_force")]
     #[schemars(example = &"-1 mN")]
     pub(crate) preload: Force,
 }
 
-/// Force and moment on a body; at least one of `x`, `z` and `pitch`.
+/// Force and moment on a body; give at least one of `x`, `z` and `pitch`.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 #[schemars(transform = something_on_it)]
 pub(crate) struct LoadForm {
-    /// Name of the body.
+    /// Name of the body on which the load acts.
     #[schemars(example = &"slider")]
     pub(crate) on: String,
     /// Force along x, N, 0 by default; typical 1 mN to 10 N.
@@ -73,14 +73,14 @@ pub(crate) struct LoadForm {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(example = &"0.5 mN m")]
     pub(crate) pitch: Option<Moving<dimension::Moment>>,
-    /// Where the forces attack, relative to the body's reference point, which it is by default.
+    /// Point at which the forces act, relative to the body's reference point; by default the reference point itself.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(example = json!({ "x": "4 mm", "z": "2 mm" }))]
     pub(crate) at: Option<PointForm>,
 }
 
-/// Gravity: a body of mass m is pulled by -m g sin(incline) along x and by -m g cos(incline) along z. What is not free
-/// is carried by its guide.
+/// Gravity: a force of -m g sin(incline) along x and -m g cos(incline) along z acts on a body of mass m. Along a coordinate that is not
+/// free, a guide carries the weight.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct GravityForm {
@@ -88,8 +88,7 @@ pub(crate) struct GravityForm {
     #[serde(default = "standard_gravity")]
     #[schemars(example = &"9.81 m/s²", transform = at_least_zero)]
     pub(crate) acceleration: Acceleration,
-    /// Angle by which the slide climbs from the horizontal, a number in rad, -180 deg to 180 deg; typical 0 deg or
-    /// 90 deg.
+    /// Inclination by which the slide rises along x from the horizontal, a number in rad, -180 deg to 180 deg; typical 0 deg or 90 deg.
     #[serde(default = "horizontal")]
     #[schemars(extend("minimum" = -PI, "maximum" = PI), example = &"90 deg")]
     pub(crate) incline: Angle,

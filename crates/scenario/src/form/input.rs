@@ -13,29 +13,30 @@ use std::marker::PhantomData;
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct InputForm {
-    /// Value from the start on until a caller gives another, in the unit of the driven quantity; within the range. `stickslip run`,
-    /// where there is no caller, holds it.
+    /// Initial value, in the unit of the driven quantity; within the range. It is held until the calling program gives another value.
+    /// `stickslip run` has no calling program and holds it throughout.
     #[schemars(example = &"0 nm")]
     pub(crate) initial: AnyQuantity,
-    /// Smallest and largest value that a caller may give, in the unit of the driven quantity. What is checked before a run is
-    /// checked for all of it, and a caller's value outside is refused.
+    /// Smallest and largest value that a calling program may give, in the unit of the driven quantity. A value outside is refused. The
+    /// checks before a run cover the whole range.
     #[schemars(example = json!(["-1 um", "1 um"]))]
     pub(crate) range: Bounds,
-    /// How the input changes between supplied values: "held" keeps each until the next comes, "linear" ramps to the
-    /// supplied value at the supplied time. A held input jumps: contacts move straight along their path in no time, and that work counts; a damper whose end would jump is refused, for it would need an infinite force.
+    /// Interpolation between supplied values: "held", the default, or "linear". A "held" input keeps each value until the next one, and
+    /// then jumps. In a jump contacts move instantaneously on a straight path, and their friction work counts. A damper whose end would
+    /// jump is refused, because its force would be infinite. A "linear" input ramps to the supplied value at the supplied time.
     #[serde(default)]
     #[schemars(example = &"linear")]
     pub(crate) interpolation: InterpolationForm,
 }
 
-/// How an input goes from one value to the next.
+/// Interpolation of an input between supplied values.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub(crate) enum InterpolationForm {
-    /// Stays until a caller gives another value, which is a jump.
+    /// The value is held until the calling program gives another one, to which it jumps.
     #[default]
     Held,
-    /// Straight from where it is to a value at a time that the caller gives; never a jump.
+    /// The value ramps from its present one to a target at a given time, both supplied by the calling program. It never jumps.
     Linear,
 }
 

@@ -10,76 +10,76 @@ use serde_json::json;
 use std::borrow::Cow;
 use std::fmt;
 
-/// A profile by points.
+/// Profile given by points of radius and gap.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 #[schemars(transform = gaps_or_file)]
 pub(crate) struct GapTableForm {
-    /// Pairs of radius and gap, 2 to 4000: the first [0, 0], radii rising, gaps not falling; give either this or `file`.
+    /// Pairs of radius and gap, 2 to 4000: the first is [0, 0], radii increase, gaps do not decrease; give either this or `file`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(length(min = 2, max = 4000), example = json!([[0, 0], ["10 um", "5 nm"], ["20 um", "20 nm"]]))]
     pub(crate) points: Option<Vec<GapPoint>>,
-    /// CSV file with a header, at or below the scenario's own folder, whose columns have a unit in their heads, as in `f (nm)`,
-    /// `r [um]`, `r_um` and `f/nm`; give either this or `points`.
+    /// CSV file with a header line, in the scenario's own folder or below it; give either this or `points`. Each column head contains a
+    /// unit, as in `f (nm)`, `r [um]`, `r_um` and `f/nm`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(example = &"worn.csv")]
     pub(crate) file: Option<String>,
-    /// Name of the column of radii; its header may omit the unit; required with `file`.
+    /// Name of the column of radii, with or without the unit in its head; required with `file`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(example = &"r")]
     pub(crate) radius: Option<String>,
-    /// Name of the column of gaps; its header may omit the unit; required with `file`.
+    /// Name of the column of gaps, with or without the unit in its head; required with `file`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(example = &"f")]
     pub(crate) gap: Option<String>,
-    /// Radii of points at which the profile has a kink, m, such as the edge of a flat; none by default: between kinks it is
-    /// taken to be smooth.
+    /// Radii of the points at which the slope of the profile jumps, m, such as the edge of a flat; none by default. Between these kinks the
+    /// profile is assumed to be smooth.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     #[schemars(example = json!(["20 um"]), transform = above_zero)]
     pub(crate) kinks: Vec<Length>,
 }
 
-/// A profile by its normal law.
+/// Profile given by its normal law, force over indentation.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 #[schemars(transform = law_or_file)]
 pub(crate) struct NormalLawForm {
-    /// Pairs of indentation and normal force of one contact between its two materials, at least two: the first [0, 0], both
-    /// rising, ever more steeply; give either this or `file`.
+    /// Pairs of indentation and normal force of one contact, at least two: the first is [0, 0], both increase, and the slope never
+    /// decreases; give either this or `file`. The forces are those between the two materials of the contact.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(length(min = 2), example = json!([[0, 0], ["50 nm", "20 mN"], ["100 nm", "60 mN"]]))]
     pub(crate) points: Option<Vec<LawPoint>>,
-    /// CSV file with a header, at or below the scenario's own folder, whose columns have a unit in their heads, as in `d (nm)`
-    /// and `F_mN`; give either this or `points`.
+    /// CSV file with a header line, in the scenario's own folder or below it; give either this or `points`. Each column head contains a
+    /// unit, as in `d (nm)` and `F_mN`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(example = &"indenter.csv")]
     pub(crate) file: Option<String>,
-    /// Name of the column of indentations; its header may omit the unit; required with `file`.
+    /// Name of the column of indentations, with or without the unit in its head; required with `file`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(example = &"d")]
     pub(crate) indentation: Option<String>,
-    /// Name of the column of forces; its header may omit the unit; required with `file`.
+    /// Name of the column of forces, with or without the unit in its head; required with `file`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(example = &"F")]
     pub(crate) force: Option<String>,
 }
 
-/// A rough line: the profile of the one-dimensional foundation.
+/// Rough line: the height profile of the one-dimensional foundation.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 #[schemars(transform = heights_or_file)]
 pub(crate) struct RoughForm {
-    /// Heights at equal distances, m, counted outwards from the body and from any level: the highest touches first; this
-    /// or `file` or `self_affine`.
+    /// Heights at equal distances, m, positive outwards from the body, above any reference level; give this or `file` or `self_affine`. The
+    /// highest point touches first.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(length(min = 1), example = json!([0, "12 nm", "7 nm"]))]
     pub(crate) heights: Option<Vec<Length>>,
-    /// CSV file with a header, at or below the scenario's own folder, whose column has a unit in its head, as in `z (nm)`;
-    /// this or `heights`.
+    /// CSV file with a header line, in the scenario's own folder or below it; give either this or `heights`. The column head contains a
+    /// unit, as in `z (nm)`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(example = &"line.csv")]
     pub(crate) file: Option<String>,
-    /// Name of the column of heights; its header may omit the unit; required with `file`.
+    /// Name of the column of heights, with or without the unit in its head; required with `file`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(example = &"z")]
     pub(crate) height: Option<String>,
@@ -87,14 +87,14 @@ pub(crate) struct RoughForm {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(example = &"1 um", transform = above_zero)]
     pub(crate) spacing: Option<Length>,
-    /// A line made by numbers, the same on every machine; give either this or `heights`.
+    /// Self-affine line, computed from these parameters, identical on every machine; give either this or `heights`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(example = json!({ "rms": "20 nm", "hurst": 0.8, "longest": "20 um", "shortest": "1 um", "length": "100 um", "points": 1024, "seed": 1 }))]
     pub(crate) self_affine: Option<SelfAffineForm>,
 }
 
-/// A self-affine line: a sum of waves between two cut-offs whose amplitudes fall with the power H + 1/2 of their number, with
-/// phases drawn by the seed.
+/// Self-affine rough line: a sum of cosines with wavelengths between two cut-offs and pseudo-random phases. The amplitude of the wavelength
+/// λ is proportional to λ^(H + 1/2).
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct SelfAffineForm {
@@ -107,7 +107,7 @@ pub(crate) struct SelfAffineForm {
     /// Longest wavelength, m, at most the length.
     #[schemars(example = &"20 um", transform = above_zero)]
     pub(crate) longest: Length,
-    /// Shortest wavelength, m, at most the longest and at least two distances of points.
+    /// Shortest wavelength, m, at most the longest and at least twice the spacing of the points.
     #[schemars(example = &"1 um", transform = above_zero)]
     pub(crate) shortest: Length,
     /// Length of the line, m, above 0.
@@ -116,7 +116,7 @@ pub(crate) struct SelfAffineForm {
     /// Number of points, a power of two from 4 to 1 048 576.
     #[schemars(range(min = 4, max = 1_048_576), example = 1024)]
     pub(crate) points: Count,
-    /// Whole number by which the phases are drawn, 0 by default.
+    /// Seed of the pseudo-random phases, a whole number, 0 by default.
     #[serde(default = "no_seed")]
     #[schemars(example = 1)]
     pub(crate) seed: Count,

@@ -58,34 +58,33 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use serde_json::json;
 
-/// A stick-slip drive: bodies, contacts, waveforms, and how to run them. A quantity is a number in SI or a string with
-/// a unit, such as "5 um".
+/// Scenario of a stick-slip drive: bodies, contacts, waveforms and the settings of a run. A quantity is a number in SI or a string with a
+/// unit, such as "5 um".
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 #[schemars(title = "stickslip scenario, version 1")]
 pub(crate) struct Form {
-    /// Where an editor finds the schema; nothing by default, and of no meaning here.
+    /// Address of the JSON Schema for editors; nothing by default. The program ignores it.
     #[serde(rename = "$schema", default, skip_serializing)]
     #[schemars(example = &"../schema/scenario-1.json")]
     #[expect(dead_code, reason = "the key is allowed, and of no meaning here")]
     pub(crate) schema: Option<String>,
-    /// Version of this form.
+    /// Version of the scenario format.
     #[schemars(extend("const" = 1), example = 1)]
     pub(crate) stickslip: Count,
-    /// A line for people; empty by default.
+    /// Title of the scenario for its readers; empty by default.
     #[serde(default, skip_serializing_if = "String::is_empty")]
     #[schemars(example = &"Sawtooth drive on three ruby balls")]
     pub(crate) title: String,
-    /// Materials by name; none by default. Common ones need not be described: `stickslip materials` lists them with their
-    /// sources.
+    /// Materials by name; none by default. Common materials need no entry: `stickslip materials` lists them with their sources.
     #[serde(default, skip_serializing_if = "Parts::is_empty")]
     #[schemars(example = json!({ "ruby": { "youngs_modulus": "400 GPa", "poisson_ratio": 0.27 } }))]
     pub(crate) materials: Parts<MaterialForm>,
-    /// Prescribed courses in time by name, none by default; `{"follows": name}` refers to them.
+    /// Waveforms, prescribed functions of time, by name; none by default. `{"follows": name}` refers to one of them.
     #[serde(default, skip_serializing_if = "Parts::is_empty")]
     #[schemars(example = json!({ "drive": { "sawtooth": { "stroke": "200 nm", "period": "10 ms", "flyback": "10 us" } } }))]
     pub(crate) waveforms: Parts<WaveformForm>,
-    /// Bodies by name, none by default; `ground` is always there, fixed.
+    /// Bodies by name; none by default. The fixed body `ground` always exists.
     #[serde(default, skip_serializing_if = "Parts::is_empty")]
     #[schemars(example = json!({ "slider": { "mass": "10 g", "x": "free" } }), transform = no_ground)]
     pub(crate) bodies: Parts<BodyForm>,
@@ -107,7 +106,7 @@ pub(crate) struct Form {
     #[serde(default, skip_serializing_if = "Parts::is_empty")]
     #[schemars(example = json!({ "stack": { "between": ["ground", "foot"], "stiffness": "20 N/um", "stroke": { "follows": "drive" } } }))]
     pub(crate) actuators: Parts<ActuatorForm>,
-    /// Forces on bodies; none by default.
+    /// Forces and moments on bodies; none by default.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     #[schemars(example = json!([{ "on": "slider", "x": "-0.02 N" }]))]
     pub(crate) loads: Vec<LoadForm>,
@@ -115,19 +114,20 @@ pub(crate) struct Form {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(example = json!({ "acceleration": "9.81 m/s²", "incline": "90 deg" }))]
     pub(crate) gravity: Option<GravityForm>,
-    /// How long, from where and by which stepper.
+    /// Run of the simulation: its duration, initial state, stepper and limits.
     #[schemars(example = json!({ "duration": "100 ms" }))]
     pub(crate) run: RunForm,
-    /// Whose period and whose motion make steps and speeds; by default the only ones there are.
+    /// Waveform and body from which the steps and speeds of the drive are computed; by default the only ones of the scenario.
     #[serde(default, skip_serializing_if = "FiguresForm::is_empty")]
     #[schemars(example = json!({ "waveform": "drive", "body": "slider" }))]
     pub(crate) figures: FiguresForm,
-    /// What is written down; by default all channels, in 400 to 20 000 rows, 80 to 200 in the shortest period of a waveform.
+    /// Output tables of a run. By default `trace.csv` has all channels in 400 to 20 000 rows, 80 to 200 in the shortest period of a
+    /// waveform.
     #[serde(default)]
     #[schemars(example = json!({ "every": "10 us" }), transform = no_default)]
     pub(crate) output: OutputForm,
-    /// Pictures to draw, by name or as channels over a channel; by default `loop` where there are contacts and `trajectory` where a body is
-    /// free along x.
+    /// Pictures to draw: names of predefined pictures, or channels over another channel. By default `loop` is drawn where there are
+    /// contacts, `trajectory` where a body is free along x.
     #[serde(default)]
     #[schemars(example = json!(["loop", "trajectory"]), example = json!([{ "x": "ball.u_m", "y": "ball.fx_N", "from": "90 ms" }]), transform = no_default)]
     pub(crate) plots: Vec<PlotForm>,

@@ -6,12 +6,12 @@ use crate::schema::{above_zero, cycles_or_dwell, period_or_dwell};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// Cycles and a rest, again and again.
+/// Burst: a number of cycles and a rest, repeated periodically.
 #[derive(Debug, Clone, Copy, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 #[schemars(transform = period_or_dwell)]
 pub(crate) struct BurstForm {
-    /// How many cycles, a whole number from 1 to 10 000.
+    /// Number of cycles in a burst, a whole number from 1 to 10 000.
     #[schemars(range(min = 1, max = 10_000), example = 5)]
     pub(crate) cycles: Count,
     /// Time from the start of a burst to the start of the next, s, at least as long as its cycles; give either this or `dwell`.
@@ -24,21 +24,21 @@ pub(crate) struct BurstForm {
     pub(crate) dwell: Option<Time>,
 }
 
-/// A run or a rest of a sequence.
+/// Section of a sequence: a run of cycles, or a rest.
 #[derive(Debug, Clone, Copy, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 #[schemars(transform = cycles_or_dwell)]
 pub(crate) struct SectionForm {
-    /// How many cycles, a whole number of at least 1, at most 10 000 in all; give either this or `dwell`.
+    /// Number of cycles, a whole number of at least 1, at most 10 000 in the whole sequence; give either this or `dwell`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 1, max = 10_000), example = 10)]
     pub(crate) cycles: Option<Count>,
-    /// Each cycle the other way round in time, so that a drive steps the other way; its values are unchanged. Not by
-    /// default.
+    /// Whether each cycle is reversed in time, so that a drive steps in the opposite direction; false by default. The range of values is
+    /// unchanged.
     #[serde(default, skip_serializing_if = "is_false")]
     #[schemars(example = true)]
     pub(crate) reversed: bool,
-    /// Rest, s, above 0, at the value with which a cycle begins; give either this or `cycles`.
+    /// Duration of a rest at the initial value of a cycle, s, above 0; give either this or `cycles`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(example = &"5 ms", transform = above_zero)]
     pub(crate) dwell: Option<Time>,
@@ -78,25 +78,26 @@ macro_rules! periodic {
             #[serde(default, skip_serializing_if = "Option::is_none")]
             #[schemars(example = &"100 Hz", transform = above_zero)]
             pub(crate) frequency: Option<Frequency>,
-            /// Phase, rad: advances the waveform by phase/2π of its period, also where that is one of a burst or a sequence.
+            /// Phase, rad: it advances the waveform by phase/2π of a cycle. In a burst or a sequence this is a single cycle, not the whole
+            /// pattern.
             #[serde(default = "crate::form::periodic::no_angle")]
             #[schemars(example = &"90 deg")]
             pub(crate) phase: Angle,
-            /// Delay, s, at least 0: until then the first value is held.
+            /// Delay, s, at least 0: the first value is held until then.
             #[serde(default = "crate::form::periodic::no_time")]
             #[schemars(example = &"1 ms", transform = at_least_zero)]
             pub(crate) delay: Time,
-            /// Number of cycles, above 0, after which the last value is held; without end by default. Of a burst or a sequence it
-            /// counts the whole of it.
+            /// Number of cycles, above 0, after which the last value is held; without end by default. With `burst` or `sequence`, the whole
+            /// pattern counts as one cycle.
             #[serde(default, skip_serializing_if = "Option::is_none")]
             #[schemars(extend("exclusiveMinimum" = 0), example = 10)]
             pub(crate) cycles: Option<f64>,
-            /// Some cycles, then a rest at the value with which they begin, again and again; give either this or `sequence`.
+            /// Burst: some cycles and a rest at the initial value of a cycle, repeated periodically; give either this or `sequence`.
             #[serde(default, skip_serializing_if = "Option::is_none")]
             #[schemars(example = json!({ "cycles": 5, "period": "20 ms" }))]
             pub(crate) burst: Option<BurstForm>,
-            /// Runs of cycles, forward or reversed, and rests, one after the other and again and again, at most 1000; this or
-            /// `burst`.
+            /// Sequence of at most 1000 sections, repeated periodically; give either this or `burst`. A section is a run of cycles, forward
+            /// or reversed, or a rest.
             #[serde(default, skip_serializing_if = "Option::is_none")]
             #[schemars(length(min = 1, max = 1000), example = json!([{ "cycles": 10 }, { "dwell": "5 ms" }, { "cycles": 10, "reversed": true }]))]
             pub(crate) sequence: Option<Vec<SectionForm>>,

@@ -17,21 +17,21 @@ pub(crate) enum PlotForm {
     Own(OwnPlotForm),
 }
 
-/// Channels over a channel.
+/// User-defined picture: channels over another channel.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct OwnPlotForm {
-    /// Channel along the horizontal axis, a column of the trace with numbers.
+    /// Channel on the horizontal axis, a numeric column of `trace.csv`.
     #[schemars(example = &"ball.u_m", example = &"time_s")]
     pub(crate) x: String,
-    /// Channel over it, or several; those of another unit have an axis of their own below.
+    /// One or several channels on the vertical axis; channels with another unit have an axis of their own below.
     #[schemars(example = &"ball.fx_N")]
     pub(crate) y: ChannelsForm,
-    /// From when on, s, at least 0; by default from the start.
+    /// Start of the plotted time, s, at least 0; by default the start of the run.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(example = &"90 ms", transform = at_least_zero)]
     pub(crate) from: Option<Time>,
-    /// Until when, s, after `from`; by default to the end.
+    /// End of the plotted time, s, after `from`; by default the end of the run.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(example = &"100 ms", transform = at_least_zero)]
     pub(crate) to: Option<Time>,

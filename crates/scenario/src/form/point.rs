@@ -7,14 +7,14 @@ use serde::de::{self, MapAccess, Visitor};
 use serde::{Deserialize, Deserializer, Serialize};
 use std::fmt;
 
-/// A point of a body in the reference position, relative to its reference point, the centre of mass.
+/// A point of a body in the reference position, relative to the body's reference point, its centre of mass.
 #[derive(Debug, Clone, Copy, Serialize, JsonSchema)]
 #[schemars(deny_unknown_fields)]
 pub(crate) struct PointForm {
-    /// Along the slide, m, 0 by default.
+    /// Coordinate along the slide, m, 0 by default.
     #[schemars(default = "no_length", example = "5 mm")]
     pub(crate) x: Length,
-    /// Normal to the slide, up, m, 0 by default.
+    /// Coordinate normal to the slide, upwards, m, 0 by default.
     #[schemars(default = "no_length", example = "-3 mm")]
     pub(crate) z: Length,
 }

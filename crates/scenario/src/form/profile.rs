@@ -10,7 +10,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Deserializer, Serialize, de};
 use serde_json::json;
 
-/// Profile of the gap between the undeformed bodies.
+/// Profile f(r) of the gap between the undeformed bodies.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub(crate) enum ProfileForm {
@@ -20,16 +20,16 @@ pub(crate) enum ProfileForm {
     /// Cone, f = slope · r.
     #[schemars(example = json!({ "cone": { "slope": 0.01 } }))]
     Cone(ConeForm),
-    /// Paraboloid, f = r²/(2R): Hertz.
+    /// Paraboloid, f = r²/(2R), the profile of Hertzian contact.
     #[schemars(example = json!({ "paraboloid": { "radius": "0.5 mm" } }))]
     Paraboloid(#[schemars(with = "BallKeys")] BallForm),
-    /// Sphere, f = R - √(R²-r²), exact.
+    /// Sphere, f = R - √(R²-r²), without the parabolic approximation.
     #[schemars(example = json!({ "sphere": { "radius": "0.5 mm" } }))]
     Sphere(#[schemars(with = "BallKeys")] BallForm),
     /// Power law, f = A rⁿ.
     #[schemars(example = json!({ "power": { "coefficient": 1e6, "exponent": 4 } }))]
     Power(PowerForm),
-    /// One-dimensional foundation given by its heights; need not be monotone.
+    /// One-dimensional foundation given by the heights of its springs, in any order.
     #[schemars(example = json!({ "foundation": { "heights": [0, "10 nm", "20 nm"], "length": "1 um" } }))]
     Foundation(FoundationForm),
     /// Worn cone: flat up to a radius, beyond it f = slope · (r - flat).
@@ -47,13 +47,13 @@ pub(crate) enum ProfileForm {
     /// Sum of powers, f = Σ A rⁿ.
     #[schemars(example = json!({ "powers": { "terms": [{ "coefficient": 100, "exponent": 2 }, { "coefficient": 1e9, "exponent": 4 }] } }))]
     Powers(PowersForm),
-    /// Given by points (r, f), whose equivalent g(x) is computed.
+    /// Profile given by points (r, f). The equivalent one-dimensional profile g(x) is computed from them.
     #[schemars(example = json!({ "table": { "points": [[0, 0], ["10 um", "5 nm"], ["20 um", "20 nm"]] } }))]
     Table(GapTableForm),
-    /// Given by points of its normal law, force over indentation.
+    /// Profile given by points of its normal law, force over indentation.
     #[schemars(example = json!({ "normal_law": { "points": [[0, 0], ["50 nm", "20 mN"], ["100 nm", "60 mN"]] } }))]
     NormalLaw(NormalLawForm),
-    /// Rough line: heights at equal distances, measured or made by numbers; only their distribution matters.
+    /// Rough line: heights at equal distances, measured or computed. Only the distribution of the heights matters.
     #[schemars(example = json!({ "rough": { "heights": [0, "12 nm", "7 nm"], "spacing": "1 um" } }))]
     Rough(RoughForm),
 }
@@ -80,13 +80,13 @@ impl ProfileForm {
     }
 }
 
-/// A flat punch.
+/// A flat punch, given by its radius or its diameter.
 #[derive(Debug, Clone, Serialize)]
 pub(crate) struct FlatForm {
     pub(crate) radius: Length,
 }
 
-/// A flat punch.
+/// A flat punch, given by its radius or its diameter.
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 #[schemars(rename = "FlatForm", transform = radius_or_diameter)]
@@ -99,13 +99,13 @@ struct FlatKeys {
     diameter: Option<Length>,
 }
 
-/// A ball.
+/// A ball, given by its radius or its diameter.
 #[derive(Debug, Clone, Serialize)]
 pub(crate) struct BallForm {
     pub(crate) radius: Length,
 }
 
-/// A ball.
+/// A ball, given by its radius or its diameter.
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 #[schemars(rename = "BallForm", transform = radius_or_diameter)]
@@ -153,7 +153,7 @@ pub(crate) struct ConeForm {
     pub(crate) slope: f64,
 }
 
-/// A power law.
+/// A power law f = A rⁿ.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct PowerForm {
@@ -165,7 +165,7 @@ pub(crate) struct PowerForm {
     pub(crate) exponent: f64,
 }
 
-/// A one-dimensional foundation.
+/// A one-dimensional foundation of springs.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct FoundationForm {

@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 use serde_json::json;
 use stickslip_drive::{Limits, Stepper};
 
-/// How long, from where and by which stepper.
+/// Run of the simulation: its duration, initial state, stepper and limits.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 #[schemars(transform = duration_or_cycles)]
@@ -17,61 +17,64 @@ pub(crate) struct RunForm {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(example = &"100 ms", transform = above_zero)]
     pub(crate) duration: Option<Time>,
-    /// Simulated time in cycles of the waveform of `figures`, above 0, after its delay; give either this or `duration`.
+    /// Simulated time in cycles of the waveform of `figures`, above 0; give either this or `duration`. The delay of the waveform is added
+    /// to it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(extend("exclusiveMinimum" = 0), example = 10)]
     pub(crate) cycles: Option<f64>,
-    /// Largest change of the step from period to period at which the run ends early as steady, a share of the step, 1e-12 to
-    /// 0.1; by default the run is not stopped early; typical 1e-9 to 1e-3. The step is that of the body and the waveform of `figures`,
-    /// a free one and one with a period. The end is that of the period with which three steps running are as long as the one
-    /// before; where steps are shorter than u_c, the share is one of that. Until then the run is the same to the last bit.
+    /// Largest relative change of the step at which a run ends early as steady, 1e-12 to 0.1; by default the run is not stopped early;
+    /// typical 1e-9 to 1e-3. The step is the displacement of the free body of `figures` in a period of its waveform. The run ends when each
+    /// of the last three steps agrees with the one before it. For steps shorter than u_c, the onset of gross slip, the change is relative
+    /// to u_c. Until then the run is identical to one without this key.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 1e-12, max = 0.1), example = 1e-6)]
     pub(crate) until_steady: Option<f64>,
-    /// How the free coordinates start.
+    /// Initial state of the free coordinates: "given" by default, or "equilibrium".
     #[serde(default)]
     #[schemars(example = &"equilibrium")]
     pub(crate) start: RunStartForm,
-    /// Time stepping; a tolerance suits every scenario, a fixed step must stay below its fastest oscillation.
+    /// Stepper, the method of time integration. A method with a tolerance suits every scenario. A fixed step must stay below a limit set by
+    /// the fastest oscillation.
     #[serde(default)]
     #[schemars(example = json!({ "event": { "tolerance": 1e-8 } }), example = json!({ "verlet": { "step": "1 us" } }))]
     pub(crate) stepper: StepperForm,
-    /// Guards against endless work.
+    /// Limits on the work and memory of a run.
     #[serde(default)]
     #[schemars(example = json!({ "wall": "10 min" }))]
     pub(crate) limits: LimitsForm,
 }
 
-/// How the free coordinates start.
+/// Initial state of the free coordinates: "given" by default, or "equilibrium".
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub(crate) enum RunStartForm {
-    /// Where the bodies say.
+    /// Each body starts from the position and velocity of its `start`.
     #[default]
     Given,
-    /// In static equilibrium under what acts at t = 0, at rest; refused where there is none at angles up to 0.1 rad.
+    /// The bodies start at rest in static equilibrium with the forces at t = 0. The scenario is refused if there is no equilibrium at
+    /// angles up to 0.1 rad.
     Equilibrium,
 }
 
-/// Time stepping. A tolerance is relative to the natural scales of length, force and velocity.
+/// Stepper, the method of time integration. A tolerance is relative to the natural scales of length, force and velocity.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub(crate) enum StepperForm {
-    /// Order 8 with located events; in closed form from event to event where a single slider swings among cones, paraboloids, powers
-    /// r³ and r⁴ or spheres under constant load that straight waveforms drag.
+    /// Adaptive integration of order 8 with located events. A single slider without springs, under constant load and piecewise linear
+    /// waveforms, is solved in closed form from event to event. This needs cones, paraboloids, spheres or powers r³ and r⁴ as contacts.
     #[schemars(example = json!({ "event": { "tolerance": 1e-8 } }))]
     Event(ToleranceForm),
-    /// Velocity Verlet at a fixed step.
+    /// Velocity Verlet with a fixed time step.
     #[schemars(example = json!({ "verlet": { "step": "1 us" } }))]
     Verlet(StepForm),
-    /// Classical Runge–Kutta of order 4 at a fixed step.
+    /// Classical Runge–Kutta of order 4 with a fixed time step.
     #[schemars(example = json!({ "rk4": { "step": "1 us" } }))]
     Rk4(StepForm),
-    /// Frames of one length and bounded work, each of so many Runge–Kutta steps of order 4 that an accuracy is kept: for real
-    /// time. Steps end at corners of waveforms; contacts remember no more than 256 turning points, 1024 where a normal moves.
+    /// Real-time stepping in frames of equal length and bounded work. A frame has as many Runge–Kutta steps of order 4 as its accuracy
+    /// needs. Steps end at corners of waveforms. A contact remembers at most 256 turning points, 1024 under a varying normal load.
     #[schemars(example = json!({ "frames": { "length": "20 us", "accuracy": 1e-3 } }))]
     Frames(FramesForm),
-    /// Dormand–Prince 5(4) without events: the plain explicit reference.
+    /// Dormand–Prince 5(4) without located events, a plain explicit reference method.
     #[schemars(example = json!({ "dopri5": { "tolerance": 1e-8 } }))]
     Dopri5(ToleranceForm),
 }
@@ -95,34 +98,36 @@ impl Default for StepperForm {
     }
 }
 
-/// Adaptive stepping.
+/// Stepping with an adaptive time step.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct ToleranceForm {
-    /// Local error per step, relative to the natural scales u_c and μF_N, 1e-13 to 1e-2; typical 1e-10 to 1e-6.
+    /// Local error per step, relative to the natural scales u_c and μF_N, 1e-13 to 1e-2; typical 1e-10 to 1e-6. u_c is the displacement at
+    /// the onset of gross slip, μF_N the friction limit.
     #[serde(default = "default_tolerance")]
     #[schemars(range(min = 1e-13, max = 1e-2), example = 1e-8)]
     pub(crate) tolerance: f64,
 }
 
-/// Stepping at a fixed step.
+/// Stepping with a fixed time step.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct StepForm {
-    /// Step, s, above 0; typical 10 ns to 1 us.
+    /// Time step, s, above 0; typical 10 ns to 1 us.
     #[schemars(example = &"100 ns", transform = above_zero)]
     pub(crate) step: Time,
 }
 
-/// Stepping in frames.
+/// Stepping in frames of equal length.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct FramesForm {
-    /// Frame, s, above 0; typical 10 us to 1 ms.
+    /// Length of a frame, s, above 0; typical 10 us to 1 ms.
     #[schemars(example = &"50 us", transform = above_zero)]
     pub(crate) length: Time,
-    /// What may be lost of a stroke in a stroke, 1e-9 to 0.1; typical 1e-5 to 1e-3. A frame has as many steps as the fastest
-    /// oscillation of the scenario needs for it, 4.5 times as many where the normal of a contact moves; `stickslip info` says how many.
+    /// Allowed error per stroke of the drive, as a share of the stroke, 1e-9 to 0.1; typical 1e-5 to 1e-3. A frame has as many steps as the
+    /// fastest oscillation needs for this accuracy. It has 4.5 times as many under a varying normal load. `stickslip info` shows the
+    /// number.
     #[serde(default = "default_accuracy")]
     #[schemars(range(min = 1e-9, max = 0.1), example = 1e-3)]
     pub(crate) accuracy: f64,
@@ -136,7 +141,7 @@ fn default_tolerance() -> f64 {
     1e-8
 }
 
-/// Guards against endless work.
+/// Limits on the work and memory of a run.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct LimitsForm {
@@ -152,8 +157,8 @@ pub(crate) struct LimitsForm {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(example = &"10 min", transform = above_zero)]
     pub(crate) wall: Option<Time>,
-    /// Maximum memory that the run may keep, B, above 0: estimated before it starts, counted while it runs; no limit by
-    /// default. The data for the plots grow with the run.
+    /// Maximum memory of the run, B, above 0; no limit by default. It is estimated before the run and counted during the run. The data for
+    /// the pictures grow with the run.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(example = &"512 MB", transform = above_zero)]
     pub(crate) memory: Option<Storage>,
@@ -173,20 +178,20 @@ fn default_events() -> Count {
     Count(Limits::default().events)
 }
 
-/// Whose period and whose motion make steps and speeds.
+/// Waveform and body from which the steps and speeds of the drive are computed.
 #[derive(Debug, Clone, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct FiguresForm {
-    /// Name of a waveform with a period; by default the only waveform.
+    /// Name of the waveform whose period is one step of the drive; by default the only waveform.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(example = &"drive")]
     pub(crate) waveform: Option<String>,
-    /// Name of a body that moves; the only free one, or the only one, by default.
+    /// Name of the body whose steps and speed are computed; the only free one, or the only one, by default.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(example = &"slider")]
     pub(crate) body: Option<String>,
-    /// Whether `run` and `info` look for the motion that the drive would settle on, beside the run. By default `run` spends at most a fifth
-    /// of its own steps on it; `true` lets it take as many as it needs; `false` saves that work. `stickslip steady` looks for it all the same.
+    /// Whether `run` and `info` search for the steady motion to which the drive settles. By default `run` spends at most a fifth of its own
+    /// steps on the search. `true` allows as many steps as needed; `false` turns the search off. `stickslip steady` always searches.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(example = true)]
     pub(crate) steady_motion: Option<bool>,

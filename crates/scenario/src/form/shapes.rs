@@ -14,17 +14,18 @@ periodic! {
         /// Peak-to-peak value, in the unit of the driven quantity; typical 10 nm to 10 um.
         #[schemars(example = &"200 nm")]
         stroke: AnyQuantity,
-        /// Duration of the fall, s, at least 0 (a jump) and below the period; typical a hundredth of the period; this or
-        /// `resonance`, or 0 by default where there is a `rate`.
+        /// Duration of the flyback, the return to 0, s, at least 0 (a jump) and below the period; typical a hundredth of the period. Give
+        /// this or `resonance`; it is 0 by default where there is a `rate`.
         #[serde(default, skip_serializing_if = "Option::is_none")]
         #[schemars(example = &"10 us", transform = at_least_zero)]
         flyback: Option<Time>,
-        /// Resonance that the flyback shall not excite, Hz, above 0: the flyback takes one period of it; give either this or `flyback`.
+        /// Resonance frequency that the flyback shall not excite, Hz, above 0; give either this or `flyback`. The flyback takes one period
+        /// of this resonance.
         #[serde(default, skip_serializing_if = "Option::is_none")]
         #[schemars(example = &"4.15 kHz", transform = above_zero)]
         resonance: Option<Frequency>,
-        /// Largest rate of what comes of it, per s, in the unit of the driven quantity, at least that of the rise: it falls at this
-        /// rate until it meets the next rise; no limit by default.
+        /// Slew rate limit of the waveform, per s, in the unit of the driven quantity, at least that of the rise; no limit by default. The
+        /// flyback falls at this rate until it meets the next rise.
         #[serde(default, skip_serializing_if = "Option::is_none")]
         #[schemars(example = &"20 mm/s", transform = above_zero)]
         rate: Option<AnyQuantity>,
@@ -56,7 +57,7 @@ periodic! {
 periodic! {
     /// Sum of sines.
     HarmonicsForm {
-        /// The sines, at least one; at most 1000 in all waveforms together.
+        /// Sine terms of the sum, at least one; at most 1000 in all waveforms together.
         #[schemars(length(min = 1, max = 1000), example = json!([{ "amplitude": "100 nm", "order": 1 }]))]
         terms: Vec<HarmonicForm>,
     }
@@ -68,7 +69,7 @@ periodic! {
         /// Peak-to-peak value, in the unit of the driven quantity; typical 10 nm to 10 um.
         #[schemars(example = &"200 nm")]
         stroke: AnyQuantity,
-        /// Duration of the fall, s, above 0 and below the period; half a period by default.
+        /// Duration of the flyback, the return to 0, s, above 0 and below the period; half a period by default.
         #[serde(default, skip_serializing_if = "Option::is_none")]
         #[schemars(example = &"1 ms", transform = above_zero)]
         flyback: Option<Time>,
@@ -85,7 +86,7 @@ pub(crate) struct HarmonicForm {
     /// Multiple of the frequency, a whole number, 1 to 1000.
     #[schemars(range(min = 1, max = 1000), example = 2)]
     pub(crate) order: super::Count,
-    /// Phase, rad.
+    /// Phase of this sine, rad.
     #[serde(default = "no_angle")]
     #[schemars(example = &"90 deg")]
     pub(crate) phase: Angle,
@@ -97,8 +98,8 @@ periodic! {
         /// Amplitude of the fundamental, in the unit of the driven quantity; typical 10 nm to 10 um.
         #[schemars(example = &"100 nm")]
         amplitude: AnyQuantity,
-        /// Amplitude of the second harmonic as a share of it, -0.25 to 0.25, not 0; 0.25 by default. Above 0 it rises fast and
-        /// falls slowly, and carries what lies on it down; below 0 the other way round.
+        /// Amplitude of the second harmonic as a share of `amplitude`, -0.25 to 0.25, not 0; 0.25 by default. A positive share makes the
+        /// waveform rise fast and fall slowly, which carries a slider in the negative direction. A negative share does the opposite.
         #[serde(default = "quarter")]
         #[schemars(range(min = -0.25, max = 0.25), example = 0.25)]
         second: f64,
@@ -111,7 +112,7 @@ periodic! {
         /// Peak-to-peak value, in the unit of the driven quantity; typical 10 nm to 10 um.
         #[schemars(example = &"200 nm")]
         stroke: AnyQuantity,
-        /// Duration of the turn at the top, s, at least 0 (a cusp, the default) and below the period.
+        /// Duration of the turn at the stroke, s, at least 0 (a cusp, the default) and below the period.
         #[serde(default = "no_time")]
         #[schemars(example = &"20 us", transform = at_least_zero)]
         turn: Time,
@@ -124,14 +125,15 @@ periodic! {
         /// Peak-to-peak value, in the unit of the driven quantity; typical 10 nm to 10 um.
         #[schemars(example = &"200 nm")]
         stroke: AnyQuantity,
-        /// Duration of the way to the stroke, s, at least 0 (a jump).
+        /// Duration of the rise to the stroke, s, at least 0 (a jump).
         #[schemars(example = &"1 ms", transform = at_least_zero)]
         rise: Time,
-        /// Time at the stroke, s, at least 0, which is the default.
+        /// Duration of the hold at the stroke, s, at least 0, which is the default.
         #[serde(default = "no_time")]
         #[schemars(example = &"3 ms", transform = at_least_zero)]
         hold: Time,
-        /// Duration of the return stroke, s, at least 0 (a jump); by default equal to the rise. What is left of the period it rests.
+        /// Duration of the fall to 0, s, at least 0 (a jump); by default equal to the rise. The waveform rests at 0 for the remaining
+        /// period.
         #[serde(default, skip_serializing_if = "Option::is_none")]
         #[schemars(example = &"1 ms", transform = at_least_zero)]
         fall: Option<Time>,
@@ -144,11 +146,12 @@ periodic! {
         /// Peak-to-peak value, in the unit of the driven quantity; typical 10 nm to 10 um.
         #[schemars(example = &"200 nm")]
         stroke: AnyQuantity,
-        /// Duration of the fall, s, above 0 and below the period; half a period by default.
+        /// Duration of the flyback, the return to 0, s, above 0 and below the period; half a period by default.
         #[serde(default, skip_serializing_if = "Option::is_none")]
         #[schemars(example = &"1 ms", transform = above_zero)]
         flyback: Option<Time>,
-        /// Duration of each of the four phases of constant jerk of a way, s, above 0 and at most a quarter of the shorter way.
+        /// Duration of each phase of constant jerk, s, above 0 and at most a quarter of the shorter of rise and flyback. Rise and flyback
+        /// each have four such phases.
         #[schemars(example = &"100 us", transform = above_zero)]
         rounding: Time,
     }
@@ -168,17 +171,17 @@ pub(crate) struct ChirpForm {
     /// Frequency at the start, Hz, at least 0.
     #[schemars(example = &"100 Hz", transform = at_least_zero)]
     pub(crate) from: Frequency,
-    /// Frequency at the end, Hz, at least 0; not both are 0.
+    /// Frequency at the end, Hz, at least 0; `from` and `to` are not both 0.
     #[schemars(example = &"10 kHz", transform = at_least_zero)]
     pub(crate) to: Frequency,
-    /// How long it takes from one to the other, s, above 0; then the last value is held.
+    /// Duration of the frequency sweep, s, above 0; then the last value is held.
     #[schemars(example = &"100 ms", transform = above_zero)]
     pub(crate) duration: Time,
     /// Phase at the start, rad.
     #[serde(default = "no_angle")]
     #[schemars(example = &"90 deg")]
     pub(crate) phase: Angle,
-    /// Delay, s, at least 0: until then the first value is held.
+    /// Delay, s, at least 0: the first value is held until then.
     #[serde(default = "no_time")]
     #[schemars(example = &"1 ms", transform = at_least_zero)]
     pub(crate) delay: Time,
@@ -188,10 +191,10 @@ pub(crate) struct ChirpForm {
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct StepForm {
-    /// Value after the step, in the unit of the driven quantity; 0 before.
+    /// Value after the step, in the unit of the driven quantity; the value before it is 0.
     #[schemars(example = &"100 nm")]
     pub(crate) height: AnyQuantity,
-    /// Time, s, at least 0, which is the default.
+    /// Time of the step, s, at least 0, which is the default.
     #[serde(default = "no_time")]
     #[schemars(example = &"1 ms", transform = at_least_zero)]
     pub(crate) at: Time,

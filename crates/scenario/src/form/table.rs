@@ -10,56 +10,57 @@ use serde_json::json;
 use std::borrow::Cow;
 use std::fmt;
 
-/// How a table goes from point to point.
+/// Interpolation between the points of a table.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub(crate) enum JoinForm {
-    /// In straight lines.
+    /// Linear interpolation.
     #[default]
     Straight,
-    /// By cubics that keep the shape of the points (Fritsch and Butland 1984): only the second derivative jumps at a point.
+    /// Cubic interpolation that preserves the shape of the points (Fritsch and Butland 1984). At a point only the second derivative jumps.
     Cubic,
 }
 
-/// Table: `points`, or `file` with the names of its columns.
+/// Table of times and values, given by `points`, or by `file` with the names of its columns.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 #[schemars(transform = points_or_file)]
 pub(crate) struct TableForm {
-    /// Pairs of time and value, at least two, times rising; two equal times are a jump; give either this or `file`.
+    /// Pairs of time and value, at least two, in the order of time; two equal times are a jump; give either this or `file`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(length(min = 2), example = json!([[0, 0], ["1 ms", "200 nm"], ["2 ms", 0]]))]
     pub(crate) points: Option<Vec<Point>>,
-    /// CSV file with a header, at or below the scenario's own folder; numbers in SI, or in the unit that the head of their
-    /// column names, as in `disp (µm)`, `t [ms]`, `disp_um` and `time/ms`; give either this or `points`.
+    /// CSV file with a header line, in the scenario's own folder or below it; give either this or `points`. Numbers are in SI, or in the
+    /// unit of their column head, as in `disp (µm)`, `t [ms]`, `disp_um` and `time/ms`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(example = &"measured.csv")]
     pub(crate) file: Option<String>,
-    /// Name of the column of times, s or the unit in the column header, which may be omitted here; required with `file`.
+    /// Name of the column of times, with or without the unit in its head; required with `file`. Times are in s unless the head has a unit.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(example = &"time_s")]
     pub(crate) time: Option<String>,
-    /// Name of the column of values, SI or the unit in the column header, which may be omitted here; required with `file`.
+    /// Name of the column of values, with or without the unit in its head; required with `file`. Values are in SI unless the head has a
+    /// unit.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(example = &"stroke_m")]
     pub(crate) value: Option<String>,
-    /// Interpolation between the points: "straight" by default, or "cubic": smooth and without overshoot.
+    /// Interpolation between the points: "straight" by default, or "cubic", which is smooth and without overshoot.
     #[serde(default, skip_serializing_if = "is_straight")]
     #[schemars(example = &"cubic")]
     pub(crate) interpolation: JoinForm,
-    /// Factor of all values, any sign; 1 by default.
+    /// Factor by which all values are multiplied, of any sign but not 0; 1 by default.
     #[serde(default = "one", skip_serializing_if = "is_one")]
     #[schemars(example = 0.5, extend("not" = json!({ "const": 0 }), "default" = 1.0))]
     pub(crate) gain: f64,
-    /// Added to all values after the gain, in the unit of the driven quantity; 0 by default.
+    /// Offset added to all values after the gain, in the unit of the driven quantity; 0 by default.
     #[serde(default = "no_value")]
     #[schemars(example = &"100 nm")]
     pub(crate) offset: AnyQuantity,
-    /// Again and again, the last point at the time of the first of the next round, which makes the period; once by default.
+    /// Whether the table is repeated periodically; once by default. The period is the time from the first to the last point.
     #[serde(default, skip_serializing_if = "is_false")]
     #[schemars(example = true)]
     pub(crate) repeat: bool,
-    /// Delay, s, at least 0: added to all times.
+    /// Delay, s, at least 0, which is added to all times.
     #[serde(default = "no_time")]
     #[schemars(example = &"1 ms", transform = at_least_zero)]
     pub(crate) delay: Time,

@@ -148,7 +148,7 @@ impl JsonSchema for WaveformRef {
     }
 }
 
-/// `{"follows": waveform}`.
+/// Reference to a waveform, written as `{"follows": waveform}`.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Follows {

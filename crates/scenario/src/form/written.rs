@@ -19,7 +19,7 @@ pub(crate) enum EventsOutputForm {
     Some(SomeEventsForm),
 }
 
-/// Some of the events.
+/// Selection of the events that are written.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct SomeEventsForm {
@@ -27,24 +27,25 @@ pub(crate) struct SomeEventsForm {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(example = json!(["gross slip", "gross slip ends"]))]
     pub(crate) kinds: Option<Vec<KindForm>>,
-    /// Names of contacts whose events are written, and no others; by default those of everything.
+    /// Names of contacts whose events are written, and no others; by default all events.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(example = json!(["ball"]))]
     pub(crate) contacts: Option<Vec<String>>,
-    /// Events from which on they are thinned, at least 100: of each twice as many that follow half as large a share is written, in
-    /// blocks of a hundredth of this number. By default 100 000, with more than 50 contacts 5 000 000 over their number.
+    /// Number of events up to which all are written, at least 100. By default it is 100 000, with more than 50 contacts 5 000 000 divided
+    /// by their number. Of later events, half are written up to twice this number, a quarter up to four times, and so on. They are written
+    /// or left out in blocks of a hundredth of this number.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 100), example = 1_000_000)]
     pub(crate) most: Option<Count>,
 }
 
-/// A kind of event.
+/// Kind of an event.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub(crate) enum KindForm {
-    /// The sense of sliding turns.
+    /// The sliding direction of a contact reverses.
     Reversal,
-    /// A piece of the memory is used up.
+    /// A hysteresis loop of a contact closes, and its turning point is forgotten.
     #[serde(rename = "loop closed")]
     LoopClosed,
     /// Gross slip begins.
@@ -53,39 +54,39 @@ pub(crate) enum KindForm {
     /// Gross slip ends.
     #[serde(rename = "gross slip ends")]
     GrossSlipEnds,
-    /// The contact begins to grow in full stick.
+    /// The contact area begins to grow without slip (full stick).
     #[serde(rename = "full stick")]
     FullStick,
-    /// Slip begins in a contact that grew in full stick.
+    /// Slip begins in a contact that grew without slip.
     #[serde(rename = "slip begins")]
     SlipBegins,
     /// Two bodies touch.
     Touch,
-    /// Two bodies part.
+    /// Two bodies separate.
     #[serde(rename = "lift-off")]
     LiftOff,
-    /// A waveform turns a corner.
+    /// A waveform passes a corner between two smooth pieces.
     Corner,
     /// A waveform jumps.
     Jump,
 }
 
-/// Where rows and events are written.
+/// Time window in which rows and events are written.
 #[derive(Debug, Clone, Copy, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 #[schemars(extend("minProperties" = 1))]
 pub(crate) struct WindowForm {
-    /// From when on, s, at least 0; by default from the start.
+    /// Start of the window, s, at least 0; by default the start of the run.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(example = &"90 ms", transform = at_least_zero)]
     pub(crate) from: Option<Time>,
-    /// Until when, s, at least 0; by default to the end.
+    /// End of the window, s, at least 0; by default the end of the run.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(example = &"100 ms", transform = at_least_zero)]
     pub(crate) to: Option<Time>,
 }
 
-/// How the states of contacts are written.
+/// Format of the states of contacts.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub(crate) enum StatesForm {
@@ -107,10 +108,10 @@ impl StatesForm {
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub(crate) enum StepsOutputForm {
-    /// Every one.
+    /// Every step is written.
     #[default]
     All,
-    /// None.
+    /// No step is written.
     Off,
 }
 
