@@ -12,7 +12,7 @@ Record reference results of scenarios and check whether they change: regression 
 and events, and the scenario. `check` runs the files as they are now and compares as `stickslip compare` does, so it finds \
 changes of the program and of the scenario; the latter are reported first. `accept` replaces the recorded results that have changed by the new ones; you give a reason, which it adds to DIR/log.md. All use every core.
 
-A golden result detects change only: an error in it when it was recorded stays.
+A golden result only detects changes: an error that it already had when it was recorded is not found.
 
 The event stepper runs at a tolerance of 1e-12, whatever the file says, because at larger tolerances rounding changes the \
 steps and cannot be distinguished from a real change. --own-tolerance keeps the tolerance of the file.

@@ -50,7 +50,7 @@ pub(crate) struct SensitivityArguments {
     /// Set a value of the scenario, such as contacts.ball.friction=0.3
     #[arg(long, value_name = "PATH=VALUE", value_parser = assignment)]
     pub(crate) set: Vec<(String, String)>,
-    /// Local error per step of the runs, relative to the natural scales, 1e-13 to 1e-6; the scenario's own stepper does not count
+    /// Local error per step of the runs, relative to the natural scales of the contacts, 1e-13 to 1e-6; it replaces the scenario's own tolerance
     #[arg(long, value_name = "SHARE", default_value = "1e-12", value_parser = shooting)]
     pub(crate) tolerance: f64,
     /// Runs at the same time [default: the number of cores]

@@ -54,7 +54,7 @@ pub(crate) enum FreedomForm {
     /// The forces at t = 0 move it there from the reference position. It takes no mass and no damping. No coordinate of the scenario may be
     /// free beside it.
     Balanced,
-    /// The coordinate follows a waveform: of lengths, m, for x and z, of angles, rad, for pitch. Give its name, or write the waveform here.
+    /// The coordinate follows a waveform, given in m for x and z, in rad for pitch. Write its name, or the waveform itself.
     #[schemars(example = json!({ "follows": "drive" }))]
     Follows(WaveformRef),
 }

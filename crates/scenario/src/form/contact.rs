@@ -36,7 +36,7 @@ pub(crate) struct ContactForm {
     #[serde(default)]
     #[schemars(example = json!({ "force": "10 mN" }))]
     pub(crate) start: ContactStartForm,
-    /// Method that solves the tangential contact problem: an exact memory curve by default, or a row of springs.
+    /// Method that solves the tangential contact problem: by default exactly, from the stored turning points; or by a row of discrete springs.
     #[serde(default)]
     #[schemars(example = &"curve", example = json!({ "springs": { "count": 1024 } }))]
     pub(crate) engine: EngineForm,

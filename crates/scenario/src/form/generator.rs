@@ -8,8 +8,8 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use serde_json::json;
 
-/// Generator: a waveform of cycles whose parameters a calling program commands during the run. A cycle begins and ends at 0. It takes the
-/// stroke, frequency and heading that are in force when it begins. With no cycle to run, the generator rests at 0, and a new command begins
+/// Generator: a waveform of cycles whose parameters a calling program commands during the run. A cycle begins and ends at 0. A cycle takes
+/// the stroke, frequency and heading that are in force when it begins. With no cycle to run, the generator rests at 0, and a new command begins
 /// a cycle at once. `stickslip run` has no calling program and uses the values given here. A generator has no phase, delay or `cycles`: the
 /// calling program sets the start, and `steps` the number of cycles.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]

@@ -32,8 +32,8 @@ pub(crate) struct SomeEventsForm {
     #[schemars(example = json!(["ball"]))]
     pub(crate) contacts: Option<Vec<String>>,
     /// Number of events up to which all are written, at least 100. By default it is 100 000, with more than 50 contacts 5 000 000 divided
-    /// by their number. Of later events, half are written up to twice this number, a quarter up to four times, and so on. They are written
-    /// or left out in blocks of a hundredth of this number.
+    /// by their number. After that only a half of the events is written until
+    /// twice this number have occurred, then a quarter until four times, and so on. They are left out in blocks of a hundredth of this number.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 100), example = 1_000_000)]
     pub(crate) most: Option<Count>,
