@@ -358,9 +358,15 @@ fn terms_are_explained_with_their_page() {
             assert!(stdout(&output).contains(term.text), "{name}: {}", stdout(&output));
         }
     }
-    for (name, found) in
-        [("kappa", "κ = μE*/G*"), ("mu", "μ, coefficient of friction"), ("mean speed", "mean_speed_m_s")]
-    {
+    for (name, found) in [
+        ("kappa", "κ = μE*/G*"),
+        ("mu", "μ, coefficient of friction"),
+        ("mean speed", "mean_speed_m_s"),
+        ("slip ratio", "cycles.csv  slip_ratio"),
+        ("contact resonance", "contact_resonance_Hz"),
+        ("back-step", "steps.steady.back_step"),
+        ("window", "actuators.NAME.driver.window"),
+    ] {
         let output = stickslip().args(["explain", name]).output().unwrap();
         assert!(stdout(&output).contains(found), "{name}: {}", stdout(&output));
     }
@@ -373,6 +379,8 @@ fn what_is_meant_is_named() {
         (vec!["drive.json"], "did you mean `stickslip run drive.json`?"),
         (vec!["characterize"], "did you mean `stickslip curve`?"),
         (vec!["Optimise"], "did you mean `stickslip curve`?"),
+        (vec!["stall"], "did you mean `stickslip curve FILE --curve force-speed`?"),
+        (vec!["curve", "preload", "a.json"], "did you mean `stickslip curve FILE --curve preload`?"),
         (vec!["resume"], "did you mean `stickslip run --resume`?"),
         (vec!["branch", "drive.json"], "for example stickslip branch drive.json --vary "),
         (vec!["run"], "for example stickslip run drive.json"),

@@ -77,6 +77,26 @@ pub const TERMS: &[Term] = &[
         text: "contacts.NAME.friction, μ, one coefficient per contact for stick and slip",
         page: "limits.md",
     },
+    Term {
+        names: &["settling", "convergence", "settling time"],
+        text: "whether the step length converges, drifts or oscillates as periods go by: steps.settling of summary.json, the plot `trajectory`",
+        page: "figures.md",
+    },
+    Term {
+        names: &["step length", "step size of the drive"],
+        text: "the displacement of the body in one drive period: length_m of steps.csv, steps.steady.step_m of summary.json",
+        page: "figures.md",
+    },
+    Term {
+        names: &["kappa", "κ"],
+        text: "κ = μE*/G*, the ratio of tangential to normal displacement at full slip: gross slip begins at u_c = κd, with d the indentation",
+        page: "physics.md",
+    },
+    Term {
+        names: &["ringing", "resonance", "dither"],
+        text: "oscillation after the flyback, of the slider on its contacts or of the foot on its stack; it decides the step of many drives: MODES of stickslip info, the plot `drive`, actuators.NAME.damping, flyback and frequency of the waveform",
+        page: "piezo.md",
+    },
     Term { names: &["wear", "archard", "adhesion", "temperature"], text: "not modelled", page: "limits.md" },
     Term {
         names: &["contact stiffness", "tangential contact stiffness"],

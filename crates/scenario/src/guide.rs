@@ -4,6 +4,7 @@ use crate::path::{KeyPath, Step};
 use crate::schema;
 use serde_json::Value;
 use std::cmp::Reverse;
+use std::collections::HashSet;
 use std::fmt::Write;
 use std::sync::OnceLock;
 
@@ -244,8 +245,8 @@ impl Guide {
     }
 }
 
-/// What the schema says about a key of a scenario: by its path, such as `contacts.ball.friction`, or by the end of it, wherever
-/// that stands. Each place with its description; none where there is no such key.
+/// What the schema says about a key of a scenario: by its path, such as `contacts.ball.friction`, or by the end of it. Each
+/// position with its description, those with the same description once; none where there is no such key.
 pub fn explained(key: &str) -> Vec<(String, String)> {
     let guide = Guide::get();
     let Some(path) = KeyPath::parse(key).filter(|path| !path.0.is_empty()) else { return Vec::new() };
@@ -268,8 +269,12 @@ pub fn explained(key: &str) -> Vec<(String, String)> {
         });
         return whole.filter_map(|path| told(&path)).collect();
     }
-    let homes = guide.homes(&KeyPath::default(), name);
-    homes.iter().filter_map(|home| told(&KeyPath::parse(&format!("{home}.{name}"))?)).collect()
+    let mut seen = HashSet::new();
+    let places = guide.places(&KeyPath::default(), name).into_iter().filter_map(|mut place| {
+        place.0.push(Step::Key(name.clone()));
+        told(&place)
+    });
+    places.filter(|(_, text)| seen.insert(text.clone())).collect()
 }
 
 /// A value on one line, as people write it.

@@ -5,7 +5,7 @@ use clap::CommandFactory;
 use clap::error::{ContextKind, ContextValue, ErrorKind};
 
 /// Words of other programs, of other spellings and of the field, with the command that does it.
-const MEANT: [(&str, &str); 40] = [
+const MEANT: [(&str, &str); 46] = [
     ("bifurcation", "branch"),
     ("characterise", "curve"),
     ("characterize", "curve"),
@@ -21,9 +21,11 @@ const MEANT: [(&str, &str); 40] = [
     ("figure", "plot"),
     ("floquet", "steady"),
     ("fmu", "realtime"),
+    ("force-speed", "curve FILE --curve force-speed"),
     ("generate", "new"),
     ("graph", "plot"),
     ("hertz", "contact"),
+    ("holding-force", "curve FILE --curve holding-force"),
     ("hysteresis", "measure"),
     ("init", "new"),
     ("inspect", "info"),
@@ -33,15 +35,19 @@ const MEANT: [(&str, &str); 40] = [
     ("optimise", "curve"),
     ("optimize", "curve"),
     ("orbit", "steady"),
+    ("preload", "curve FILE --curve preload"),
     ("regression", "golden"),
     ("replay", "repro"),
     ("resume", "run --resume"),
     ("scan", "curve"),
-    ("show", "info"),
     ("shooting", "steady"),
+    ("show", "info"),
     ("sim", "run"),
     ("simulate", "run"),
+    ("speed-frequency", "curve FILE --curve speed-frequency"),
+    ("stall", "curve FILE --curve force-speed"),
     ("start", "run"),
+    ("step-amplitude", "curve FILE --curve step-amplitude"),
     ("sweep", "curve"),
     ("template", "new"),
     ("test", "golden"),
@@ -52,6 +58,20 @@ const MEANT: [(&str, &str); 40] = [
 pub(crate) fn answered(said: clap::Error) -> clap::Error {
     if said.kind() == ErrorKind::MissingRequiredArgument {
         return with_example(said);
+    }
+    // `curve force-speed FILE`
+    if said.kind() == ErrorKind::UnknownArgument {
+        let words: Vec<String> = std::env::args().skip(2).collect();
+        return match MEANT
+            .iter()
+            .find(|(name, meant)| meant.contains("--curve") && words.iter().any(|word| word == name))
+        {
+            Some((name, meant)) => {
+                let message = format!("\"{name}\" is a value of --curve; did you mean `stickslip {meant}`?");
+                Arguments::command().error(ErrorKind::UnknownArgument, message)
+            }
+            None => said,
+        };
     }
     let word = match said.get(ContextKind::InvalidSubcommand) {
         Some(ContextValue::String(word)) if said.kind() == ErrorKind::InvalidSubcommand => word.clone(),

@@ -89,6 +89,11 @@ fn trace(arguments: &CurveArguments, kind: Kind) -> Result<Verdict, CurveFailure
     let first = &curves[0];
     if !arguments.quiet {
         warn(&first.job);
+        let stacks = stickslip_run::info::piezos(&first.job).0;
+        stacks
+            .iter()
+            .flat_map(|(_, stack)| &stack.words)
+            .for_each(|text| complain(format_args!("note: {text}")));
     }
     let asked = range(arguments, first)?;
     let (out, folder) = place(arguments, &first.job, first.kind.name())?;

@@ -14,7 +14,7 @@ pub(crate) fn explain(names: &[String]) -> Verdict {
         say(format_args!("{}", page(&all).trim_end()));
     }
     // Each is explained, whatever becomes of the others.
-    let unknown = names.iter().filter(|name| !explain_one(name, &all)).count();
+    let unknown = names.iter().filter(|name| !explain_either(name, &all)).count();
     if unknown == 0 { Verdict::Done } else { Verdict::BadInput }
 }
 
@@ -29,6 +29,20 @@ fn definitions() -> Vec<Definition> {
 
 /// Most texts that are shown where a word stands in the midst of them.
 const MOST: usize = 6;
+
+/// Explains a name, or the key that is written like it with underscores: "slip ratio" is `slip_ratio`.
+fn explain_either(name: &str, all: &[Definition]) -> bool {
+    let key = name.trim().replace([' ', '-'], "_");
+    let is_term = TERMS.iter().any(|term| term.names.contains(&name.to_lowercase().as_str()));
+    // A column's name ends with its unit.
+    let is_it =
+        |own: &&str| own.strip_prefix(&*key).is_some_and(|unit| unit.is_empty() || unit.starts_with('_'));
+    let found = all.iter().filter_map(|one| one.name.rsplit('.').next()).find(is_it);
+    match found.or_else(|| (!explained(&key).is_empty()).then_some(&key)) {
+        Some(known) if !is_term && key != name => explain_one(known, all),
+        _ => explain_one(name, all),
+    }
+}
 
 /// Whether anything has a name: a term, what is called so, else what holds others by that name, else symbols and states, which are names
 /// of nothing, else texts with all of its words.
