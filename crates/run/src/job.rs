@@ -137,6 +137,14 @@ impl Job {
         Ok(job)
     }
 
+    /// The same job with further overrides after its own.
+    ///
+    /// # Errors
+    /// Whatever is wrong with one of them, with its place.
+    pub fn with(&self, set: &[(String, String)]) -> Result<Self, ScenarioError> {
+        Self::new(self.scenario.with(set)?, self.name.clone(), self.folder.clone())
+    }
+
     /// The same job as its results tell it: with the text and the program that they were computed from.
     pub fn with_origin(self, resolved: String, program: String) -> Self {
         Self { hash: hash(&resolved), resolved, program, ..self }

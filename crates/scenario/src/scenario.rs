@@ -1,6 +1,6 @@
 //! A scenario: the only door from a file to a scene and a plan.
 
-use crate::document::Document;
+use crate::document::{Document, SourceKind};
 use crate::error::{Report, ScenarioError, Stage, Warning};
 use crate::fault::{Fault, Mend};
 use crate::form::Form;
@@ -121,6 +121,19 @@ impl Scenario {
         word: &'static str,
     ) -> Result<Self, ScenarioError> {
         Self::read(text, ("", word), None, overrides)
+    }
+
+    /// The same scenario, read again with further overrides after its own.
+    ///
+    /// # Errors
+    /// Whatever is wrong with one of them, with its place.
+    pub fn with(&self, set: &[(String, String)]) -> Result<Self, ScenarioError> {
+        let Document { sources, word, base, .. } = &self.document;
+        let overrides = sources.iter().filter(|source| source.kind == SourceKind::Override);
+        let own = overrides.filter_map(|source| source.name.split_once('='));
+        let all: Vec<_> =
+            own.chain(set.iter().map(|(path, value)| (path.as_str(), value.as_str()))).collect();
+        Self::read(&sources[0].text, (&sources[0].name, word), base.as_deref(), &all)
     }
 
     fn read(

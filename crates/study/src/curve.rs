@@ -1,6 +1,6 @@
 //! The curves of a machine: what its steady motion makes of a number that is varied.
 //!
-//! A [`Curve`] is of a scenario file and a [`Kind`]; its points are variants of the file, each by what `--set` would put into it.
+//! A [`Curve`] is of a scenario and a [`Kind`]; its points are variants of it, each by what `--set` would put into it.
 //! What is wrong with one of them stands in its [`Point`], and the others go on.
 //!
 //! In reading order: `kind`, the curves that have a name; `variation`, what they vary; `range`, where their points lie; `motion`,
@@ -35,10 +35,10 @@ pub use variation::Variation;
 
 use crate::each::each;
 use std::convert::Infallible;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use stickslip_run::{Job, Warning, Watcher};
-use stickslip_scenario::{Scenario, ScenarioError};
+use stickslip_scenario::ScenarioError;
 
 /// How exactly the stall is known that a range ends beyond, and how far beyond.
 const ROUGHLY: f64 = 0.05;
@@ -55,10 +55,8 @@ pub enum Sense {
     Backward,
 }
 
-/// A curve of a scenario file.
+/// A curve of a scenario.
 pub struct Curve {
-    file: PathBuf,
-    set: Vec<(String, String)>,
     /// What reverses the waveforms of the backward sense; points are told with it.
     reversal: Vec<(String, String)>,
     /// Which way round, where both are asked for.
@@ -85,28 +83,24 @@ pub struct Traced {
 }
 
 impl Curve {
-    /// The curve of a file; pairs in `set` are overrides that hold for all its points.
+    /// The curve of a scenario.
     ///
     /// # Errors
-    /// A scenario that is refused, or has no such curve.
-    pub fn new(file: &Path, set: &[(String, String)], kind: Kind) -> Result<Self, CurveError> {
-        let job = Job::prepare(file, set, Path::new(""))?;
+    /// A scenario that has no such curve.
+    pub fn new(job: Job, kind: Kind) -> Result<Self, CurveError> {
         let variation = Variation::of(&kind, &job)?;
-        let (set, reversal) = (set.to_vec(), Vec::new());
-        Ok(Self { file: file.to_owned(), set, reversal, sense: None, kind, variation, job })
+        Ok(Self { reversal: Vec::new(), sense: None, kind, variation, job })
     }
 
-    /// The curves of a file in both senses: forward, as it is, and backward, the waveforms of the steps' period reversed in time.
+    /// The curves of a scenario in both senses: forward, as it is, and backward, the waveforms of the steps' period reversed in time.
     ///
     /// # Errors
     /// As of one; a waveform that cannot be reversed, as one that jumps.
-    pub fn both(file: &Path, set: &[(String, String)], kind: &Kind) -> Result<[Self; 2], CurveError> {
-        let forward = Self::new(file, set, kind.clone())?;
-        let reversal = Variation::reversal(&forward.job, kind)?;
-        let all: Vec<_> = set.iter().chain(&reversal).cloned().collect();
-        let backward = Self::new(file, &all, kind.clone())?;
-        let backward = Self { set: set.to_vec(), reversal, sense: Some(Sense::Backward), ..backward };
-        Ok([Self { sense: Some(Sense::Forward), ..forward }, backward])
+    pub fn both(job: Job, kind: &Kind) -> Result<[Self; 2], CurveError> {
+        let reversal = Variation::reversal(&job, kind)?;
+        let backward = Self::new(job.with(&reversal)?, kind.clone())?;
+        let forward = Self { sense: Some(Sense::Forward), ..Self::new(job, kind.clone())? };
+        Ok([forward, Self { reversal, sense: Some(Sense::Backward), ..backward }])
     }
 
     /// A range worth looking at, SI: about what the scenario has, and of loads up to a little more than it takes to stall the
@@ -200,7 +194,7 @@ impl Curve {
             let value = values[place];
             let set = self.overrides(value, direction);
             let motion = self.motion_with(&set, watcher);
-            let warnings = warnings(&self.file, &self.set, &set);
+            let warnings = warnings(&self.job, &set);
             watcher.reached((done.fetch_add(1, Ordering::Relaxed) + 1) as f64);
             Point { value, set, warnings, motion }
         });
@@ -228,9 +222,7 @@ impl Curve {
 
     /// The scenario with something set, as a run would have it, without what a run would write.
     fn variant(&self, set: &[(String, String)]) -> Result<Job, ScenarioError> {
-        let all = self.set.iter().chain(set);
-        let overrides: Vec<(&str, &str)> = all.map(|(path, value)| (path.as_str(), value.as_str())).collect();
-        let mut scenario = Scenario::load_with(&self.file, &overrides)?;
+        let mut scenario = self.job.scenario.with(set)?;
         scenario.plan.every = None;
         (scenario.springs, scenario.memory, scenario.fields) = (None, None, None);
         Job::new(scenario, self.job.name.clone(), PathBuf::new())
@@ -248,12 +240,9 @@ impl Sense {
     }
 }
 
-/// What `check` warns of in a scenario file with overrides; nothing of one that is refused.
-fn warnings(file: &Path, set: &[(String, String)], varied: &[(String, String)]) -> Vec<Warning> {
-    let all: Vec<_> = set.iter().chain(varied).cloned().collect();
-    Job::prepare(file, &all, Path::new(""))
-        .map(|job| stickslip_run::warning::of_check(&job))
-        .unwrap_or_default()
+/// What `check` warns of in a scenario with overrides; nothing of one that is refused.
+fn warnings(job: &Job, set: &[(String, String)]) -> Vec<Warning> {
+    job.with(set).map(|job| stickslip_run::warning::of_check(&job)).unwrap_or_default()
 }
 
 /// Name of a number with its unit, as it heads a column.

@@ -1,6 +1,6 @@
 //! By how much figures of a run change with the numbers of its scenario: which number matters?
 //!
-//! A [`Sensitivity`] is of a scenario file, some [`Figure`]s and some [`Quantity`]s; [`Sensitivity::take`] tells the [`Derivative`] of
+//! A [`Sensitivity`] is of a scenario, some [`Figure`]s and some [`Quantity`]s; [`Sensitivity::take`] tells the [`Derivative`] of
 //! each figure with respect to each quantity, with how far it may be off. Where no number is true it tells why, and both sides.
 //!
 //! In reading order: `figure` and `quantity`, what is asked; `led`, slopes that variations of the scenario's own run tell; `sample`, what a
@@ -31,7 +31,6 @@ use derivative::Near;
 use figure::Reading;
 use ladder::Tried;
 use sample::{Happened, Ran, Sample};
-use std::path::Path;
 use std::sync::atomic::AtomicUsize;
 use stickslip_run::{Job, Watcher};
 
@@ -94,21 +93,15 @@ const MISSED: [f64; 2] = [2.0, 0.1];
 const BEND: f64 = 1.0 / 64.0;
 
 impl Sensitivity {
-    /// The derivatives of a file; pairs in `set` are overrides. Runs it as it stands.
+    /// The derivatives of a scenario. Runs it as it stands.
     ///
     /// # Errors
-    /// A scenario that is refused, a run of its own that stops, figures or quantities that it does not have.
-    pub fn new(
-        file: &Path,
-        set: &[(String, String)],
-        asked: &Asked,
-        watcher: &dyn Watcher,
-    ) -> Result<Self, SensitivityError> {
+    /// A run of its own that stops, figures or quantities that it does not have.
+    pub fn new(job: Job, asked: &Asked, watcher: &dyn Watcher) -> Result<Self, SensitivityError> {
         let tolerance = asked.tolerance;
         if !(1e-13..=1e-6).contains(&tolerance) {
             return Err(SensitivityError::Tolerance(tolerance));
         }
-        let job = Job::prepare(file, set, Path::new(""))?;
         let quantities = match asked.to.is_empty() {
             true => Quantity::all(&job),
             false => once(&asked.to)?.map(|path| Quantity::of(&job, path)).collect::<Result<_, _>>()?,

@@ -82,9 +82,10 @@ fn answer(arguments: &CurveArguments) -> Result<Verdict, CurveFailure> {
 
 /// Traces a curve of motions, in one sense or both, and writes it.
 fn trace(arguments: &CurveArguments, kind: Kind) -> Result<Verdict, CurveFailure> {
+    let job = prepared(arguments)?;
     let curves = match arguments.both {
-        true => Vec::from(Curve::both(&arguments.file, &arguments.set, &kind)?),
-        false => vec![Curve::new(&arguments.file, &arguments.set, kind)?],
+        true => Vec::from(Curve::both(job, &kind)?),
+        false => vec![Curve::new(job, kind)?],
     };
     let first = &curves[0];
     if !arguments.quiet {
@@ -141,6 +142,11 @@ fn trace(arguments: &CurveArguments, kind: Kind) -> Result<Verdict, CurveFailure
         ways.iter().take(1).for_each(|(curve, traced)| complain_of_faults(curve, traced));
     }
     Ok(verdict)
+}
+
+fn prepared(arguments: &CurveArguments) -> Result<Job, CurveFailure> {
+    Job::prepare(&arguments.file, &arguments.set, Path::new(""))
+        .map_err(|refusal| CurveError::from(refusal).into())
 }
 
 /// A range worth looking at for all of them.

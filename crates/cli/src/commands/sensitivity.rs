@@ -13,7 +13,7 @@ use stickslip_console::verdict::Verdict;
 use stickslip_figures::{FigureError, sensitivity as picture};
 use stickslip_run::complaint::words;
 use stickslip_run::folder::{Folder, sweep};
-use stickslip_run::{Real, quantity};
+use stickslip_run::{Job, Real, quantity};
 use stickslip_study::sensitivity::{self, Asked, Sensitivity, SensitivityError, Taken};
 use thiserror::Error;
 
@@ -60,7 +60,8 @@ fn answer(arguments: &SensitivityArguments) -> Result<Verdict, SensitivityFailur
     let interrupt = Interrupt::install();
     let SensitivityArguments { of, to, steady, tolerance, .. } = arguments;
     let asked = Asked { of: of.clone(), to: to.clone(), steady: *steady, tolerance: *tolerance };
-    let asked = Sensitivity::new(&arguments.file, &arguments.set, &asked, &Interrupted(&interrupt))?;
+    let job = Job::prepare(&arguments.file, &arguments.set, Path::new("")).map_err(SensitivityError::from)?;
+    let asked = Sensitivity::new(job, &asked, &Interrupted(&interrupt))?;
     if !arguments.quiet {
         warn(&asked.job);
     }

@@ -16,18 +16,14 @@ use super::variation::{Overrides, body, not_here};
 use super::{Bracket, CurveError, Variation};
 use crate::each::each;
 use held::Still;
-use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicUsize, Ordering};
 use stickslip_run::{Job, Warning, Watcher};
-use stickslip_scenario::Scenario;
 
 /// Its name as a curve.
 pub const NAME: &str = "holding-force";
 
-/// Holding forces of a scenario file over something that is varied.
+/// Holding forces of a scenario over something that is varied.
 pub struct Holding {
-    file: PathBuf,
-    set: Overrides,
     body: usize,
     /// What is varied.
     pub variation: Variation,
@@ -49,13 +45,11 @@ pub struct Point {
 }
 
 impl Holding {
-    /// Over the number at a path, or else over what presses the contacts of the figures' body. Pairs in `set` are overrides that
-    /// hold for all points.
+    /// Over the number at a path, or else over what presses the contacts of the figures' body.
     ///
     /// # Errors
-    /// A scenario that is refused, has no body to be loaded or no friction, or nothing that is varied so.
-    pub fn new(file: &Path, set: &[(String, String)], over: Option<&str>) -> Result<Self, CurveError> {
-        let job = Job::prepare(file, set, Path::new(""))?;
+    /// A scenario that has no body to be loaded or no friction, or nothing that is varied so.
+    pub fn new(job: Job, over: Option<&str>) -> Result<Self, CurveError> {
         let body = body(&job, "no body is free along x, to be loaded")?;
         let variation = match over {
             Some(path) => Variation::at(&job, path)?,
@@ -71,7 +65,7 @@ impl Holding {
             let why = format!("nothing that could hold \"{}\" has friction", scene.bodies[body].name);
             return Err(not_here(&job, NAME, why, help));
         }
-        Ok(Self { file: file.to_owned(), set: set.to_vec(), body, variation, job })
+        Ok(Self { body, variation, job })
     }
 
     /// Name of the body that is loaded.
@@ -110,7 +104,7 @@ impl Holding {
                 Err(why) => [Err(why.clone()), Err(why)],
             };
             watcher.reached((done.fetch_add(1, Ordering::Relaxed) + 1) as f64);
-            let warnings = super::warnings(&self.file, &self.set, &set);
+            let warnings = super::warnings(&self.job, &set);
             Point { value, set, warnings, ways }
         }))
     }
@@ -120,9 +114,7 @@ impl Holding {
         if !watcher.goes_on() {
             return Err(Holdless::NotRun);
         }
-        let all = self.set.iter().chain(set);
-        let overrides: Vec<(&str, &str)> = all.map(|(path, value)| (path.as_str(), value.as_str())).collect();
-        Ok(Still::new(Scenario::load_with(&self.file, &overrides)?, self.body))
+        Ok(Still::new(self.job.scenario.with(set)?, self.body))
     }
 }
 

@@ -1,5 +1,6 @@
 //! Curves: each point against a plain run of its own file, the same for any number of cores, and what is refused.
 
+use crate::prepared;
 use std::error::Error;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -19,7 +20,7 @@ fn scene(name: &str) -> PathBuf {
 
 fn curve(name: &str, set: &[(&str, &str)], kind: Kind) -> Result<Curve, CurveError> {
     let set: Vec<(String, String)> = set.iter().map(|(p, v)| ((*p).to_owned(), (*v).to_owned())).collect();
-    Curve::new(&file(name), &set, kind)
+    Curve::new(prepared(&file(name), &set)?, kind)
 }
 
 fn motion(point: &Point) -> Result<Motion, Motionless> {
@@ -108,7 +109,7 @@ fn a_load_acts_against_the_steps() -> Checked {
 /// steps the other way as far as the drive itself does: of the symmetric drive both senses are mirror images.
 #[test]
 fn backward_is_the_mirror_image_of_a_symmetric_drive() -> Checked {
-    let [forward, backward] = Curve::both(&file("ruby_drive.json"), &[], &Kind::ForceSpeed)?;
+    let [forward, backward] = Curve::both(prepared(&file("ruby_drive.json"), &[])?, &Kind::ForceSpeed)?;
     let values = [0.0, 0.05];
     let (to_right, to_left) = (forward.trace(&values, 1, &()), backward.trace(&values, 1, &()));
     assert_eq!((to_right.direction, to_left.direction), (1.0, -1.0));
@@ -150,7 +151,8 @@ fn waveforms_are_reversed_together() -> Checked {
     let delayed = [("waveforms.stride_b.sine.phase", "0 deg"), ("waveforms.stride_b.sine.delay", "0.5 ms")];
     for set in [&[][..], &delayed] {
         let set: Vec<_> = set.iter().map(|(path, value)| ((*path).to_owned(), (*value).to_owned())).collect();
-        let [forward, backward] = Curve::both(&file("walking_drive.json"), &set, &Kind::StepAmplitude)?;
+        let [forward, backward] =
+            Curve::both(prepared(&file("walking_drive.json"), &set)?, &Kind::StepAmplitude)?;
         let [there, back] = [forward, backward].map(|curve| curve.trace(&[300e-9], 1, &()));
         let [there, back] = [motion(&there.points[0])?.step, motion(&back.points[0])?.step];
         assert!(there > 1e-6 && (back - by_hand).abs() <= 1e-9 * there, "{there} {back} {by_hand}");
@@ -177,7 +179,7 @@ fn a_preload_is_the_sum_of_all_contacts() -> Checked {
 fn what_no_friction_holds_slides_away() -> Checked {
     let friction = Kind::Vary("contacts.c.friction".to_owned());
     for (kind, values) in [(friction, [0.0, 0.005, 0.01]), (Kind::ForceSpeed, [0.3, 0.6, 1.6])] {
-        let curve = Curve::new(&scene("loaded_sawtooth.json"), &[], kind)?;
+        let curve = Curve::new(prepared(&scene("loaded_sawtooth.json"), &[])?, kind)?;
         for point in &curve.trace(&values, 2, &()).points {
             let found = motion(point);
             let slides = matches!(found, Err(Motionless::SlidesAway { step, .. }) if step < 0.0);
@@ -191,7 +193,7 @@ fn what_no_friction_holds_slides_away() -> Checked {
 /// told for its steady step.
 #[test]
 fn what_it_flies_in_a_period_is_no_steady_step() -> Checked {
-    let curve = Curve::new(&scene("hopper.json"), &[], Kind::StepAmplitude)?;
+    let curve = Curve::new(prepared(&scene("hopper.json"), &[])?, Kind::StepAmplitude)?;
     for point in &curve.trace(&[3.5e-8, 3.08e-7, 1.4e-6], 2, &()).points {
         let found = motion(point)?;
         assert_eq!(found.course, Course::Irregular, "{:e}: {found:?}", point.value);
@@ -260,7 +262,9 @@ fn scenes_without_such_a_curve_are_refused() {
     says(vary("run.cycles"), "changes no motion");
     let both = |set: &[(&str, &str)]| {
         let set: Vec<_> = set.iter().map(|(p, v)| ((*p).to_owned(), (*v).to_owned())).collect();
-        Curve::both(&file("ruby_drive.json"), &set, &Kind::Preload).err().map(|error| error.to_string())
+        Curve::both(prepared(&file("ruby_drive.json"), &set).unwrap(), &Kind::Preload)
+            .err()
+            .map(|error| error.to_string())
     };
     says(both(&[("waveforms.drive.sawtooth.flyback", "0")]), "a waveform that jumps cannot be reversed");
     let burst = [("waveforms.drive.sawtooth.burst", r#"{"cycles": 2, "dwell": "5 ms"}"#)];

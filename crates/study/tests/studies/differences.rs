@@ -2,6 +2,7 @@
 //! tolerance. Steppers that locate no events are no help: by Dopri5 at 1e-11 the slope of P1's step over the mass was 12 % off.
 
 use crate::five_points::{Drawn, chosen, example, moved, slopes};
+use crate::prepared;
 use std::error::Error;
 use stickslip_study::sensitivity::{Asked, Derivative, Sensitivity};
 
@@ -73,7 +74,7 @@ fn compare() -> Result<Compared, Box<dyn Error>> {
             let (file, any) = (example(name), Asked::default());
             let set = moved((&file, &any), (key, end), MOVED, &mut drawn)?;
             let to = chosen((&file, &set), &any, QUANTITIES, &mut drawn)?;
-            let asked = Sensitivity::new(&file, &set, &Asked { to, ..any }, &())?;
+            let asked = Sensitivity::new(prepared(&file, &set)?, &Asked { to, ..any }, &())?;
             let taken = asked.take(2, &());
             let names: Vec<String> = asked.figures.iter().map(|figure| figure.name.clone()).collect();
             for (q, quantity) in asked.quantities.iter().enumerate() {

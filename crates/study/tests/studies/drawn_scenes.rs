@@ -1,5 +1,6 @@
 //! Steady motion of scenes drawn at random against plain runs of 300 periods, which know nothing of the search.
 
+use crate::prepared;
 use std::error::Error;
 use std::path::{Path, PathBuf};
 use stickslip_drive::scene::Side;
@@ -103,7 +104,7 @@ fn no_plain_run_contradicts_a_steady_step() -> Result<(), Box<dyn Error>> {
         let Some((set, natural)) = drawn(name, &mut draw)? else { continue };
         // From a tenth to a thousand u_c, by its logarithm.
         let amplitude = natural * 10.0_f64.powf(4.0 * draw.next() - 1.0);
-        let curve = Curve::new(&file(name), &set, Kind::StepAmplitude)?;
+        let curve = Curve::new(prepared(&file(name), &set)?, Kind::StepAmplitude)?;
         let traced = curve.trace(&[amplitude], 1, &());
         let point = &traced.points[0];
         let place = match &point.motion {

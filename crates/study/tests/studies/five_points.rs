@@ -1,5 +1,6 @@
 //! Slopes by five-point differences of runs of their own, with other steps than the program's and at another tolerance.
 
+use crate::prepared;
 use serde_json::Value;
 use std::error::Error;
 use std::path::{Path, PathBuf};
@@ -97,7 +98,7 @@ pub(crate) fn moved(
     drawn: &mut Drawn,
 ) -> Result<Set, Box<dyn Error>> {
     let mut set = vec![(end.0.to_owned(), end.1.to_owned())];
-    let plain = Sensitivity::new(file, &set, asked, &())?;
+    let plain = Sensitivity::new(prepared(file, &set)?, asked, &())?;
     for _ in 0..count {
         let quantity = &plain.quantities[drawn.below(plain.quantities.len())];
         // Waveforms that go together keep their period, what is known of it stays true.
@@ -116,7 +117,7 @@ pub(crate) fn chosen(
     count: usize,
     drawn: &mut Drawn,
 ) -> Result<Vec<String>, Box<dyn Error>> {
-    let all = Sensitivity::new(file, set, asked, &())?.quantities;
+    let all = Sensitivity::new(prepared(file, set)?, asked, &())?.quantities;
     let mut to: Vec<String> = Vec::new();
     while to.len() < count.min(all.len()) {
         let path = &all[drawn.below(all.len())].path;

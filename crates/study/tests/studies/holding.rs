@@ -1,5 +1,6 @@
 //! Holding forces against closed forms, and against runs of the drive at rest.
 
+use crate::prepared;
 use std::error::Error;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -21,7 +22,7 @@ fn file(name: &str) -> PathBuf {
 
 fn holding(name: &str, set: &[(&str, &str)], over: Option<&str>) -> Result<Holding, CurveError> {
     let set: Vec<(String, String)> = set.iter().map(|(p, v)| ((*p).to_owned(), (*v).to_owned())).collect();
-    Holding::new(&file(name), &set, over)
+    Holding::new(prepared(&file(name), &set)?, over)
 }
 
 type Ways = [Result<Held, Holdless>; 2];
@@ -124,7 +125,7 @@ fn what_slides_together_is_not_held_by_rounding() -> Checked {
 #[test]
 fn what_slides_under_its_own_weight_is_not_held_by_rounding() -> Checked {
     let file = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/scenes/stacked.json");
-    let found = Holding::new(Path::new(file), &[], Some("contacts.c00.friction"))?;
+    let found = Holding::new(prepared(Path::new(file), &[])?, Some("contacts.c00.friction"))?;
     let (normal, pull) =
         (0.09110279481868781 + 0.2582944690591921, 0.0030996927685020804 + 0.004467301331380124);
     let values = [0.03, 0.1, 0.17];
@@ -196,7 +197,7 @@ fn a_block_holds_what_does_not_tip_it() -> Checked {
             ("contacts.rear.at.b.x", behind_is),
         ];
         let set = set.map(|(path, value)| (path.to_owned(), value));
-        let found = Holding::new(Path::new(file), &set, Some("contacts.front.friction"))?;
+        let found = Holding::new(prepared(Path::new(file), &set)?, Some("contacts.front.friction"))?;
         let point = found.trace(&[2.0], 1e-7, 1, &())?.remove(0);
         for (way, arm) in point.ways.into_iter().zip([ahead, behind]) {
             let (held, tips) = (way?, mass * 9.80665 * arm / 20e-3);

@@ -1,5 +1,6 @@
 //! S₀ and stall closed in on, against the closed form of the quasi-static, damped drive.
 
+use crate::prepared;
 use std::error::Error;
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
@@ -30,7 +31,7 @@ fn ideal(kind: Kind, stroke: f64) -> Result<(Curve, f64), CurveError> {
         ("waveforms.drive.sawtooth.stroke", stroke.to_string()),
     ];
     let set: Vec<(String, String)> = set.into_iter().map(|(path, value)| (path.to_owned(), value)).collect();
-    let curve = Curve::new(&file("quickstart.json"), &set, kind)?;
+    let curve = Curve::new(prepared(&file("quickstart.json"), &set)?, kind)?;
     let natural = curve.job.contact_scale(0).0;
     Ok((curve, natural))
 }

@@ -3,6 +3,14 @@
 //! One binary, linked once. `five_points` takes differences of runs; every other module is a subject. Allocations are counted by
 //! thread.
 
+use std::path::Path;
+use stickslip_run::{Job, Refusal};
+
+/// A job of a file with overrides.
+fn prepared(file: &Path, set: &[(String, String)]) -> Result<Job, Refusal> {
+    Job::prepare(file, set, Path::new(""))
+}
+
 mod five_points;
 
 mod batch;

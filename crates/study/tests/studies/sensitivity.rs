@@ -1,5 +1,6 @@
 //! Derivatives against closed forms, and what is refused.
 
+use crate::prepared;
 use std::error::Error;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -19,7 +20,7 @@ fn example(name: &str) -> PathBuf {
 
 fn ask(file: &Path, set: &[(&str, &str)], asked: &Asked) -> Result<Sensitivity, SensitivityError> {
     let set: Vec<(String, String)> = set.iter().map(|(p, v)| ((*p).to_owned(), (*v).to_owned())).collect();
-    Sensitivity::new(file, &set, asked, &())
+    Sensitivity::new(prepared(file, &set)?, asked, &())
 }
 
 fn of(figures: &[&str], paths: &[&str]) -> Asked {

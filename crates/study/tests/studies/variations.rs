@@ -1,6 +1,7 @@
 //! Slopes that variations tell, against five-point differences of runs of their own.
 
 use crate::five_points::{Drawn, STEADY, chosen, example, moved, slopes};
+use crate::prepared;
 use std::error::Error;
 use std::fs;
 use std::path::Path;
@@ -147,7 +148,7 @@ struct Pair {
 /// The slopes of a scene that variations tell.
 fn pairs(file: &Path, set: &[(String, String)], asked: &Asked) -> Result<Vec<Pair>, Box<dyn Error>> {
     let set = set.to_vec();
-    let asked = Sensitivity::new(file, &set, asked, &())?;
+    let asked = Sensitivity::new(prepared(file, &set)?, asked, &())?;
     let (taken, mut pairs) = (asked.take(2, &()), Vec::new());
     let names: Vec<String> = asked.figures.iter().map(|figure| figure.name.clone()).collect();
     for (q, quantity) in asked.quantities.iter().enumerate() {
@@ -327,7 +328,7 @@ fn a_kink_is_told_from_both_sides() -> Checked {
     )?;
     let to = names(&["waveforms.wind.sawtooth.period", "bodies.mass.mass"]);
     let asked = Asked { of: names(&["mass.vx_m_s"]), to, ..Asked::default() };
-    let asked = Sensitivity::new(&file, &[], &asked, &())?;
+    let asked = Sensitivity::new(prepared(&file, &[])?, &asked, &())?;
     let taken = asked.take(2, &());
     let Derivative::Split { below: Ok(below), above: Ok(above), .. } = &taken.derivatives[0][0] else {
         return Err(format!("{:?}", taken.derivatives[0][0]).into());

@@ -1,6 +1,6 @@
 //! `stickslip curve --curve holding-force`: what the drive holds at rest.
 
-use super::{CurveFailure, complain_of_warnings, cores, ends, of, place, said, shown, shows_rows};
+use super::{CurveFailure, complain_of_warnings, cores, ends, of, place, prepared, said, shown, shows_rows};
 use crate::arguments::CurveArguments;
 use stickslip_console::answer::{complain, say, say_json, warn};
 use stickslip_console::interrupt::Interrupt;
@@ -15,7 +15,7 @@ use stickslip_study::curve::holding::{self, Held, Holding, NAME, Point};
 /// Traces holding forces and writes them.
 pub(super) fn trace(arguments: &CurveArguments) -> Result<Verdict, CurveFailure> {
     let over = arguments.vary.as_ref().map(|(path, _)| path.as_str());
-    let holding = Holding::new(&arguments.file, &arguments.set, over)?;
+    let holding = Holding::new(prepared(arguments)?, over)?;
     if !arguments.quiet {
         warn(&holding.job);
     }
