@@ -169,8 +169,10 @@ fn a_run_that_a_limit_has_stopped_goes_on_with_another() {
     let whole = kept("quickstart", &out.path().join("whole"), SELDOM, &of("run.limits.steps=200000"));
     let output = keeping("quickstart", out.path(), SELDOM, &of("run.limits.steps=7000")).output().unwrap();
     let folder = out.path().join("quickstart");
-    let hint =
-        format!("`stickslip run --resume {} --set run.limits.steps=…` goes on from there", folder.display());
+    let hint = format!(
+        "`stickslip run --resume {} --set run.limits.steps=…` resumes the run from the last checkpoint",
+        folder.display()
+    );
     assert_eq!(code(&output), 3);
     assert!(stderr(&output).contains(&hint), "{}", stderr(&output));
     resumed(&folder, &["--set", "run.limits.steps=200000"]);

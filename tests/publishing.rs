@@ -275,7 +275,10 @@ fn a_full_disk_keeps_what_was_computed() {
         assert!(!account.contains("DIFFERS"), "{account}");
         if k == 2 {
             assert!(
-                said.contains(&format!("`stickslip run --resume {}` goes on from there", folder.display())),
+                said.contains(&format!(
+                    "`stickslip run --resume {}` resumes the run from the last checkpoint",
+                    folder.display()
+                )),
                 "{said}"
             );
             let resumed = stickslip().args(["run", "--resume"]).arg(&folder).output().unwrap();
@@ -294,9 +297,10 @@ fn pictures_without_room_leave_the_rest() {
     let output = run_with_small_files(160, out.path(), &set);
     let folder = out.path().join("quickstart");
     assert_eq!(code(&output), 3, "{}", stderr(&output));
-    let help = format!("   help: make room, then `stickslip plot {}`\n", folder.display());
+    let help =
+        format!("   help: free disk space, then draw the plots with `stickslip plot {}`\n", folder.display());
     assert!(
-        stderr(&output).contains("not all pictures could be written: File too large\n"),
+        stderr(&output).contains("not all plots could be written: File too large\n"),
         "{}",
         stderr(&output)
     );

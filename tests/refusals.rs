@@ -286,5 +286,5 @@ fn a_folder_that_cannot_be_made_is_bad_input() {
     let out = tempdir().unwrap();
     let taken: &Path = &out.path().join("taken");
     std::fs::write(taken, "a file").unwrap();
-    check(&run(&scenario("oblique_loading"), taken, &[]), &["cannot be made", "--out"]);
+    check(&run(&scenario("oblique_loading"), taken, &[]), &["cannot be created", "--out"]);
 }

@@ -40,52 +40,55 @@ pub(crate) struct Arguments {
 
 #[derive(Debug, Subcommand)]
 pub(crate) enum Command {
-    /// Write a scenario file that runs as it is, from a template
+    /// Write a ready-to-run scenario file from a template
     ///
-    /// Writes NAME.json and the schema beside it, schema/scenario-1.json. Editors that know JSON Schema complete and check the file by
-    /// it. An existing scenario is never overwritten. Exit codes: 0 done, 2 bad input.
+    /// Writes the scenario file NAME.json and the JSON Schema of scenario files, schema/scenario-1.json. Editors that support JSON Schema
+    /// use the schema to complete keys and to mark errors. An existing scenario is never overwritten. Exit codes: 0 done, 2 bad input.
     #[command(after_long_help = NEW_EXAMPLES)]
     New(NewArguments),
-    /// Check scenario files and report every error; nothing is run
+    /// Check scenario files and report their errors, without running them
     ///
-    /// Prints "ok" for each good file, and for each bad one what is wrong, where, and what is allowed. Values that are allowed but
-    /// implausible are warned of: loads that exceed the friction, stacks without damping, pressures beyond yield, unlikely moduli,
-    /// masses, strokes and resonances. Exit codes: 0 all files are good, 2 one is not.
+    /// Prints "ok" for each file without errors. For each error, prints the place in the file, the fault and the allowed values. Also
+    /// warns of allowed but implausible values: loads beyond the friction limit, stacks without damping, pressures beyond yield, and
+    /// unlikely moduli, masses, strokes and resonances. Exit codes: 0 all files are free of errors, 2 a file has errors.
     #[command(after_long_help = CHECK_EXAMPLES)]
     Check(CheckArguments),
-    /// Show derived quantities before a run: stiffness, slip limits, modes, cost
+    /// Show stiffness, slip limits, vibration modes and cost of a scenario before a run
     ///
-    /// Nothing is run or written. Exit codes: 0 done, 2 bad input.
+    /// Prints tables and writes no file. Exit codes: 0 done, 2 bad input.
     #[command(after_long_help = INFO_EXAMPLES)]
     Info(InfoArguments),
-    /// Run scenarios; write tables, a summary and plots; resume interrupted runs
+    /// Run scenarios and write tables, a summary and plots; resume interrupted runs
     ///
-    /// Every run writes trace.csv (the rows over time), events.csv, summary.json, scenario.json and plots. A drive also writes steps.csv,
-    /// a contact that moves back and forth cycles.csv; springs.csv, memory.csv, fields.csv and friction.csv are written on request.
+    /// Every run writes trace.csv (all channels over time), events.csv, summary.json, scenario.json and plots. A run of a drive also writes
+    /// steps.csv, a table of the steps. A run with a contact that moves back and forth also writes cycles.csv, a table of the hysteresis
+    /// cycles. The section "output" of a scenario can request springs.csv, memory.csv, fields.csv and friction.csv.
     ///
-    /// All files appear together at the end of the run, summary.json last, so a folder holds complete results or none. Numbers that are
-    /// not finite are null in JSON.
+    /// All files appear together at the end of the run. A folder therefore contains either complete results or no results. Numbers that
+    /// are not finite are null in JSON.
     ///
-    /// Exit codes: 0 done, 2 bad input, 3 a run stopped early or, with --strict, its results have warnings, 130 interrupted; the largest
-    /// of several runs. Results up to that point are written in every case.
+    /// Exit codes: 0 done; 2 bad input; 3 a run stopped early; 130 interrupted. With --strict, code 3 also means that results have
+    /// warnings. For several runs, the exit code is the largest of their codes. A run that stops early or is interrupted writes the
+    /// results that it has computed so far.
     #[command(after_long_help = run::RUN_EXAMPLES)]
     Run(RunArguments),
-    /// Draw plots from results on disk
+    /// Draw plots from the results of earlier runs
     ///
-    /// Draws the plots of the scenario, the same bytes as `run` does, or others of the same results. Files whose SHA-256 differs from
-    /// summary.json are refused. Exit codes: 0 done, 2 no results, or results without what a plot needs, 3 a plot cannot be written.
+    /// Draws the plots that the scenario names, byte-identical to the plots that `run` draws. The option --plots selects other plots of the
+    /// same results. A table is refused if its SHA-256 differs from the value in summary.json. Exit codes: 0 done; 2 there are no results,
+    /// or the results lack data that a plot needs; 3 a plot cannot be written.
     #[command(after_long_help = pictures::PLOT_EXAMPLES)]
     Plot(PlotArguments),
-    /// Compare two results within tolerances: channels, events, summary values
+    /// Compare the results of two runs within tolerances: channels, events, summary values
     #[command(long_about = compare::ABOUT, after_long_help = compare::EXAMPLES)]
     Compare(CompareArguments),
-    /// Explain a key, a column, a result, a symbol or a term
+    /// Explain a scenario key, a table column, a result, a symbol or a term
     ///
-    /// Names may be whole or only their end: slider.x_m and x_m, contacts.ball.friction and friction. Exit codes: 0 done, 2 nothing has
-    /// that name.
+    /// A name may be complete, such as slider.x_m, or only the last part of a complete name, such as x_m. Exit codes: 0 done, 2 the name is
+    /// unknown.
     #[command(after_long_help = EXPLAIN_EXAMPLES)]
     Explain {
-        /// What to explain; without a name all columns and results are listed, in Markdown
+        /// Names to explain; without a name the command lists all columns and results in Markdown
         #[arg(value_name = "NAME")]
         names: Vec<String>,
     },
@@ -98,26 +101,26 @@ pub(crate) enum Command {
     /// Follow the periodic motion while a parameter changes: folds, bifurcations
     #[command(long_about = steady::BRANCH_ABOUT, after_long_help = steady::BRANCH_EXAMPLES)]
     Branch(BranchArguments),
-    /// Sensitivity of the results to every parameter, with error estimates
+    /// Compute the sensitivity of results to every parameter, with error estimates
     #[command(long_about = sensitivity::ABOUT, after_long_help = sensitivity::EXAMPLES)]
     Sensitivity(SensitivityArguments),
-    /// Solve one contact without a run: constants, curves, first loading, stresses
+    /// Solve a single contact without a run: constants, load histories, stresses
     #[command(long_about = contact::ABOUT, after_long_help = contact::EXAMPLES)]
     Contact(ContactArguments),
-    /// Evaluate measured hysteresis loops of a table, beside a simulated one
+    /// Evaluate measured hysteresis loops from a CSV table; compare them with a simulation
     #[command(long_about = measure::ABOUT, after_long_help = measure::EXAMPLES)]
     Measure(MeasureArguments),
     /// Run a drive in real time with inputs and outputs over UDP or shared memory
     #[command(long_about = realtime::ABOUT, after_long_help = realtime::EXAMPLES)]
     Realtime(Box<RealtimeArguments>),
-    /// Record reference results of scenarios and check whether they change
+    /// Record reference results of scenarios; check later whether the results change
     #[command(long_about = golden::ABOUT, after_long_help = golden::EXAMPLES, subcommand)]
     Golden(golden::GoldenCommand),
-    /// Rerun the scenario that a plot carries and compare the results
+    /// Rerun the scenario embedded in a plot file and compare the results
     ///
-    /// A PNG or SVG of `run` or `plot` carries its whole scenario and a fingerprint of the trace and the events. Prints "identical", or
-    /// which channel differs from which time on. Exit codes: 0 identical, 1 different, 2 the file is no such plot, 3 the results cannot
-    /// be written or --wall was reached, 130 interrupted.
+    /// A PNG or SVG file drawn by `run` or `plot` contains the complete scenario and a fingerprint of the trace and the events. The command
+    /// prints "identical", or the name of a channel that differs and the time at which the difference begins. Exit codes: 0 identical;
+    /// 1 different; 2 the file is not a plot of `run` or `plot`; 3 the results cannot be written, or --wall was reached; 130 interrupted.
     #[command(after_long_help = pictures::REPRO_EXAMPLES)]
     Repro(ReproArguments),
     /// List the built-in materials with their elastic constants and sources
@@ -128,10 +131,10 @@ pub(crate) enum Command {
     /// Print the JSON Schema of scenario files
     #[command(after_long_help = "Example:\n  stickslip schema > scenario-1.json")]
     Schema,
-    /// Print the completion script of a shell
+    /// Print the script with which a shell completes commands and options
     #[command(after_long_help = COMPLETIONS_EXAMPLES)]
     Completions {
-        /// The shell
+        /// Name of the shell
         shell: clap_complete::Shell,
     },
 }
@@ -202,16 +205,16 @@ pub(crate) struct CheckArguments {
 
 #[derive(Debug, Args)]
 pub(crate) struct NewArguments {
-    /// Name of the scenario: its file is NAME.json
+    /// Name of the scenario; the file is NAME.json
     #[arg(value_name = "NAME", default_value = "drive")]
     pub(crate) name: PathBuf,
     /// Name of the template
     #[arg(long, value_name = "TEMPLATE", default_value = "drive", value_parser = PossibleValuesParser::new(new::templates()))]
     pub(crate) template: String,
-    /// Value of "$schema", a path or an address; no schema is written then
+    /// Value of the key "$schema": path or URL of an existing schema; with this option the command writes no schema
     #[arg(long, value_name = "WHERE")]
     pub(crate) schema: Option<String>,
-    /// List the templates; write nothing
+    /// List all templates and write no file
     #[arg(long)]
     pub(crate) list: bool,
 }

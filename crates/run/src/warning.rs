@@ -51,23 +51,22 @@ pub(crate) fn of_run(job: &Job, outcome: &Outcome) -> Vec<Warning> {
     if missed > 0 {
         let all = outcome.state.counts().steps;
         let message = format!(
-            "{missed} of {all} steps miss their tolerance: damped springs stick and slip alternately there, and \
-             no shorter step is any better"
+            "{missed} of {all} time steps miss their tolerance: damped springs of a contact alternate between stick and slip, and \
+             shorter time steps do not help"
         );
         warnings.push(
             Warning::new("error_estimate", message)
-                .help("compare with a run at another tolerance, or with less contact damping"),
+                .help("run the scenario again at another tolerance or with less contact damping, and compare the results"),
         );
     }
     warnings.extend(impacts(job, outcome));
     if let Some(since) = flight(job, outcome) {
         let since = quantity(Real(since), "s");
         let message = format!(
-            "the body of figures has been in the air since {since}, a period and more: all its contacts are open, and how far it \
-             flies in a period is no step"
+            "the body whose steps are computed has had no contact since t = {since}, for at least one period: all contacts of the body \
+             are open, so the displacement in a period is not a step"
         );
-        let help =
-            "press it on: by its weight, by a spring or a load along z; did it start too high, or too deep?";
+        let help = "press the body on by gravity, a spring or a load along z; check whether the initial position along z is too high or too low";
         warnings.push(Warning::new("flight", message).help(help));
     }
     warnings.extend(outcome.tally.excursions().warnings(job));
@@ -86,7 +85,7 @@ fn impacts(job: &Job, outcome: &Outcome) -> Option<Warning> {
     };
     let parted: Vec<String> = contacts.filter_map(open).take(MOST).collect();
     let message = format!("{}: {}", parted.join(", "), multiplied(accuracy));
-    let help = "compare with a smaller accuracy, or with the stepper event";
+    let help = "run the scenario again with a smaller value of accuracy or with the stepper event, and compare the results";
     (!parted.is_empty()).then(|| Warning::new("frames_under_impacts", message).help(help))
 }
 

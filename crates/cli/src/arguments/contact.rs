@@ -9,22 +9,33 @@ use stickslip_run::theory::asked;
 
 /// Long help; paragraphs are broken where the terminal ends.
 pub(crate) const ABOUT: &str = "\
-Solve one contact without a run: constants, curves, first loading, histories, stresses
+Solve a single contact without a run: constants, load histories, stresses
 
-Takes the materials, profile, friction and, by default, the normal load at t = 0 of a contact of FILE; bodies and waveforms do \
-not matter. Prints its constants, F_N and a over d, and the universal curve of the first loading: F_x over c/a, by \
-superposition (4.38) and by the integral (4.39). Equation numbers refer to the Handbook of Contact Mechanics (Popov, Heß, \
-Willert 2019), section 4.4.
+The command takes the materials, profile and friction coefficient of a contact from FILE. The normal load is the load in FILE \
+at t = 0, unless an option gives another normal load. The motion of the bodies has no effect.
 
-One of --indentation, --radius, --force with one of --displacement, --stick-radius, --tangential defines a first loading; the \
-other four follow, with friction work and energies.
+Prints the constants of the contact and a table of contact radius a, normal force F_N and stiffness over indentation d. A second \
+table gives the universal curve of the first loading, tangential force F_x over relative stick radius c/a. F_x is computed in two \
+ways: by superposition (4.38) and by an integral (4.39). Equation numbers refer to section 4.4 of the Handbook of Contact \
+Mechanics (Popov, Heß, Willert 2019).
 
-With --history or --out, files are written: history.csv (forces and energies along the path), fields.csv (pressure, shear \
-stress, displacement, slip over r at each corner), line.csv (line loads, limits and stretches of the row of springs), \
-friction.csv (friction work over r), normal.csv, universal.csv, contact.json and plots. A history is a polyline of d and u. If its first corner gives a normal load, the history starts there without tangential force, otherwise at u = 0 under the given load.
+Two options together define a first loading. The normal option is --indentation, --radius or --force. The tangential option is \
+--displacement, --stick-radius or --tangential. The command computes the other four quantities, the friction work and the energies.
 
-The exact curve of the profile is used, whatever engine the scenario names. All results are for one contact, even if its count \
-is larger. Exit codes: 0 done, 2 bad input, 3 a file cannot be written.";
+--history moves the contact along a path with straight sections in d and u. If the first corner gives a normal load, the path \
+starts at this corner without tangential force. Otherwise the path starts at u = 0 under the given normal load. With --history or \
+--out, the command writes:
+  history.csv    forces and energies along the path
+  fields.csv     pressure, shear stress, displacement and slip over r at each corner
+  line.csv       line loads, friction limits and stretches of the row of springs
+  friction.csv   friction work over r
+  normal.csv     normal force and contact radius over indentation
+  universal.csv  first loading over c/a
+  contact.json   constants and corners
+  plots          PNG or SVG files
+
+The command uses the exact memory curve even if the scenario selects a row of springs. All results are for one contact, even if \
+\"count\" in the scenario is larger than 1. Exit codes: 0 done, 2 bad input, 3 a file cannot be written.";
 
 pub(crate) const EXAMPLES: &str = "\
 Examples:
@@ -40,7 +51,7 @@ pub(crate) struct ContactArguments {
     /// Scenario file
     #[arg(value_name = "FILE")]
     pub(crate) file: PathBuf,
-    /// Name of the contact; not needed if the scenario has only one
+    /// Name of the contact; required if the scenario has several contacts
     #[arg(long, value_name = "NAME")]
     pub(crate) contact: Option<String>,
     /// Set a value of the scenario, such as contacts.ball.friction=0.3
@@ -50,13 +61,14 @@ pub(crate) struct ContactArguments {
     pub(crate) pressed: PressedArguments,
     #[command(flatten)]
     pub(crate) pushed: PushedArguments,
-    /// Move the contact along these corners, each u or F_x, or a pair d : u; or along the rows of a CSV file
+    /// Corners of the load history, or a CSV file with one corner per row. A corner is u or F_x, or a pair of a normal and a tangential
+    /// value, such as d : u
     #[arg(long, value_name = "CORNERS", allow_hyphen_values = true, conflicts_with = "pushed")]
     pub(crate) history: Option<String>,
-    /// Folder of the files [default: results/NAME-contact]
+    /// Folder for the output files [default: results/NAME-contact]
     #[arg(long, value_name = "DIR")]
     pub(crate) out: Option<PathBuf>,
-    /// Also draw cycle.png, an animation of the springs on the last five legs
+    /// Also draw cycle.png, an animation of the springs along the last five sections of the history
     #[arg(long)]
     pub(crate) animate: bool,
     /// Print one line of JSON instead of tables; numbers that are not finite are null

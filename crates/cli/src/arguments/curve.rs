@@ -10,27 +10,29 @@ use stickslip_study::curve::{Kind, holding};
 pub(crate) const ABOUT: &str = "\
 Trace a curve: step versus amplitude, speed versus frequency or load, holding force
 
-Each point is the scenario with one value replaced, and its periodic motion: found directly by shooting, or by a run that \
-waits for it where shooting fails or the motion is unstable. If the step length oscillates, the mean is reported with its \
-error and spread.
+For each point of the curve, the command replaces one value of the scenario and finds the periodic motion of the drive by \
+shooting. If shooting fails or the periodic motion is unstable, the command simulates the drive until the steps are steady. If the \
+step length oscillates, the point is the mean step length, with error and spread.
 
-  step-amplitude   step length versus stroke or amplitude of the drive waveform; S₀, the zero-step amplitude
-  speed-frequency  mean speed versus drive frequency; the maximum
-  force-speed      mean speed and power versus a load that opposes the steps; stall force, maximum power
-  step-load        step length versus such a load; stall force
-  preload          step length versus total normal force on the body; the maximum
+  step-amplitude   step length versus stroke or amplitude of the drive waveform;
+                   zero-step amplitude S₀, the largest amplitude without a step
+  speed-frequency  mean speed versus drive frequency; maximum speed
+  force-speed      mean speed and power versus a load that opposes the steps;
+                   stall force and maximum power
+  step-load        step length versus a load that opposes the steps; stall force
+  preload          step length versus total normal force on the body; maximum step length
   holding-force    maximum load along +x and along -x that the drive holds at rest, versus preload
 
-S₀ and stall force are brackets: the drive steps at one end and not at the other.
+S₀ and the stall force are intervals: the drive makes steps at one end of the interval and no steps at the other end.
 
---both traces the curve forward and backward, with the waveforms reversed in time. Jumps, tables and patterns cannot be \
-reversed. --vary traces the step, or with `--curve holding-force` the holding force, over any parameter of the scenario. \
-Waveforms that act along the same axis with the same period and stroke are varied together. The duration and output of the scenario do not \
-matter.
+--both also traces the curve with all waveforms reversed in time. Waveforms with jumps, tables, bursts and sequences cannot be \
+reversed. --vary traces the step length over any parameter of the scenario. With `--curve holding-force`, --vary traces the \
+holding force. Waveforms that act along the same axis with the same period and stroke are varied together. The run duration and \
+output tables of the scenario have no effect.
 
-Writes curve.csv, curve.json and the plot curve.png. A point that gives no result is written as a row with the reason. The result does not \
-depend on the number of threads. Exit codes: 0 done, 2 bad input, 3 no point has a result, or a file cannot be written, 130 \
-interrupted: finished points are in curve-partial.csv, .json and .png, and an earlier result is kept.";
+Writes curve.csv, curve.json and the plot curve.png. If a point has no result, its row gives the reason. The results do not depend \
+on the number of threads. Exit codes: 0 done; 2 bad input; 3 no point has a result, or a file cannot be written; 130 interrupted. An \
+interrupted command writes finished points to curve-partial.csv, .json and .png and keeps earlier results.";
 
 pub(crate) const EXAMPLES: &str = "\
 Examples:
@@ -49,34 +51,34 @@ pub(crate) struct CurveArguments {
     /// Scenario file
     #[arg(value_name = "FILE")]
     pub(crate) file: PathBuf,
-    /// Which curve
+    /// Name of the curve, as described above
     #[arg(long, value_name = "NAME", value_parser = curves())]
     pub(crate) curve: Option<CurveName>,
-    /// The parameter and its range, such as contacts.ball.friction=0.1..0.6, units at both ends or at none
+    /// Parameter to vary and its range, such as contacts.ball.friction=0.1..0.6; give units at both ends of the range or at neither end
     #[arg(long, value_name = "PATH=FROM..TO", allow_hyphen_values = true, value_parser = course, conflicts_with = "range")]
     pub(crate) vary: Option<(String, String)>,
-    /// Range of the curve, such as "10 Hz..5 kHz" [default: around the value of the scenario]
+    /// Range of the horizontal axis, such as "10 Hz..5 kHz" [default: around the scenario value]
     #[arg(long, value_name = "FROM..TO", allow_hyphen_values = true)]
     pub(crate) range: Option<String>,
-    /// Trace both directions: as it is, and with the waveforms reversed in time
+    /// Also trace the curve with all waveforms reversed in time
     #[arg(long)]
     pub(crate) both: bool,
-    /// Number of points, both ends included
+    /// Number of points, including both ends of the range
     #[arg(long, value_name = "N", default_value_t = 41)]
     pub(crate) points: usize,
     /// Space the points logarithmically
     #[arg(long)]
     pub(crate) log: bool,
-    /// Relative accuracy of S₀, stall, maxima and holding forces, 1e-9 to 0.1
+    /// Relative accuracy of S₀, stall force, maxima and holding force, 1e-9 to 0.1
     #[arg(long, value_name = "TOL", default_value = "1e-4", value_parser = tolerance)]
     pub(crate) tolerance: f64,
     /// Set a value of the scenario for all points, such as contacts.ball.friction=0.3
     #[arg(long, value_name = "PATH=VALUE", value_parser = assignment)]
     pub(crate) set: Vec<(String, String)>,
-    /// Points computed at the same time [default: the number of cores]
+    /// Number of threads that compute points in parallel [default: number of processor cores]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     pub(crate) threads: Option<u16>,
-    /// Folder of the files [default: results/NAME-CURVE]
+    /// Folder for the output files [default: results/NAME-CURVE]
     #[arg(long, value_name = "DIR")]
     pub(crate) out: Option<PathBuf>,
     /// Print one line of JSON instead of a table; numbers that are not finite are null

@@ -6,26 +6,29 @@ use std::path::PathBuf;
 
 /// Long help; paragraphs are broken where the terminal ends.
 pub(crate) const ABOUT: &str = "\
-Record reference results of scenarios and check whether they change: regression tests of trajectories
+Record reference results of scenarios; check later whether the results change
 
-`record` runs scenarios and keeps an excerpt of each in DIR/NAME: some rows, the events, the figures, the SHA-256 of all rows \
-and events, and the scenario. `check` runs the files as they are now and compares as `stickslip compare` does, so it finds \
-changes of the program and of the scenario; the latter are reported first. `accept` replaces the recorded results that have changed by the new ones; you give a reason, which it adds to DIR/log.md. All use every core.
+`record` runs scenarios and stores a reference result of each scenario in DIR/NAME. A reference result contains the scenario, some \
+rows, the events, the summary values, and the SHA-256 of all rows and events. `check` runs the present scenario files and compares \
+their results with the reference results, as `stickslip compare` does. `check` detects changes of the program and of the \
+scenario, and reports changes of the scenario first. `accept` replaces the reference results that differ from the present \
+results. You give a reason, and `accept` adds the reason to DIR/log.md. All three commands use all processor cores.
 
-A golden result only detects changes: an error that it already had when it was recorded is not found.
+A reference result only detects changes. An error that was present when the result was recorded is not detected.
 
-The event stepper runs at a tolerance of 1e-12, whatever the file says, because at larger tolerances rounding changes the \
-steps and cannot be distinguished from a real change. --own-tolerance keeps the tolerance of the file.
+The stepper `event` runs at a tolerance of 1e-12 instead of the tolerance in the scenario. At larger tolerances, rounding errors \
+alter the time steps, and such differences look like real changes. --own-tolerance keeps the tolerance of the scenario.
 
 `check` prints one line per scenario:
-  NAME: identical   rows and events have the same bytes
-  NAME: equal       no difference exceeds its tolerance; the largest is given
-  NAME: differs     the first difference; DIR/NAME/difference.png shows the largest
+  NAME: identical   rows and events are byte-identical
+  NAME: equal       no difference exceeds its tolerance; the line gives the largest difference
+  NAME: differs     the line gives the first difference; DIR/NAME/difference.png shows
+                    the largest difference
   NAME: gone        the scenario file does not exist
-  NAME: damaged     the golden result is not as it was recorded
+  NAME: damaged     the stored reference result was altered after recording
 
-Exit codes: 0 all identical or equal, 1 one is not, 2 bad input, 3 a run stopped early or a file cannot be written, 130 \
-interrupted.";
+Exit codes: 0 all results are identical or equal; 1 a result is not; 2 bad input; 3 a run stopped early, or a file cannot be \
+written; 130 interrupted.";
 
 /// Examples under the long help.
 pub(crate) const EXAMPLES: &str = "\
@@ -41,11 +44,11 @@ In CI, beside the scenarios in golden/ and drives/:
 
 #[derive(Debug, Subcommand)]
 pub(crate) enum GoldenCommand {
-    /// Run scenarios and record their results
+    /// Run scenarios and record their results as reference results
     Record(RecordArguments),
     /// Run the scenarios again and report what has changed
     Check(CheckArguments),
-    /// Replace the results that have changed, with a reason
+    /// Replace the reference results that have changed, and log the reason
     Accept(AcceptArguments),
 }
 
@@ -54,26 +57,26 @@ pub(crate) struct RecordArguments {
     /// Scenario files
     #[arg(value_name = "FILE", required = true)]
     pub(crate) files: Vec<PathBuf>,
-    /// Folder of the goldens
+    /// Folder of the reference results
     #[arg(long, value_name = "DIR")]
     pub(crate) out: PathBuf,
-    /// Set a value of the scenarios, now and in each check, such as run.cycles=10 for a shorter run
+    /// Set a value of the scenarios, now and in every later check, such as run.cycles=10 for a shorter run
     #[arg(long, value_name = "PATH=VALUE", value_parser = assignment)]
     pub(crate) set: Vec<(String, String)>,
-    /// Do not compare a channel or figure, or all of a body, contact or waveform
+    /// Ignore a channel, a summary value, or all values of a body, contact or waveform
     #[arg(long, value_name = "NAME")]
     pub(crate) ignore: Vec<String>,
-    /// Run at the tolerance of the file instead of 1e-12
+    /// Run at the tolerance of the scenario instead of 1e-12
     #[arg(long)]
     pub(crate) own_tolerance: bool,
 }
 
 #[derive(Debug, Args)]
 pub(crate) struct CheckArguments {
-    /// Folder of the goldens
+    /// Folder of the reference results
     #[arg(value_name = "DIR")]
     pub(crate) root: PathBuf,
-    /// Names to check [default: all]
+    /// Names of the reference results to check [default: all]
     #[arg(value_name = "NAME")]
     pub(crate) names: Vec<String>,
     /// Write a JUnit XML report for CI services
@@ -83,13 +86,13 @@ pub(crate) struct CheckArguments {
 
 #[derive(Debug, Args)]
 pub(crate) struct AcceptArguments {
-    /// Folder of the goldens
+    /// Folder of the reference results
     #[arg(value_name = "DIR")]
     pub(crate) root: PathBuf,
-    /// Names to accept [default: all that differ]
+    /// Names of the reference results to replace [default: all that differ]
     #[arg(value_name = "NAME")]
     pub(crate) names: Vec<String>,
-    /// Why the results change
+    /// Reason for the change of the results, for DIR/log.md
     #[arg(long, value_name = "TEXT")]
     pub(crate) reason: String,
 }

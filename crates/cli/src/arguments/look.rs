@@ -11,13 +11,14 @@ pub(crate) struct LookArguments {
     /// File formats of plots
     #[arg(long = "format", value_name = "KIND,…", value_delimiter = ',', default_value = "png")]
     formats: Vec<FormatArgument>,
-    /// Colours: light for paper, dark for screens (NAME-dark.png), or both
+    /// Colour themes: light for paper, dark for screens (file NAME-dark.png), or both
     #[arg(long = "theme", value_name = "NAME,…", value_delimiter = ',', default_value = "light")]
     themes: Vec<ColoursArgument>,
-    /// Size: 1 for a width of 1600 pixels, 2 for twice that (NAME@2x.png)
+    /// Image size: 1 for a width of 1600 pixels, 2 for a width of 3200 pixels (file NAME@2x.png)
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = scales())]
     scale: u32,
-    /// Width in print, 60mm to 300mm, such as 85mm (NAME-85mm.png): text keeps its size in points, PNG have 600 dpi
+    /// Width in print, 60mm to 300mm, such as 85mm (file NAME-85mm.png). The font size in points does not depend on the width. PNG files
+    /// have 600 dpi
     #[arg(long, value_name = "LENGTH", value_parser = width, conflicts_with = "scale")]
     width: Option<u32>,
 }
@@ -39,9 +40,9 @@ fn scales() -> impl TypedValueParser<Value = u32> {
 
 #[derive(Debug, Clone, Copy, ValueEnum)]
 enum FormatArgument {
-    /// Pixels
+    /// Pixel image
     Png,
-    /// Lines and texts, sharp at any size
+    /// Vector graphics, sharp at any size
     Svg,
 }
 

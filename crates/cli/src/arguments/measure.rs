@@ -7,17 +7,21 @@ use stickslip_scenario::quantity;
 
 /// Long help; paragraphs are broken where the terminal ends.
 pub(crate) const ABOUT: &str = "\
-Evaluate measured hysteresis loops of a table, beside a simulated one
+Evaluate measured hysteresis loops from a CSV table; compare them with a simulation
 
-Reports amplitudes, dissipated energy, opening, energy ratios and stiffness of every cycle. Reads displacement and tangential \
-force, and time if there is one, from a CSV file whose first line names the columns with their units, as in \"t [ms],disp \
-(um),F_mN\"; without units, SI is assumed. Columns are found by the names t or time; u, x, disp or displacement; fx, f, force \
-or q; others are given by --time, --displacement and --force.
+Reports amplitudes, dissipated energy, loop opening, energy ratios and stiffness of every cycle. The CSV file contains \
+displacements and tangential forces, and may contain times. The first line of the file names the columns with their units, as in \
+\"t [ms],disp (um),F_mN\". A column without a unit is in SI. Default column names are t or time for times; u, x, disp or \
+displacement for displacements; and fx, f, force or q for forces. The options --time, --displacement and --force select columns with \
+other names.
 
-A cycle runs from one reversal to the next in the same direction (noise is no reversal); with --period it is one period long. Openings are taken at \
-mid-force. If the force opposes the motion its sign is reversed, and a note says so.
+A cycle extends from one reversal to the next reversal in the same direction. Reversals by noise are ignored. With --period, every \
+cycle is one period long. The loop opening is measured at the mean of the largest and smallest force. If the force opposes the \
+motion, the sign of the force is reversed, and a note reports the reversal.
 
-With --beside, a contact of a simulation is evaluated in the same way and its last cycle is plotted for comparison, each loop shifted to its own center. Writes cycles.csv and loop.png. Exit codes: 0 done, 2 bad input, 3 a file cannot be written.";
+With --beside, a contact of a simulation is evaluated in the same way. The plot then shows the last simulated cycle together with \
+the measured loop, and each loop is shifted to its own centre. Writes cycles.csv and loop.png. Exit codes: 0 done, 2 bad input, 3 \
+a file cannot be written.";
 
 pub(crate) const EXAMPLES: &str = "\
 Examples:
@@ -39,19 +43,19 @@ pub(crate) struct MeasureArguments {
     /// Column of the tangential forces
     #[arg(long, value_name = "COLUMN")]
     pub(crate) force: Option<String>,
-    /// Period of the motion, such as "1 s", from the first row on; by default cycles are found by their reversals
+    /// Period of the motion, such as "1 s", counted from the first row; by default cycles are found by their reversals
     #[arg(long, value_name = "T", value_parser = period)]
     pub(crate) period: Option<f64>,
-    /// Mean normal force, such as "10 N", for the energy coefficient of friction; by default that of --beside
+    /// Mean normal force, such as "10 N", for the energy coefficient of friction [default: normal force of the simulated contact]
     #[arg(long, value_name = "FN", value_parser = normal)]
     pub(crate) normal_force: Option<f64>,
-    /// Folder of simulated results to evaluate and draw beside the measured loop
+    /// Results folder of a simulation that is compared with the measured loop
     #[arg(long, value_name = "DIR")]
     pub(crate) beside: Option<PathBuf>,
-    /// Name of its contact; not needed if there is only one
+    /// Name of the contact in the results of --beside; required if the results contain several contacts
     #[arg(long, value_name = "NAME", requires = "beside")]
     pub(crate) contact: Option<String>,
-    /// Folder of the files [default: results/NAME-loop]
+    /// Folder for the output files [default: results/NAME-loop]
     #[arg(long, value_name = "DIR")]
     pub(crate) out: Option<PathBuf>,
     /// Print errors only

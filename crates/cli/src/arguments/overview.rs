@@ -9,18 +9,17 @@ const GROUPS: [(&str, &[&str]); 5] = [
     ("Every day", &["new", "check", "info", "run", "plot", "compare", "explain"]),
     ("Design a drive", &["curve", "steady", "branch", "sensitivity"]),
     ("Contacts and measured data", &["contact", "measure"]),
-    ("Connect", &["realtime"]),
-    ("Trust", &["golden", "repro", "materials", "schema", "completions"]),
+    ("Real time", &["realtime"]),
+    ("Verification and reference", &["golden", "repro", "materials", "schema", "completions"]),
 ];
 const TEMPLATE: &str = "{name} {version}: {about}\n\n{usage-heading} {usage}{after-help}";
 const EXIT_CODES: &str = "
-Options: -h, --help (after a command: its options), -V, --version
+Options: -h, --help (after a command: help of the command), -V, --version
 Exit codes: 0 done; 1 a comparison found a difference; 2 bad input, nothing was written; 3 a run
 stopped early or a file could not be written; 130 interrupted, results so far are written
 
-Start:  stickslip new    then  stickslip run drive.json    and look into results/drive";
-const PLOTS: &str =
-    "Plots: --format, --theme, --scale and --width, as `stickslip plot --help` describes them";
+Start:  `stickslip new`, then `stickslip run drive.json`; the results are in results/drive";
+const PLOTS: &str = "Options for plots: --format, --theme, --scale, --width; see `stickslip plot --help`";
 /// Options of plots, which `plot --help` alone describes.
 const LOOK: [&str; 4] = ["formats", "themes", "scale", "width"];
 

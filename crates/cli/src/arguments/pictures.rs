@@ -25,13 +25,13 @@ pub(crate) struct PlotArguments {
     /// Folders of results
     #[arg(required = true, value_name = "DIR")]
     pub(crate) folders: Vec<PathBuf>,
-    /// Plots to draw instead of those of the scenario; xy: channels over a channel
+    /// Names of the plots to draw [default: the plots of the scenario]; xy draws channels over another channel
     #[arg(long, value_name = "NAME,…", value_delimiter = ',', value_parser = plot_names())]
     pub(crate) plots: Vec<PlotName>,
-    /// Folder for the plots; those of the results folder NAME are written to OUT/NAME/ [default: beside the results]
+    /// Folder for the plots; plots of the results folder NAME are written to OUT/NAME/ [default: the results folder]
     #[arg(long, value_name = "OUT")]
     pub(crate) out: Option<PathBuf>,
-    /// Overlay all results in one plot of each kind: OUT/over-NAME.png (needs --out); loop, trajectory, phase and xy only
+    /// Overlay all results in one plot of each kind, OUT/over-NAME.png; requires --out; only for loop, trajectory, phase and xy
     #[arg(long, requires = "out")]
     pub(crate) over: bool,
     /// Print errors only
@@ -43,16 +43,16 @@ pub(crate) struct PlotArguments {
 
 #[derive(Debug, Args)]
 pub(crate) struct ReproArguments {
-    /// PNG or SVG file
+    /// PNG or SVG file drawn by `run` or `plot`
     #[arg(value_name = "FILE")]
     pub(crate) file: PathBuf,
     /// Folder for the results of the run [default: nothing is written]
     #[arg(long, value_name = "DIR")]
     pub(crate) out: Option<PathBuf>,
-    /// Limit of wall-clock time, such as "1 min"; beyond it nothing is compared (exit code 3)
+    /// Limit of wall-clock time, such as "1 min"; a run that reaches the limit is not compared (exit code 3)
     #[arg(long, value_name = "TIME", value_parser = interval)]
     pub(crate) wall: Option<f64>,
-    /// Print errors only: no progress, no result
+    /// Print errors only: no progress, no verdict
     #[arg(short, long)]
     pub(crate) quiet: bool,
     #[command(flatten)]

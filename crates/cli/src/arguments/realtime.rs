@@ -13,21 +13,23 @@ use stickslip_realtime::{Overrun, region};
 pub(crate) const ABOUT: &str = "\
 Run a drive in real time with inputs and outputs over UDP or shared memory
 
-Deadlines are multiples of --period on the monotonic clock. After each deadline the newest input is taken, one frame is \
-computed and its outputs are sent. Latency (from the deadline until the loop wakes) and execution time (from then until the \
-outputs are out) are counted separately in bins of 1 µs. A frame that ends after the next deadline is an overrun. An empty \
-loop of the same period runs first and shows the limits of the machine.
+A frame is one --period of simulated time. Deadlines are multiples of --period on the monotonic clock. After each deadline the loop \
+takes the newest input, computes one frame and sends the outputs. Latency is the time from the deadline until the loop wakes. \
+Execution time is the time from waking until the outputs are sent. Both are counted in bins of 1 µs. A frame that ends after the \
+next deadline is an overrun. Before the run, an empty loop with the same period shows the limits of the machine.
 
-Inputs are the waveforms of kind \"input\": a held one takes its new value at the start of the frame, a linear one reaches it at \
-the end. A \"generator\" has four inputs: NAME.stroke, NAME.frequency (Hz), NAME.heading (1 or -1) and NAME.steps (-1 for no \
-limit). Without --inputs they keep their initial values. docs/realtime.md describes packets, shared memory and recordings byte \
-by byte, with clients in C and Python. All values are in SI.
+Inputs are the waveforms of kind \"input\". A held input takes a new value at the start of a frame. A linear input reaches a new \
+value at the end of a frame. A waveform of kind \"generator\" has four inputs: NAME.stroke, NAME.frequency (Hz), NAME.heading (1 or \
+-1) and NAME.steps (-1 for no limit). Without --inputs, all inputs keep their initial values. All values are in SI. \
+docs/realtime.md describes packets, shared memory and recordings byte by byte, with clients in C and Python.
 
-About a hundred frames are computed before the start; a period shorter than their median computing time is refused unless --force is given. If the operating system refuses real-time priority, the processor or locked memory, the loop runs without that setting and reports it.
+About a hundred frames are computed before the start. A --period shorter than the median computing time of these frames is refused \
+unless --force is given. If the operating system refuses the priority, the processor or locked memory, the loop runs without the \
+refused setting, and the report says so.
 
-Writes DIR/NAME/realtime.json, histogram.csv, frames.csv (the slowest frames and their work), realtime.png and timeline.png. \
-Exit codes: 0 all frames were computed, 2 bad input (no input came, a port is in use), 3 the run stopped early, --overrun stop \
-or --silence stop ended the loop, or a file cannot be written, 130 interrupted; results so far are written.";
+Writes to DIR/NAME: realtime.json, histogram.csv, frames.csv (the slowest frames and their work), realtime.png and timeline.png. \
+Exit codes: 0 all frames were computed; 2 bad input, no input arrived, or a port is in use; 3 the run stopped early, \
+--overrun stop or --silence stop ended the loop, or a file cannot be written; 130 interrupted. Results so far are written.";
 
 /// Examples under the long help.
 pub(crate) const EXAMPLES: &str = "\
@@ -47,17 +49,18 @@ pub(crate) struct RealtimeArguments {
     /// Length of a frame, such as "50 us"
     #[arg(long, value_name = "TIME", value_parser = frame)]
     pub(crate) period: f64,
-    /// Simulated time [default: that of the replayed recording, or of the scenario]
+    /// Simulated time [default: duration of the replayed recording, or of the scenario]
     #[arg(long = "for", value_name = "TIME", value_parser = above_zero)]
     pub(crate) duration: Option<f64>,
-    /// `frames` or `frames:ACCURACY` with bounded work per frame (the default, 1e-3 of a stroke), `event` or `event:TOLERANCE`, fast on average,
-    /// `verlet`, `verlet:STEP`, `rk4` or `rk4:STEP`; the default step is a fifth of the stability limit. At most 100 000 time steps per frame
+    /// Method of time integration. The default `frames[:ACCURACY]` has bounded work per frame; ACCURACY is 1e-3 of a stroke by default.
+    /// `event[:TOLERANCE]` is fast on average. `verlet[:STEP]` and `rk4[:STEP]` have a fixed STEP, by default a fifth of the stability
+    /// limit. A frame has at most 100 000 time steps
     #[arg(long, value_name = "NAME[:VALUE]")]
     pub(crate) stepper: Option<String>,
     /// Set a value of the scenario, such as contacts.ball.friction=0.3
     #[arg(long, value_name = "PATH=VALUE", value_parser = assignment)]
     pub(crate) set: Vec<(String, String)>,
-    /// Folder of the report: NAME.json writes into DIR/NAME/
+    /// Folder for the report: the report on NAME.json is written to DIR/NAME/
     #[arg(long, value_name = "DIR", default_value = "realtime")]
     pub(crate) out: PathBuf,
     #[command(flatten)]
@@ -77,36 +80,37 @@ pub(crate) struct RealtimeArguments {
 /// What goes in and out.
 #[derive(Debug, Args)]
 pub(crate) struct WireArguments {
-    /// Source of the inputs: udp:HOST:PORT, shm:NAME (a file of /dev/shm, or a path), stdin (lines of numbers), replay:FILE (written by
-    /// --record-inputs). A HOST other than 127.0.0.1 accepts packets from the network, with a warning
+    /// Source of the inputs: udp:HOST:PORT, shm:NAME (a file of /dev/shm, or a path), stdin (lines of numbers), or replay:FILE (a recording
+    /// by --record-inputs). With a HOST other than 127.0.0.1, the program accepts packets from the network and prints a warning
     #[arg(long, value_name = "WHERE", value_parser = inputs)]
     pub(crate) inputs: Option<Inputs>,
-    /// Destination of the outputs, repeatable: udp:HOST:PORT, udp (to the client that sends the inputs), shm:NAME, file:PATH (packets)
+    /// Destination of the outputs: udp:HOST:PORT, udp (the client that sends the inputs), shm:NAME, or file:PATH (packets). The option can
+    /// be repeated
     #[arg(long, value_name = "WHERE", value_parser = outputs)]
     pub(crate) outputs: Vec<Outputs>,
-    /// Channels of the outputs [default: time, positions and velocities of bodies]
+    /// Channels to output [default: time, positions and velocities of bodies]
     #[arg(long, value_name = "NAME,…", value_delimiter = ',')]
     pub(crate) channels: Option<Vec<String>>,
-    /// Values sent after the inputs that do not act on the drive, such as a setpoint: they are recorded and drawn in timeline.png; a name
-    /// ends with its unit, as in target.x_m
+    /// Names of additional values that the client sends after the inputs, such as a setpoint. These values do not act on the drive, but
+    /// are recorded and drawn in timeline.png. Each name ends with a unit, as in target.x_m
     #[arg(long, value_name = "NAME,…", value_delimiter = ',', requires = "inputs")]
     pub(crate) notes: Vec<String>,
-    /// Time to wait for the first input; 0 starts at once
+    /// Maximum waiting time for the first input; with 0 the loop starts at once
     #[arg(long, value_name = "TIME", default_value = "10 s", value_parser = not_negative)]
     pub(crate) wait: f64,
-    /// Action when no valid input has come for --silent-after: hold the last values, return to the initial ones, or stop
+    /// Action after --silent-after without a valid input: hold the last values, return to the initial values, or stop the loop
     #[arg(long, value_name = "WHAT", default_value = "hold")]
     pub(crate) silence: SilenceArgument,
-    /// Time without valid input until --silence acts
+    /// Time without a valid input after which --silence acts
     #[arg(long, value_name = "TIME", default_value = "1 s", value_parser = above_zero)]
     pub(crate) silent_after: f64,
-    /// Time of silence after which another client may take over the inputs
+    /// Time without input after which the inputs of another client are accepted
     #[arg(long, value_name = "TIME", default_value = "100 ms", value_parser = above_zero)]
     pub(crate) takeover: f64,
-    /// Record the inputs of every frame, for --inputs replay:FILE
+    /// Record the inputs of every frame in FILE, for --inputs replay:FILE
     #[arg(long, value_name = "FILE")]
     pub(crate) record_inputs: Option<PathBuf>,
-    /// Log every frame: number, latency and execution time in ns, deadlines skipped after it
+    /// Log every frame in FILE: number, latency and execution time in ns, number of deadlines skipped after the frame
     #[arg(long, value_name = "FILE")]
     pub(crate) log: Option<PathBuf>,
 }
@@ -114,29 +118,29 @@ pub(crate) struct WireArguments {
 /// When frames are computed.
 #[derive(Debug, Args)]
 pub(crate) struct ClockArguments {
-    /// Processor to run on, from 0
+    /// Number of the processor to run on, counted from 0
     #[arg(long, value_name = "N")]
     pub(crate) cpu: Option<usize>,
     /// Real-time priority (SCHED_FIFO), 1 to 99
     #[arg(long, value_name = "P", value_parser = clap::value_parser!(u8).range(1..=99))]
     pub(crate) priority: Option<u8>,
-    /// Lock all memory, so that none is paged out
+    /// Lock all memory of the program, so that no page is swapped out
     #[arg(long)]
     pub(crate) lock: bool,
     /// Action on an overrun. skip: the next frame waits for the next deadline; all frames are computed, and simulated time falls behind
     /// the clock. stop: the loop ends (exit code 3)
     #[arg(long, value_name = "WHAT", default_value = "skip")]
     pub(crate) overrun: OverrunArgument,
-    /// Wake this long before each deadline and poll the clock until then: less latency for a busy processor
+    /// Wake earlier than each deadline by this time and poll the clock; reduces latency but keeps the processor busy
     #[arg(long, value_name = "TIME", default_value = "0", value_parser = not_negative)]
     pub(crate) spin: f64,
     /// Compute frames as fast as possible, without waiting for deadlines
     #[arg(long)]
     pub(crate) unpaced: bool,
-    /// Duration of the empty loop, at most that of the run
+    /// Duration of the empty loop, at most the duration of the run
     #[arg(long, value_name = "TIME", default_value = "2 s", value_parser = not_negative)]
     pub(crate) floor: f64,
-    /// Start even if the machine cannot keep the period
+    /// Start even if the machine is too slow for --period
     #[arg(long)]
     pub(crate) force: bool,
 }
@@ -161,7 +165,7 @@ pub(crate) enum Outputs {
 
 #[derive(Debug, Clone, Copy, ValueEnum)]
 pub(crate) enum OverrunArgument {
-    /// Leave out the deadlines that have passed
+    /// Skip the deadlines that have passed
     Skip,
     /// End the loop
     Stop,
@@ -171,7 +175,7 @@ pub(crate) enum OverrunArgument {
 pub(crate) enum SilenceArgument {
     /// Hold the last values
     Hold,
-    /// Go back to the initial values
+    /// Return to the initial values
     Initial,
     /// End the loop
     Stop,

@@ -20,20 +20,20 @@ pub(crate) struct RunArguments {
     /// Scenario files
     #[arg(required_unless_present = "resume", value_name = "FILE")]
     pub(crate) files: Vec<PathBuf>,
-    /// Resume runs from the checkpoints in these folders of results, to their end or to the end that --set gives (run.duration or
-    /// run.cycles only); the results have the same bytes as those of an undisturbed run
+    /// Resume runs from the checkpoints in these results folders. A run continues to the end given in the scenario, or to the end given
+    /// by --set (run.duration or run.cycles only). The results are byte-identical to the results of an uninterrupted run
     #[arg(long, value_name = "DIR", num_args = 1.., conflicts_with_all = ["files", "out", "realtime"])]
     pub(crate) resume: Vec<PathBuf>,
-    /// Folder of the results: NAME.json writes into DIR/NAME/
+    /// Folder for the results: the results of NAME.json are written to DIR/NAME/
     #[arg(long, value_name = "DIR", default_value = "results")]
     pub(crate) out: PathBuf,
     /// Set a value of every scenario, such as run.duration="20 ms" or contacts.ball.friction=0.3
     #[arg(long, value_name = "PATH=VALUE", value_parser = assignment)]
     pub(crate) set: Vec<(String, String)>,
-    /// Run no faster than real time, and report the largest delay; the results are the same
+    /// Run no faster than real time, and report the largest delay behind the clock; the results do not change
     #[arg(long)]
     pub(crate) realtime: bool,
-    /// Keep a checkpoint in DIR/NAME/checkpoint every TIME of wall-clock time, such as "30 s", for --resume; the results are the same
+    /// Write a checkpoint for --resume to DIR/NAME/checkpoint every TIME of wall-clock time, such as "30 s"; the results do not change
     #[arg(long, value_name = "TIME", value_parser = interval)]
     pub(crate) checkpoint_every: Option<f64>,
     #[command(flatten)]
@@ -43,16 +43,16 @@ pub(crate) struct RunArguments {
 /// How runs are conducted and reported.
 #[derive(Debug, Args)]
 pub(crate) struct ConductArguments {
-    /// Scenarios run at the same time, at most one per core
+    /// Maximum number of scenarios that run in parallel, limited to the number of processor cores
     #[arg(long, value_name = "N", default_value_t = 1, allow_hyphen_values = true, value_parser = clap::value_parser!(u16).range(1..))]
     pub(crate) threads: u16,
-    /// Print the summaries to stdout, one line of JSON per scenario
+    /// Print the summary of each scenario to stdout as one line of JSON
     #[arg(long)]
     pub(crate) json: bool,
-    /// Print errors only: no progress, no results, and no warnings but with --strict
+    /// Print errors only: no progress, no results; warnings are printed only with --strict
     #[arg(short, long)]
     pub(crate) quiet: bool,
-    /// Exit with code 3 if the results of a run have a warning, such as an energy balance that fails; warnings about the scenario,
+    /// Exit with code 3 if the results of a run have a warning, for example of a violated energy balance. Warnings about the scenario,
     /// which `check` reports, do not count
     #[arg(long)]
     pub(crate) strict: bool,

@@ -9,15 +9,18 @@ use std::path::PathBuf;
 pub(crate) const ABOUT: &str = "\
 Find the periodic motion of a drive without a long run: step, speed, stability
 
-A drive is steady when each period of its waveforms repeats the same motion, shifted by one step. This periodic orbit is found by \
-shooting: a few periods are run, then Newton's method solves for a fixed point of the Poincaré map, whether or not a run would \
-converge to it. Waveforms are taken to continue for ever, whatever number of cycles the scenario gives.
+A drive is in periodic motion when every period of the waveforms repeats the same motion, shifted by one step. The command finds the \
+periodic motion by shooting: a few periods are simulated, then Newton's method solves for a fixed point of the Poincaré map. \
+Shooting also finds unstable periodic motions, to which no run converges. Waveforms are assumed to continue without end, even if the \
+scenario limits the number of cycles.
 
-Prints the step with its error, the speed, and the Floquet multipliers: after a period a disturbance is |λ| times as large. Writes \
-steady.json, a plot of one period with the multipliers, and a checkpoint from which `stickslip run --resume DIR` continues the motion.
+Prints the step length with its error, the speed, and the Floquet multipliers λ. A small disturbance changes by the factor |λ| in \
+each period. Writes steady.json, a plot of one period with the multipliers, and a checkpoint. `stickslip run --resume DIR` \
+continues the motion from the checkpoint.
 
-Exit codes: 0 found, stable or not; 2 bad input, or no periodic motion can exist: no period, no common period of all waveforms, a \
-waveform that a caller commands, a body that nothing holds; 3 none was found, or a file cannot be written; 130 interrupted.";
+Exit codes: 0 a periodic motion was found, stable or not; 2 bad input, or no periodic motion can exist; 3 no periodic motion was \
+found, or a file cannot be written; 130 interrupted. No periodic motion can exist if the waveforms have no common period, if a \
+calling program commands a waveform, or if nothing holds a body.";
 
 pub(crate) const EXAMPLES: &str = "\
 Examples:
@@ -30,13 +33,14 @@ Examples:
 pub(crate) const BRANCH_ABOUT: &str = "\
 Follow the periodic motion while a parameter changes: folds, bifurcations
 
-Starts from the periodic motion of the scenario and follows it to both ends of the range by pseudo-arclength continuation, around folds \
-and where it is unstable. Reports folds, period doublings, Neimark-Sacker bifurcations, and parameter values at which an event, such as the start of slip, is added to the period or vanishes from it. \
-Writes branch.csv, branch.json and the plot branch.png, stable motions solid, unstable ones dashed. If the branch ends within the range, \
-for example because gross slip ceases, the reason is given.
+The command starts from the periodic motion of the scenario and follows this motion to both ends of the parameter range. The method is \
+pseudo-arclength continuation, which also follows the branch around folds and along unstable motions. The command reports folds, period \
+doublings and Neimark-Sacker bifurcations. It also reports parameter values at which an event of the period, such as the start of slip, \
+appears or disappears. If the branch ends within the range, for example because gross slip ceases, the command gives the reason. Writes \
+branch.csv, branch.json and the plot branch.png. In the plot, lines are solid for stable motions and dashed for unstable motions.
 
-Exit codes: 0 done; 2 bad input, or no periodic motion can exist; 3 none was found, or a file cannot be written; 130 interrupted: what \
-was found is written to branch-partial.csv, .json and .png, and an earlier result is kept.";
+Exit codes: 0 done; 2 bad input, or no periodic motion can exist; 3 no periodic motion was found, or a file cannot be written; 130 \
+interrupted. An interrupted command writes the motions found so far to branch-partial.csv, .json and .png and keeps earlier results.";
 
 pub(crate) const BRANCH_EXAMPLES: &str = "\
 Examples:
@@ -47,7 +51,7 @@ Examples:
 pub(crate) struct SteadyArguments {
     #[command(flatten)]
     pub(crate) search: SearchArguments,
-    /// Folder of the files [default: results/NAME-steady]
+    /// Folder for the output files [default: results/NAME-steady]
     #[arg(long, value_name = "DIR")]
     pub(crate) out: Option<PathBuf>,
 }
@@ -56,16 +60,16 @@ pub(crate) struct SteadyArguments {
 pub(crate) struct BranchArguments {
     #[command(flatten)]
     pub(crate) search: SearchArguments,
-    /// The parameter and its range, such as contacts.ball.friction=0.1..0.6
+    /// Parameter to vary and its range, such as contacts.ball.friction=0.1..0.6
     #[arg(long, value_name = "PATH=FROM..TO", required = true, allow_hyphen_values = true, value_parser = course)]
     pub(crate) vary: (String, String),
-    /// Accuracy of special points as a share of the range, 1e-12 to 1e-3
+    /// Accuracy of the parameter value at folds and bifurcations, as a share of the range, 1e-12 to 1e-3
     #[arg(long, value_name = "SHARE", default_value = "1e-9", value_parser = accuracy)]
     pub(crate) accuracy: f64,
-    /// Maximum number of motions on either side of the start
+    /// Maximum number of periodic motions computed on each side of the start
     #[arg(long, value_name = "N", default_value_t = 1000, value_parser = motions)]
     pub(crate) points: usize,
-    /// Folder of the files [default: results/NAME-branch]
+    /// Folder for the output files [default: results/NAME-branch]
     #[arg(long, value_name = "DIR")]
     pub(crate) out: Option<PathBuf>,
 }
@@ -79,10 +83,10 @@ pub(crate) struct SearchArguments {
     /// Set a value of the scenario, such as contacts.ball.friction=0.3
     #[arg(long, value_name = "PATH=VALUE", value_parser = assignment)]
     pub(crate) set: Vec<(String, String)>,
-    /// Local error per step of the runs, relative to the natural scales of the contacts, 1e-13 to 1e-6; it replaces the scenario's own tolerance
+    /// Local error per time step, relative to the natural scales of the contacts, 1e-13 to 1e-6; replaces the tolerance of the scenario
     #[arg(long, value_name = "SHARE", default_value = "1e-12", value_parser = shooting)]
     pub(crate) tolerance: f64,
-    /// Maximum number of periods to compute
+    /// Maximum number of periods that the search may simulate
     #[arg(long, value_name = "N", default_value_t = 4000, value_parser = clap::value_parser!(u32).range(1..))]
     pub(crate) periods: u32,
     /// Print one line of JSON instead of tables; numbers that are not finite are null

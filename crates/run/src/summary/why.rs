@@ -43,13 +43,17 @@ fn way(last: &LastPeriod) -> Option<String> {
     let (step, fall) = (last.step.0 * stroke.signum(), last.losses.back_step_length.0);
     let stroke = stroke.abs();
     let forward = step.abs() + fall;
-    let came = format!("the body moved forward by {} and back by {}", length(forward), length(fall));
+    let came = format!(
+        "the body moved by {} in the direction of the step and by {} back",
+        length(forward),
+        length(fall)
+    );
     let result = if step.abs() <= NOTHING * stroke {
-        format!("no step, the body moved by {} peak to peak", length(forward))
+        format!("the body made no step and moved by {} peak to peak", length(forward))
     } else if step < 0.0 {
-        format!("a step of {} in the opposite direction; {came}", length(-step))
+        format!("{came}, which gives a step of {} opposite to the forward stroke", length(-step))
     } else {
-        format!("a step of {}, {} of the stroke; {came}", length(step), percent(step / stroke))
+        format!("{came}, which gives a step of {}, {} of the stroke", length(step), percent(step / stroke))
     };
     let times = |[forward, back]: [f64; 2]| {
         format!("in {} and back in {}", quantity(Real(forward), "s"), quantity(Real(back), "s"))
@@ -59,9 +63,9 @@ fn way(last: &LastPeriod) -> Option<String> {
         Ok(FootMotion { travel, own_times: Some(own) }) => {
             let own = if last.forth.stroke?.0 > 0.0 { own } else { [own[1], own[0]] };
             let moved = format!("by {} {}", length(travel), times(own));
-            format!("the stack moved the foot forward {moved} (commanded: {command}): {result}")
+            format!("the stack moved the foot forward {moved} (commanded: {command}); {result}")
         }
-        _ => format!("the drive moved forward {command}: {result}"),
+        _ => format!("the drive was commanded to move forward {command}; {result}"),
     })
 }
 
@@ -72,7 +76,9 @@ fn lost(last: &LastPeriod) -> Option<String> {
         (Some(lost), _) if lost.0 < 0.0 => {
             format!("the step exceeds the travel of the foot by {}", length(-lost.0))
         }
-        (Some(lost), _) => format!("lost stroke: {} of the travel of the foot", length(lost.0)),
+        (Some(lost), _) => {
+            format!("lost stroke: the step is {} shorter than the travel of the foot", length(lost.0))
+        }
         (None, foot) => format!("lost stroke not computed: {}", foot.err()?),
     })
 }
@@ -81,25 +87,28 @@ fn lost(last: &LastPeriod) -> Option<String> {
 fn contact_line(name: &str, contact: &ContactPeriod) -> String {
     let share = |share: Option<Real>| share.map_or("0.0 %".to_owned(), |share| percent(share.0));
     let slip = format!(
-        "{name}: gross slip in {} of the forward stroke and {} of the return stroke",
+        "{name}: gross slip lasts for {} of the forward stroke and for {} of the return stroke",
         share(contact.slip_share_forward),
         share(contact.slip_share_return)
     );
     let times = match contact.reversals_forward {
-        1 => "1 reversal of the relative motion".to_owned(),
-        times => format!("{times} reversals of the relative motion"),
+        1 => "the relative motion reverses once".to_owned(),
+        times => format!("the relative motion reverses {times} times"),
     };
     let ringing = match contact.settling {
-        _ if contact.reversals_forward == 0 => "no ringing".to_owned(),
+        _ if contact.reversals_forward == 0 => "the contact does not ring in the forward stroke".to_owned(),
         None => format!(
-            "{times} in the forward stroke; at the end of that stroke the tangential force still oscillates by {} of μF_N, so the step depends on the period",
+            "{times} in the forward stroke; at the end of the forward stroke, the tangential force still oscillates with an amplitude of \
+             {} of μF_N, so the step length depends on the drive period",
             percent(contact.ringing_left.0)
         ),
         Some(settling) if settling.0 == 0.0 => {
-            format!("{times} in the forward stroke; the tangential force oscillates by less than 5 % of μF_N")
+            format!(
+                "{times} in the forward stroke; the amplitude of the tangential force stays below 5 % of μF_N"
+            )
         }
         Some(settling) => format!(
-            "{times} in the forward stroke; the tangential force oscillates by more than 5 % of μF_N for {}",
+            "{times} in the forward stroke; the tangential force oscillates with an amplitude above 5 % of μF_N for {}",
             quantity(settling, "s")
         ),
     };
@@ -118,7 +127,7 @@ fn short(job: &Job, last: &LastPeriod) -> Option<String> {
     let idle = idle.fold(f64::INFINITY, f64::min);
     (idle.is_finite() && stroke < idle).then(|| {
         format!(
-            "the stroke of {} is below the zero-step stroke of {}, which partial slip takes up without ringing",
+            "the stroke of {} is below the zero-step stroke of {}; without ringing, partial slip takes up so short a stroke completely",
             length(stroke),
             length(idle)
         )
@@ -134,14 +143,14 @@ fn work(work: &PeriodWork) -> Option<String> {
     // A load that drags the body along puts work in as well.
     let gave = Real((-load.0).max(0.0));
     let share = |part: Real| percent(part.0 / (drive.0 + gave.0));
-    let load = if load.0 > 0.0 { format!(", load {}", share(load)) } else { String::new() };
+    let load = if load.0 > 0.0 { format!("; the load received {}", share(load)) } else { String::new() };
     let gave = match gave.0 > UNSEEN * drive.0 {
-        true => format!(" and {} from the load", quantity(gave, "J")),
+        true => format!(", and the load supplied {}", quantity(gave, "J")),
         false => String::new(),
     };
     let friction = share(work.friction);
     Some(format!(
-        "energy from the drive: {}{gave}, of which friction {friction}, dampers {}{load}",
+        "the drive supplied {} in the period{gave}; friction dissipated {friction} of the supplied energy; dampers dissipated {}{load}",
         quantity(drive, "J"),
         share(work.damping)
     ))

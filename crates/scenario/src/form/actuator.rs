@@ -11,8 +11,9 @@ use serde::{Deserialize, Serialize};
 use serde_json::json;
 use std::f64::consts::FRAC_1_SQRT_2;
 
-/// Piezo stack: a spring and a damper with a free stroke s. Its force on the second body is k(s-e) + c(ṡ-ė). The elongation is e =
-/// x(second) - x(first) at its ends, or z(second) - z(first). Values of a data sheet are enough to describe it: see docs/piezo.md.
+/// Piezo stack: a spring and a damper with a free stroke s. The stack acts on the second body with the force k(s-e) + c(ṡ-ė). The
+/// elongation e is x(second) - x(first) at the ends of the stack, or z(second) - z(first). Data-sheet values are enough to describe a
+/// stack: see docs/piezo.md.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 #[schemars(transform = stroke_or_voltage)]
@@ -32,9 +33,10 @@ pub(crate) struct ActuatorForm {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(example = &"20 N/um", transform = above_zero)]
     pub(crate) stiffness: Option<Stiffness>,
-    /// Damping c, N s/m, at least 0; typical 0.1 N s/m to 100 N s/m. By default it is 0 for a stack without `voltage`, `data_sheet` and
-    /// `mass`. For other stacks the default is √(k m)/50, with the reduced mass m = m₁m₂/(m₁ + m₂) of the bodies at the ends. A body that
-    /// is not free counts as infinitely heavy. This gives the quality factor 50 of a soft ceramic with its electrodes.
+    /// Damping c, N s/m, at least 0; typical 0.1 N s/m to 100 N s/m. By default the damping is 0 for a stack without `voltage`,
+    /// `data_sheet` and `mass`. For other stacks the default is √(k m)/50, with the reduced mass m = m₁m₂/(m₁ + m₂) of the bodies at the
+    /// ends. A body that is not free counts as infinitely heavy. The default gives the quality factor 50 of a soft piezo ceramic with
+    /// electrodes.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(example = &"0.5 N s/m", transform = at_least_zero)]
     pub(crate) damping: Option<Damping>,
@@ -57,12 +59,12 @@ pub(crate) struct ActuatorForm {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(example = &"38 nm/V", transform = above_zero)]
     pub(crate) stroke_per_volt: Option<StrokePerVoltage>,
-    /// Capacitance C, F, above 0; needed with a `driver`; by default that of `data_sheet`; typical 10 nF to 10 uF. Give the value at the
-    /// amplitude of the drive voltage, which is up to twice that at 1 V.
+    /// Capacitance C, F, above 0; needed with a `driver`; by default that of `data_sheet`; typical 10 nF to 10 uF. Give the capacitance at
+    /// the amplitude of the drive voltage, which is up to twice the capacitance at 1 V.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(example = &"7.2 uF", transform = above_zero)]
     pub(crate) capacitance: Option<Capacitance>,
-    /// Values of the manufacturer's data sheet; none by default. Keys of the stack that are left out are computed from these values.
+    /// Values of the manufacturer's data sheet; none by default. Missing keys of the stack are computed from these values.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(example = json!({ "stroke": "4.6 um", "voltage": "120 V", "blocking_force": "460 N", "capacitance": "7.2 uF" }))]
     pub(crate) data_sheet: Option<DataSheetForm>,
@@ -78,7 +80,7 @@ pub(crate) struct ActuatorForm {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(example = json!({ "per_decade": 0.015 }))]
     pub(crate) creep: Option<CreepForm>,
-    /// Feedforward compensation: whether the inverse models of hysteresis and creep act on the command before the driver; false by default.
+    /// Feedforward compensation: whether inverse models of hysteresis and creep correct the command before the driver; false by default.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     #[schemars(example = true)]
     pub(crate) compensate: bool,
@@ -108,19 +110,19 @@ pub(crate) struct DataSheetForm {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(example = &"7.2 uF", transform = above_zero)]
     pub(crate) capacitance: Option<Capacitance>,
-    /// First resonance without a load, both ends free, Hz, above 0; unknown by default; typical 10 kHz to 500 kHz. It determines the mass
-    /// of the stack.
+    /// First resonance without a load, both ends free, Hz, above 0; unknown by default; typical 10 kHz to 500 kHz. This frequency
+    /// determines the mass of the stack.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(example = &"120 kHz", transform = above_zero)]
     pub(crate) free_resonance: Option<Frequency>,
-    /// First resonance without a load, one end held, Hz, above 0; unknown by default. It is half of `free_resonance`, and determines the
-    /// mass of the stack as well.
+    /// First resonance without a load, one end held, Hz, above 0; unknown by default. This frequency is half of `free_resonance` and also
+    /// determines the mass of the stack.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(example = &"60 kHz", transform = above_zero)]
     pub(crate) held_resonance: Option<Frequency>,
 }
 
-/// Driver electronics between the command and the stack. A limit whose key is left out does not act.
+/// Driver electronics between the command and the stack. A limit is inactive if its key is missing.
 #[derive(Debug, Clone, Copy, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct DriverForm {
@@ -142,8 +144,8 @@ pub(crate) struct DriverForm {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(example = &"10 ohm", transform = at_least_zero)]
     pub(crate) resistance: Option<Resistance>,
-    /// Bandwidth, Hz, above 0; no limit by default; typical 100 Hz to 100 kHz. It is the natural frequency of a second-order low-pass
-    /// before the output stage.
+    /// Bandwidth, Hz, above 0; no limit by default; typical 100 Hz to 100 kHz. The bandwidth is the natural frequency of a second-order
+    /// low-pass before the output stage.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(example = &"10 kHz", transform = above_zero)]
     pub(crate) bandwidth: Option<Frequency>,
@@ -152,8 +154,8 @@ pub(crate) struct DriverForm {
     #[serde(default = "no_peak")]
     #[schemars(extend("minimum" = 0.05, "maximum" = 10), example = 0.5)]
     pub(crate) damping_ratio: f64,
-    /// Resolution, the smallest step of the voltage, V, above 0; none by default; typical 1 mV to 50 mV. `info` shows it as a stroke. The
-    /// simulated voltage is not quantised.
+    /// Resolution, the smallest step of the voltage, V, above 0; none by default; typical 1 mV to 50 mV. `info` shows the resolution as a
+    /// stroke. The simulated voltage is not quantised.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(example = &"2 mV", transform = above_zero)]
     pub(crate) resolution: Option<Voltage>,
@@ -162,9 +164,10 @@ pub(crate) struct DriverForm {
     #[serde(default)]
     #[schemars(example = &"charge")]
     pub(crate) control: ControlForm,
-    /// Direct piezoelectric effect: whether strain of the stack generates the charge kα(e - αV); false by default. α is the free stroke per
-    /// volt, C the capacitance of the free stack. This charge flows through the driver. Under charge control it stiffens the stack to k/(1
-    /// - kα²/C). `info` shows kα²/C.
+    /// Direct piezoelectric effect: whether a change of length of the stack generates electric charge; false by default. The charge of the
+    /// stack is then Q = CV + kα(e - αV), with stiffness k, elongation e, voltage V and free stroke per volt α. C is the capacitance of the
+    /// stack without a force. The driver supplies this charge. Under charge control, the effect increases the stiffness from k to k/(1 -
+    /// kα²/C). `info` shows the coupling kα²/C.
     #[serde(default)]
     #[schemars(example = true)]
     pub(crate) reciprocal: bool,

@@ -7,7 +7,8 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use serde_json::json;
 
-/// A rigid body in the plane of x, along the slide, and z, normal to it. Its coordinates are displacements from the reference position.
+/// A rigid body in the plane of the axes x, along the slide, and z, normal to the slide. The coordinates of a body are displacements from
+/// the reference position.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 #[schemars(transform = inertia_where_free)]
@@ -21,17 +22,17 @@ pub(crate) struct BodyForm {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(example = &"250 g mm^2", transform = above_zero)]
     pub(crate) inertia: Option<Inertia>,
-    /// Coordinate along the slide: "fixed" by default, "free", "balanced", or one that follows a waveform of lengths.
+    /// Coordinate along the slide: "fixed" by default, "free", "balanced", or a coordinate that follows a waveform of lengths.
     #[serde(default)]
     #[schemars(example = &"free", example = json!({ "follows": "drive" }))]
     pub(crate) x: FreedomForm,
-    /// Coordinate normal to the slide, upwards: "fixed" by default, "free", "balanced", or one that follows a waveform of lengths. While it
-    /// is fixed, a guide carries weight and loads.
+    /// Coordinate normal to the slide, upwards: "fixed" by default, "free", "balanced", or a coordinate that follows a waveform of lengths.
+    /// If z is fixed, a guide carries weight and loads.
     #[serde(default, skip_serializing_if = "FreedomForm::is_fixed")]
     #[schemars(example = &"free", example = json!({ "follows": "lift" }))]
     pub(crate) z: FreedomForm,
-    /// Small angle θ of rotation, positive from x towards z: "fixed" by default, "free", or one that follows a waveform of angles. A point
-    /// at (X, Z) from the reference point moves by -Zθ along x and by Xθ along z.
+    /// Small angle θ of rotation, positive from x towards z: "fixed" by default, "free", or an angle that follows a waveform of angles. A
+    /// point at (X, Z) from the reference point moves by -Zθ along x and by Xθ along z.
     #[serde(default, skip_serializing_if = "FreedomForm::is_fixed")]
     #[schemars(example = &"free", example = json!({ "follows": "rock" }))]
     pub(crate) pitch: FreedomForm,
@@ -50,9 +51,9 @@ pub(crate) enum FreedomForm {
     Fixed,
     /// The coordinate obeys Newton's second law; x and z need a mass, pitch needs a moment of inertia.
     Free,
-    /// Force control without mass: x or z takes the position at which the forces of loads, springs and contacts balance at every moment.
-    /// The forces at t = 0 move it there from the reference position. It takes no mass and no damping. No coordinate of the scenario may be
-    /// free beside it.
+    /// Force control without mass: at every moment, x or z has the value at which the forces of loads, springs and contacts balance. The
+    /// forces at t = 0 move the body from the reference position to the balanced position. A balanced coordinate has no mass and no
+    /// damping. If a coordinate is balanced, no coordinate of the scenario may be free.
     Balanced,
     /// The coordinate follows a waveform, given in m for x and z, in rad for pitch. Write its name, or the waveform itself.
     #[schemars(example = json!({ "follows": "drive" }))]

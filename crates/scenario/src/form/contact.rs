@@ -7,16 +7,16 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use serde_json::json;
 
-/// A frictional contact between two bodies. Its tangential displacement is u = x(first) - x(second) at the contact point. Friction drags
-/// the second body along with the first.
+/// A frictional contact between two bodies. The tangential displacement is u = x(first) - x(second) at the contact point. Friction drags
+/// the second body along with the first body.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct ContactForm {
     /// Names of the first (lower) and the second body; the fixed `ground` counts as a body.
     #[schemars(extend("uniqueItems" = true), example = json!(["foot", "slider"]))]
     pub(crate) between: Two,
-    /// Names of the two materials; their order does not matter. They are names of `materials`, or alumina, aluminium, brass, glass,
-    /// hardened steel, PTFE, ruby, sapphire, silicon, steel, titanium, zirconia.
+    /// Names of the two materials, in any order. Each name is an entry of `materials` or a built-in material: alumina, aluminium, brass,
+    /// glass, hardened steel, PTFE, ruby, sapphire, silicon, steel, titanium, zirconia.
     #[schemars(example = json!(["ruby", "hardened steel"]))]
     pub(crate) materials: Two,
     /// Profile of the gap between the undeformed bodies.
@@ -28,7 +28,7 @@ pub(crate) struct ContactForm {
     /// Normal loading of the contact: a force, an indentation or a contact radius, or the motion of the bodies.
     #[schemars(example = json!({ "force": "0.3 N" }))]
     pub(crate) normal: NormalForm,
-    /// Number of identical contacts that share this motion, 1 to 1 000 000.
+    /// Number of identical contacts with the same motion, 1 to 1 000 000.
     #[serde(default = "one")]
     #[schemars(range(min = 1, max = 1_000_000), example = 3)]
     pub(crate) count: Count,
@@ -36,7 +36,8 @@ pub(crate) struct ContactForm {
     #[serde(default)]
     #[schemars(example = json!({ "force": "10 mN" }))]
     pub(crate) start: ContactStartForm,
-    /// Method that solves the tangential contact problem: by default exactly, from the stored turning points; or by a row of discrete springs.
+    /// Method that solves the tangential contact problem: by default the exact solution from the stored turning points of the loading
+    /// history, or a row of discrete springs.
     #[serde(default)]
     #[schemars(example = &"curve", example = json!({ "springs": { "count": 1024 } }))]
     pub(crate) engine: EngineForm,
@@ -45,7 +46,7 @@ pub(crate) struct ContactForm {
     #[schemars(example = json!({ "slider": { "x": "5 mm", "z": "-3 mm" } }))]
     pub(crate) at: Points,
     /// Gap between the bodies in the reference position, m, 0 by default; a negative value is an initial overlap. Only a contact whose
-    /// `normal` is "coupled" takes it.
+    /// `normal` is "coupled" has a gap.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(example = &"2 um")]
     pub(crate) gap: Option<Length>,
@@ -86,7 +87,7 @@ pub(crate) enum NormalForm {
     Coupled,
 }
 
-/// Initial tangential state of a contact at t = 0. A preload is applied monotonically to the untouched contact.
+/// Initial tangential state of a contact at t = 0. A preload is applied monotonically to a contact without loading history.
 #[derive(Debug, Clone, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub(crate) enum ContactStartForm {
@@ -120,8 +121,8 @@ pub(crate) struct SpringsForm {
     /// Number of springs, 1 to 1 000 000; typical 256 to 4096.
     #[schemars(range(min = 1, max = 1_000_000), example = 1024)]
     pub(crate) count: Count,
-    /// Length of the row, m, above 0; by default that of the largest known load. This is the contact width at the largest known
-    /// indentation, or the length that bears the largest known force.
+    /// Length of the row, m, above 0; by default the contact width at the largest known load. The largest known load is an indentation or a
+    /// normal force.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(example = &"20 um", transform = above_zero)]
     pub(crate) span: Option<Length>,

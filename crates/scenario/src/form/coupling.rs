@@ -22,8 +22,8 @@ pub(crate) enum DirectionForm {
     Z,
 }
 
-/// Linear spring with a damper. Its force on the second body is preload - k e - c ė. The elongation is e = x(second) - x(first) at its
-/// ends, or z(second) - z(first).
+/// Linear spring with a damper. The force on the second body is preload - k e - c ė. The elongation e is x(second) - x(first) at the ends
+/// of the spring, or z(second) - z(first).
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 #[schemars(transform = something_to_do)]

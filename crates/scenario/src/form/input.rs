@@ -13,17 +13,17 @@ use std::marker::PhantomData;
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct InputForm {
-    /// Initial value, in the unit of the driven quantity; within the range. It is held until the calling program gives another value.
-    /// `stickslip run` has no calling program and holds it throughout.
+    /// Initial value, in the unit of the driven quantity; within the range. The input keeps the initial value until the calling program
+    /// gives another value. `stickslip run` has no calling program and keeps the initial value throughout.
     #[schemars(example = &"0 nm")]
     pub(crate) initial: AnyQuantity,
-    /// Smallest and largest value that a calling program may give, in the unit of the driven quantity. A value outside is refused. The
-    /// checks before a run cover the whole range.
+    /// Smallest and largest value that a calling program may give, in the unit of the driven quantity. A value outside this range is
+    /// refused. The checks before a run cover the whole range.
     #[schemars(example = json!(["-1 um", "1 um"]))]
     pub(crate) range: Bounds,
     /// Interpolation between supplied values: "held", the default, or "linear". A "held" input keeps each value until the next one, and
-    /// then jumps. In a jump contacts move instantaneously on a straight path, and their friction work counts. A damper whose end would
-    /// jump is refused, because its force would be infinite. A "linear" input ramps to the supplied value at the supplied time.
+    /// then jumps. In a jump, contacts move instantaneously on a straight path, and the friction work of this motion counts. A damper whose
+    /// end would jump is refused, because its force would be infinite. A "linear" input ramps to the supplied value at the supplied time.
     #[serde(default)]
     #[schemars(example = &"linear")]
     pub(crate) interpolation: InterpolationForm,
@@ -33,10 +33,11 @@ pub(crate) struct InputForm {
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub(crate) enum InterpolationForm {
-    /// The value is held until the calling program gives another one, to which it jumps.
+    /// The value is held until the calling program gives another value; then the input jumps to the new value.
     #[default]
     Held,
-    /// The value ramps from its present one to a target at a given time, both supplied by the calling program. It never jumps.
+    /// The calling program gives a target value and a target time. The input ramps linearly from the present value to the target value and
+    /// never jumps.
     Linear,
 }
 

@@ -45,7 +45,7 @@ pub(crate) struct GapTableForm {
 #[schemars(transform = law_or_file)]
 pub(crate) struct NormalLawForm {
     /// Pairs of indentation and normal force of one contact, at least two: the first is [0, 0], both increase, and the slope never
-    /// decreases; give either this or `file`. The forces are those between the two materials of the contact.
+    /// decreases; give either this or `file`. Give the forces for the two materials of this contact.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(length(min = 2), example = json!([[0, 0], ["50 nm", "20 mN"], ["100 nm", "60 mN"]]))]
     pub(crate) points: Option<Vec<LawPoint>>,
@@ -69,8 +69,8 @@ pub(crate) struct NormalLawForm {
 #[serde(deny_unknown_fields)]
 #[schemars(transform = heights_or_file)]
 pub(crate) struct RoughForm {
-    /// Heights at equal distances, m, positive outwards from the body, above any reference level; give this or `file` or `self_affine`. The
-    /// highest point touches first.
+    /// Heights at equal distances, m, positive outwards from the body, relative to any reference level; give this or `file` or
+    /// `self_affine`. The highest point touches first.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(length(min = 1), example = json!([0, "12 nm", "7 nm"]))]
     pub(crate) heights: Option<Vec<Length>>,

@@ -117,17 +117,18 @@ pub(crate) struct Form {
     /// Run of the simulation: its duration, initial state, stepper and limits.
     #[schemars(example = json!({ "duration": "100 ms" }))]
     pub(crate) run: RunForm,
-    /// Waveform and body from which the steps and speeds of the drive are computed; by default the only ones of the scenario.
+    /// Waveform and body from which the steps and speeds of the drive are computed; by default the only waveform and the only free body of
+    /// the scenario.
     #[serde(default, skip_serializing_if = "FiguresForm::is_empty")]
     #[schemars(example = json!({ "waveform": "drive", "body": "slider" }))]
     pub(crate) figures: FiguresForm,
-    /// Output tables of a run. By default `trace.csv` has all channels in 400 to 20 000 rows, 80 to 200 in the shortest period of a
-    /// waveform.
+    /// Output tables of a run. By default `trace.csv` has all channels and 400 to 20 000 rows. The shortest period of a waveform has 80 to
+    /// 200 rows.
     #[serde(default)]
     #[schemars(example = json!({ "every": "10 us" }), transform = no_default)]
     pub(crate) output: OutputForm,
-    /// Pictures to draw: names of predefined pictures, or channels over another channel. By default `loop` is drawn where there are
-    /// contacts, `trajectory` where a body is free along x.
+    /// Plots to draw: names of predefined plots, or channels over another channel. By default `loop` is drawn if there are contacts, and
+    /// `trajectory` is drawn if a body is free along x.
     #[serde(default)]
     #[schemars(example = json!(["loop", "trajectory"]), example = json!([{ "x": "ball.u_m", "y": "ball.fx_N", "from": "90 ms" }]), transform = no_default)]
     pub(crate) plots: Vec<PlotForm>,

@@ -20,12 +20,13 @@ pub(crate) struct OutputForm {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(example = json!(["slider.x_m", "ball.fx_N"]))]
     pub(crate) channels: Option<Vec<String>>,
-    /// Events written to `events.csv`: `all`, `off`, or some kinds or contacts. By default the first 100 000 are written, fewer with more
-    /// than 50 contacts, and a decreasing share of the later ones. Figures are computed from all events in any case.
+    /// Events written to `events.csv`: `all`, `off`, or a selection of kinds or contacts. By default the first 100 000 events are written,
+    /// or fewer with more than 50 contacts. A decreasing share of later events is written. Results are computed from all events in any
+    /// case.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(example = &"off", example = json!({ "kinds": ["gross slip", "gross slip ends"] }))]
     pub(crate) events: Option<EventsOutputForm>,
-    /// Steps of a drive written to `steps.csv`: `all` (default) or `off`. Figures are computed from all steps in any case.
+    /// Steps of a drive written to `steps.csv`: `all` (default) or `off`. Results are computed from all steps in any case.
     #[serde(default, skip_serializing_if = "StepsOutputForm::is_all")]
     #[schemars(example = &"off")]
     pub(crate) steps: StepsOutputForm,
@@ -35,11 +36,12 @@ pub(crate) struct OutputForm {
     #[schemars(example = json!({ "from": "90 ms" }))]
     pub(crate) window: Option<WindowForm>,
     /// Number of periods at the end of the run in which rows and events are written, above 0; by default the whole run; give this or
-    /// `window`. They are periods of the waveform of `figures`.
+    /// `window`. The periods are periods of the waveform that `figures` names.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(extend("exclusiveMinimum" = 0), example = 2)]
     pub(crate) last: Option<f64>,
-    /// Significant digits of the numbers in `trace.csv` and `events.csv`, 1 to 17; by default as many as restore the same bits on reading.
+    /// Significant digits of the numbers in `trace.csv` and `events.csv`, 1 to 17; by default as many digits as are needed to read back
+    /// exactly the same numbers.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 1, max = 17), example = 9)]
     pub(crate) float: Option<Count>,
@@ -47,18 +49,18 @@ pub(crate) struct OutputForm {
     #[serde(default, skip_serializing_if = "StatesForm::is_words")]
     #[schemars(example = &"numbers")]
     pub(crate) states: StatesForm,
-    /// State, stretch and forces of every spring of every contact over time, in `springs.csv`. By default they are not written, except for
-    /// the picture `state`.
+    /// State, stretch and forces of every spring of every contact over time, in `springs.csv`. By default they are written only if the plot
+    /// `state` is drawn.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(example = json!({ "count": 201, "every": "100 us" }))]
     pub(crate) springs: Option<SpringsOutputForm>,
-    /// Memory curves of all contacts at some moments, in `memory.csv`. By default they are not written, except for the pictures `memory`
-    /// and `substitute`. A contact on a row of springs has no memory curve.
+    /// Memory curves of all contacts at some moments, in `memory.csv`. By default they are written only if the plot `memory` or
+    /// `substitute` is drawn. A contact on a row of springs has no memory curve.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(example = json!({ "at": ["91 ms", "95 ms", "100 ms"] }))]
     pub(crate) memory: Option<MemoryOutputForm>,
-    /// Stress and displacement fields of all contacts at some moments, in `fields.csv`, and the friction work per area until then, in
-    /// `friction.csv`. By default they are not written, except for the pictures `fields` and `friction`. A contact whose profile is a list
+    /// Stress and displacement fields of all contacts at some moments, in `fields.csv`, and the friction work per area up to these moments,
+    /// in `friction.csv`. By default they are written only if the plot `fields` or `friction` is drawn. A contact whose profile is a list
     /// of springs or a normal law has no fields.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(example = json!({ "at": ["91 ms", "95 ms", "100 ms"], "radii": 200 }))]
@@ -69,12 +71,13 @@ pub(crate) struct OutputForm {
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct SpringsOutputForm {
-    /// Number of springs written for a contact with the engine "curve", 1 to 1 000 000; 101 by default. They lie at midpoints of equal
-    /// cells over the largest known contact width. A contact on a row of springs, or with a foundation, has its own springs.
+    /// Number of springs written for a contact with the engine "curve", 1 to 1 000 000; 101 by default. These springs lie at the midpoints
+    /// of equal cells over the largest known contact width. For a contact on a row of springs or with a foundation, the springs of the
+    /// contact itself are written.
     #[serde(default = "default_count")]
     #[schemars(range(min = 1, max = 1_000_000), example = 201)]
     pub(crate) count: Count,
-    /// Time interval of the output, s, above 0; by default that of the rows, or a 400th of the run if there are no rows.
+    /// Time interval of the output, s, above 0; by default the interval of the rows, or a 400th of the run if there are no rows.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(example = &"100 us", transform = above_zero)]
     pub(crate) every: Option<Time>,
@@ -125,7 +128,7 @@ fn default_radii() -> Count {
 }
 
 /// Moments at which the memory curves are written. By default six moments are spread evenly over the last period, or over the run if there
-/// is no period. A run with `until_steady` also has six in each of the first hundred periods.
+/// is no period. A run with `until_steady` also has six moments in each of the first hundred periods.
 #[derive(Debug, Clone, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 #[schemars(extend("maxProperties" = 1))]

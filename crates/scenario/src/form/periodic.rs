@@ -78,12 +78,12 @@ macro_rules! periodic {
             #[serde(default, skip_serializing_if = "Option::is_none")]
             #[schemars(example = &"100 Hz", transform = above_zero)]
             pub(crate) frequency: Option<Frequency>,
-            /// Phase, rad: it advances the waveform by phase/2π of a cycle. In a burst or a sequence this is a single cycle, not the whole
-            /// pattern.
+            /// Phase, rad: the waveform is advanced by phase/2π of a cycle. In a burst or a sequence, the phase is counted in single
+            /// cycles, not in lengths of the whole pattern.
             #[serde(default = "crate::form::periodic::no_angle")]
             #[schemars(example = &"90 deg")]
             pub(crate) phase: Angle,
-            /// Delay, s, at least 0: the first value is held until then.
+            /// Delay, s, at least 0: the first value is held until the delay has passed.
             #[serde(default = "crate::form::periodic::no_time")]
             #[schemars(example = &"1 ms", transform = at_least_zero)]
             pub(crate) delay: Time,

@@ -17,14 +17,14 @@ pub(crate) enum PlotForm {
     Own(OwnPlotForm),
 }
 
-/// User-defined picture: channels over another channel.
+/// User-defined plot: one or several channels over another channel.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct OwnPlotForm {
     /// Channel on the horizontal axis, a numeric column of `trace.csv`.
     #[schemars(example = &"ball.u_m", example = &"time_s")]
     pub(crate) x: String,
-    /// One or several channels on the vertical axis; channels with another unit have an axis of their own below.
+    /// One or several channels on the vertical axis; channels with another unit are drawn on a separate axis below.
     #[schemars(example = &"ball.fx_N")]
     pub(crate) y: ChannelsForm,
     /// Start of the plotted time, s, at least 0; by default the start of the run.

@@ -41,7 +41,7 @@ pub(crate) enum ProfileForm {
     /// Flat punch with a rounded edge: flat up to a radius, beyond it f = (r - flat)²/(2R).
     #[schemars(example = json!({ "rounded_flat": { "flat": "50 um", "radius": "1 mm" } }))]
     RoundedFlat(RoundedFlatForm),
-    /// Paraboloid with a conical tip: f = tip · r/R up to the tip's radius, beyond it (r² + tip²)/(2R).
+    /// Paraboloid with a conical tip: f = tip · r/R up to the tip's radius, beyond it f = (r² + tip²)/(2R).
     #[schemars(example = json!({ "tipped_paraboloid": { "radius": "5 mm", "tip": "5 um" } }))]
     TippedParaboloid(TippedParaboloidForm),
     /// Sum of powers, f = Σ A rⁿ.

@@ -17,15 +17,16 @@ pub(crate) struct RunForm {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(example = &"100 ms", transform = above_zero)]
     pub(crate) duration: Option<Time>,
-    /// Simulated time in cycles of the waveform of `figures`, above 0; give either this or `duration`. The delay of the waveform is added
-    /// to it.
+    /// Simulated time in cycles of the waveform that `figures` names, above 0; give either this or `duration`. The delay of the waveform is
+    /// added to the simulated time.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(extend("exclusiveMinimum" = 0), example = 10)]
     pub(crate) cycles: Option<f64>,
-    /// Largest relative change of the step at which a run ends early as steady, 1e-12 to 0.1; by default the run is not stopped early;
-    /// typical 1e-9 to 1e-3. The step is the displacement of the free body of `figures` in a period of its waveform. The run ends when each
-    /// of the last three steps agrees with the one before it. For steps shorter than u_c, the onset of gross slip, the change is relative
-    /// to u_c. Until then the run is identical to one without this key.
+    /// Largest relative change of the step length at which the run counts as steady and ends early, 1e-12 to 0.1; by default the run is not
+    /// stopped early; typical 1e-9 to 1e-3. The step is the displacement of the free body of `figures` in one period of the waveform of
+    /// `figures`. The run ends when each of the last three steps agrees with the preceding step within this change. For steps shorter than
+    /// u_c, the displacement at the onset of gross slip, the change is relative to u_c. Until the run ends, it is identical to a run
+    /// without this key.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 1e-12, max = 0.1), example = 1e-6)]
     pub(crate) until_steady: Option<f64>,
@@ -61,7 +62,8 @@ pub(crate) enum RunStartForm {
 #[serde(rename_all = "snake_case")]
 pub(crate) enum StepperForm {
     /// Adaptive integration of order 8 with located events. A single slider without springs, under constant load and piecewise linear
-    /// waveforms, is solved in closed form from event to event. This needs cones, paraboloids, spheres or powers r³ and r⁴ as contacts.
+    /// waveforms, is solved in closed form from event to event. The closed form exists for contacts whose profiles are cones, paraboloids,
+    /// spheres or powers r³ and r⁴.
     #[schemars(example = json!({ "event": { "tolerance": 1e-8 } }))]
     Event(ToleranceForm),
     /// Velocity Verlet with a fixed time step.
@@ -126,8 +128,8 @@ pub(crate) struct FramesForm {
     #[schemars(example = &"50 us", transform = above_zero)]
     pub(crate) length: Time,
     /// Allowed error per stroke of the drive, as a share of the stroke, 1e-9 to 0.1; typical 1e-5 to 1e-3. A frame has as many steps as the
-    /// fastest oscillation needs for this accuracy. It has 4.5 times as many under a varying normal load. `stickslip info` shows the
-    /// number.
+    /// fastest oscillation needs for this accuracy. Under a varying normal load, a frame has 4.5 times as many steps. `stickslip info`
+    /// shows the number of steps.
     #[serde(default = "default_accuracy")]
     #[schemars(range(min = 1e-9, max = 0.1), example = 1e-3)]
     pub(crate) accuracy: f64,
@@ -157,8 +159,8 @@ pub(crate) struct LimitsForm {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(example = &"10 min", transform = above_zero)]
     pub(crate) wall: Option<Time>,
-    /// Maximum memory of the run, B, above 0; no limit by default. It is estimated before the run and counted during the run. The data for
-    /// the pictures grow with the run.
+    /// Maximum memory of the run, B, above 0; no limit by default. The memory is estimated before the run and counted during the run. The
+    /// data for plots grow with the duration of the run.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(example = &"512 MB", transform = above_zero)]
     pub(crate) memory: Option<Storage>,
@@ -186,12 +188,12 @@ pub(crate) struct FiguresForm {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(example = &"drive")]
     pub(crate) waveform: Option<String>,
-    /// Name of the body whose steps and speed are computed; the only free one, or the only one, by default.
+    /// Name of the body whose steps and speed are computed; by default the only free body, or the only body.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(example = &"slider")]
     pub(crate) body: Option<String>,
-    /// Whether `run` and `info` search for the steady motion to which the drive settles. By default `run` spends at most a fifth of its own
-    /// steps on the search. `true` allows as many steps as needed; `false` turns the search off. `stickslip steady` always searches.
+    /// Whether `run` and `info` search for the periodic motion of the drive. By default `run` spends at most a fifth of its own time steps
+    /// on the search. `true` allows as many time steps as needed; `false` turns the search off. `stickslip steady` always searches.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(example = true)]
     pub(crate) steady_motion: Option<bool>,

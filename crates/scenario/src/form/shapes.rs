@@ -15,7 +15,7 @@ periodic! {
         #[schemars(example = &"200 nm")]
         stroke: AnyQuantity,
         /// Duration of the flyback, the return to 0, s, at least 0 (a jump) and below the period; typical a hundredth of the period. Give
-        /// this or `resonance`; it is 0 by default where there is a `rate`.
+        /// this or `resonance`; with `rate`, the flyback is 0 by default.
         #[serde(default, skip_serializing_if = "Option::is_none")]
         #[schemars(example = &"10 us", transform = at_least_zero)]
         flyback: Option<Time>,
@@ -24,8 +24,8 @@ periodic! {
         #[serde(default, skip_serializing_if = "Option::is_none")]
         #[schemars(example = &"4.15 kHz", transform = above_zero)]
         resonance: Option<Frequency>,
-        /// Slew rate limit of the waveform, per s, in the unit of the driven quantity, at least that of the rise; no limit by default. The
-        /// flyback falls at this rate until it meets the next rise.
+        /// Slew rate limit of the waveform, per s, in the unit of the driven quantity, at least the slew rate of the rise; no limit by
+        /// default. The waveform falls at this rate in the flyback until it meets the next rise.
         #[serde(default, skip_serializing_if = "Option::is_none")]
         #[schemars(example = &"20 mm/s", transform = above_zero)]
         rate: Option<AnyQuantity>,
@@ -181,7 +181,7 @@ pub(crate) struct ChirpForm {
     #[serde(default = "no_angle")]
     #[schemars(example = &"90 deg")]
     pub(crate) phase: Angle,
-    /// Delay, s, at least 0: the first value is held until then.
+    /// Delay, s, at least 0: the first value is held until the delay has passed.
     #[serde(default = "no_time")]
     #[schemars(example = &"1 ms", transform = at_least_zero)]
     pub(crate) delay: Time,

@@ -56,7 +56,7 @@ pub(crate) struct TableForm {
     #[serde(default = "no_value")]
     #[schemars(example = &"100 nm")]
     pub(crate) offset: AnyQuantity,
-    /// Whether the table is repeated periodically; once by default. The period is the time from the first to the last point.
+    /// Whether the table is repeated periodically; by default the table runs once. The period is the time from the first to the last point.
     #[serde(default, skip_serializing_if = "is_false")]
     #[schemars(example = true)]
     pub(crate) repeat: bool,

@@ -152,7 +152,7 @@ impl JsonSchema for WaveformRef {
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Follows {
-    /// The waveform to follow: the name of one of `waveforms`, or one written out here.
+    /// The waveform to follow: a name in `waveforms`, or a waveform written out here.
     #[schemars(example = &"drive", example = json!({ "sine": { "amplitude": "100 nm", "frequency": "100 Hz" } }))]
     follows: WaveformRef,
 }

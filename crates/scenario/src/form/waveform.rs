@@ -9,7 +9,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use serde_json::json;
 
-/// Waveform, a prescribed function of time. Its peak-to-peak value is called the stroke, half of it the amplitude.
+/// Waveform, a prescribed function of time. The peak-to-peak value is called the stroke, and half of the stroke is called the amplitude.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub(crate) enum WaveformForm {
@@ -56,7 +56,7 @@ pub(crate) enum WaveformForm {
     /// Chirp: a sine whose frequency changes linearly from one value to another, once.
     #[schemars(example = json!({ "chirp": { "amplitude": "10 nm", "from": "100 Hz", "to": "10 kHz", "duration": "100 ms" } }))]
     Chirp(ChirpForm),
-    /// Step: a jump from 0 to another value at a given time. In the jump contacts move instantaneously on a straight path.
+    /// Step: a jump from 0 to another value at a given time. In the jump, contacts move instantaneously on a straight path.
     #[schemars(example = json!({ "step": { "height": "100 nm", "at": "1 ms" } }))]
     Step(StepForm),
 }

@@ -27,13 +27,13 @@ pub(crate) struct SomeEventsForm {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(example = json!(["gross slip", "gross slip ends"]))]
     pub(crate) kinds: Option<Vec<KindForm>>,
-    /// Names of contacts whose events are written, and no others; by default all events.
+    /// Names of contacts; only events of these contacts are written; by default all events.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(example = json!(["ball"]))]
     pub(crate) contacts: Option<Vec<String>>,
-    /// Number of events up to which all are written, at least 100. By default it is 100 000, with more than 50 contacts 5 000 000 divided
-    /// by their number. After that only a half of the events is written until
-    /// twice this number have occurred, then a quarter until four times, and so on. They are left out in blocks of a hundredth of this number.
+    /// Number of events up to which all events are written, at least 100. By default this number is 100 000, or 5 000 000 divided by the
+    /// number of contacts if there are more than 50 contacts. After this number, half of the events are written until twice this number
+    /// have occurred, then a quarter until four times this number, and so on. Events are left out in blocks of a hundredth of this number.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 100), example = 1_000_000)]
     pub(crate) most: Option<Count>,

@@ -29,9 +29,9 @@ impl<'a> Paced<'a> {
         let behind = 1e3 * self.behind.get();
         // A tick of an ordinary kernel and what a table takes to be written are no falling behind.
         if behind < 10.0 {
-            format!("real time: kept, never more than {behind:.3} ms behind the clock")
+            format!("real time was kept: the run was never more than {behind:.3} ms behind the clock")
         } else {
-            format!("real time: not kept, up to {behind:.3} ms behind the clock")
+            format!("real time was not kept: the run was up to {behind:.3} ms behind the clock")
         }
     }
 }

@@ -46,16 +46,19 @@ impl Report {
 
     /// A scenario whose turn did not come.
     pub(crate) fn skipped(job: &Job) -> Self {
-        Self::failed(Verdict::Interrupted, format!("{}: not run", job.name))
+        Self::failed(
+            Verdict::Interrupted,
+            format!("{}: not run, because the command was interrupted", job.name),
+        )
     }
 
     /// The folder of the results cannot be made.
     pub(crate) fn no_folder(job: &Job, error: &io::Error) -> Self {
         let folder = job.folder.display();
-        let help = "   help: choose another place with --out";
+        let help = "   help: choose another folder with --out";
         Self::failed(
             Verdict::BadInput,
-            format!("{}: the folder {folder} cannot be made: {}\n{help}", job.name, words(error)),
+            format!("{}: the folder {folder} cannot be created: {}\n{help}", job.name, words(error)),
         )
     }
 
@@ -65,9 +68,11 @@ impl Report {
         // Nothing but another command takes the drafts of a run away.
         let help = match error.kind() {
             io::ErrorKind::NotFound => {
-                "\n   help: the files begun there are gone: another run has written into the same folder; give each its own by --out"
+                "\n   help: another run has removed the unfinished files in this folder; give each run its own folder with --out"
             }
-            io::ErrorKind::ResourceBusy => "\n   help: wait for it, or choose another place with --out",
+            io::ErrorKind::ResourceBusy => {
+                "\n   help: wait until the other command has ended, or choose another folder with --out"
+            }
             _ => "",
         };
         Self::failed(
@@ -86,7 +91,7 @@ impl Report {
             _ => return self,
         };
         self.error += &format!(
-            "\n   help: `stickslip run --resume {}{limit}` goes on from there",
+            "\n   help: `stickslip run --resume {}{limit}` resumes the run from the last checkpoint",
             job.folder.display()
         );
         self
@@ -96,8 +101,11 @@ impl Report {
     pub(crate) fn without_pictures(mut self, job: &Job, failure: Option<io::Error>) -> Self {
         if let Some(failure) = failure {
             let lines = [
-                format!("{}: not all pictures could be written: {}", job.name, words(&failure)),
-                format!("   help: make room, then `stickslip plot {}`", job.folder.display()),
+                format!("{}: not all plots could be written: {}", job.name, words(&failure)),
+                format!(
+                    "   help: free disk space, then draw the plots with `stickslip plot {}`",
+                    job.folder.display()
+                ),
             ];
             self.complain(lines);
             self.verdict = self.verdict.max(Verdict::Stopped);
@@ -115,7 +123,7 @@ impl Report {
         let beside = if place == job.folder {
             String::new()
         } else {
-            format!("; those in {} are complete, and stay", job.folder.display())
+            format!("; the complete results of an earlier run in {} are kept", job.folder.display())
         };
         let (verdict, error) = match (summary.stop(), summary.status) {
             (Some((error, _)), Status::Interrupted) => (
@@ -178,7 +186,7 @@ fn settling(steps: &DriveSummary) -> String {
             format!("steady step {step}{error}, settled from period {}{back}", steady.from + 1)
         }
         (SettlingSummary::NotSettled { change_m: None, .. }, _) => {
-            format!("not settled: one step, of {last}")
+            format!("not settled: the run has only one step, of {last}")
         }
         (SettlingSummary::NotSettled { change_m: Some(change), limit_m, limit_error_m }, _) => {
             let limit = limit_m.zip(*limit_error_m);
@@ -187,7 +195,7 @@ fn settling(steps: &DriveSummary) -> String {
             format!("not settled: the step of {last} changes by {} per period{limit}", length(*change))
         }
         (SettlingSummary::Irregular { spread_m }, _) => {
-            format!("not settled: steps vary by ± {} without a pattern", length(*spread_m))
+            format!("not settled: step lengths vary by ± {} without a pattern", length(*spread_m))
         }
         (SettlingSummary::Drifts { change_m }, _) if change_m.0.abs() <= EVEN * steps.last().0.abs() => {
             format!("drifts: the body moves away by {last} per period")
@@ -203,7 +211,7 @@ fn settling(steps: &DriveSummary) -> String {
             let (about, amplitude) = (length(*mean_m), length(*amplitude_m));
             let growth = growth.unwrap_or_default();
             format!(
-                "the step oscillates about {about} by {amplitude}, with a period of about {:.1} drive periods{growth}",
+                "the step oscillates about {about} with an amplitude of {amplitude} and a period of about {:.1} drive periods{growth}",
                 periods.0
             )
         }
@@ -234,11 +242,11 @@ fn lasting(outlook: &Outlook) -> String {
 fn cycle(fretting: &Fretting) -> String {
     let energy = |energy: Real| quantity(energy, "J");
     if fretting.regime == Some("still") {
-        return "stands still".to_owned();
+        return "the contact stands still".to_owned();
     }
     if !fretting.closed {
         let friction = energy(fretting.friction_work());
-        return format!("the last cycle is not closed; friction work {friction}");
+        return format!("the last cycle is not closed; the friction work is {friction}");
     }
     let regime = match fretting.regime {
         Some("stick") => "stick, ".to_owned(),

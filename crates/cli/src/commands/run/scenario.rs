@@ -108,7 +108,7 @@ pub(crate) fn write(
     let undrawn = if outcome.failure.is_none() {
         draw(job, look, &mut folder, (outcome, &mut summary))
     } else {
-        summary.note("no pictures: the results could not be written any further".to_owned());
+        summary.note("no plots were drawn, because the results could not be written completely".to_owned());
         None
     };
     folder.release();

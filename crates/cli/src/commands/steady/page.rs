@@ -28,18 +28,24 @@ pub(super) fn text(job: &Job, found: &Steady, aftermath: Option<&Aftermath>) -> 
         ("stable", Some(stable(found))),
         ("ends on", aftermath.map(Aftermath::words)),
         ("unknowns", Some(format!("{}{drifts}", found.unknowns.len()))),
-        ("found in", Some(format!("{} periods of work", found.work))),
+        ("found in", Some(format!("{} simulated periods", found.work))),
         (
-            "shaken down",
-            told(&found.shaken_down, "no gross slip ever; one motion of a whole family, the nearest"),
+            "shakedown",
+            told(&found.shaken_down, "never slips grossly; the motion found is the nearest of a family of motions"),
         ),
         (
-            "not told",
+            "no multiplier",
             found.names_untold().map(|names| {
-                format!("{names}: memories come back with other knots, multipliers do not know of them")
+                format!(
+                    "{names}: disturbances change the turning points in the contact memory; the multipliers do not \
+                     cover these unknowns"
+                )
             }),
         ),
-        ("led along", told(&found.carried, "memory is no unknown; multipliers do not know of it")),
+        (
+            "not in map",
+            told(&found.carried, "the contact memory is not an unknown; the multipliers do not cover this memory"),
+        ),
     ];
     let rows = rows.into_iter().filter_map(|(label, cell)| Some(vec![label.to_owned(), cell?]));
     let title = &job.scenario.title;
@@ -54,20 +60,20 @@ fn stable(found: &Steady) -> String {
     let radius = format!("{:.6}", found.radius());
     match (found.comes_back(), found.doubt()) {
         (Some(false), _) => {
-            format!("no: a run leaves this motion, largest |λ| {radius}; there may be others like it")
+            format!("no: a run leaves this motion, largest |λ| {radius}; other unstable motions may exist")
         }
         (None, Some(doubt)) => format!("not known: {doubt}"),
         (None, None) if !found.shaken_down.is_empty() => {
             format!(
-                "neither: one of a family, in another of which a disturbed run may end, largest |λ| {radius}"
+                "neither: the motion is one of a family, and a disturbed run may end in another motion of the family, largest |λ| {radius}"
             )
         }
         (None, None) if found.is_one_of_many() => {
             format!(
-                "neither: one of a family, and so is its step; a disturbance stays as it is, largest |λ| {radius}"
+                "neither: the motion is one of a family with different steps; a disturbance neither grows nor decays, largest |λ| {radius}"
             )
         }
-        (None, None) => format!("neither: a disturbance stays as it is, largest |λ| {radius}"),
+        (None, None) => format!("neither: a disturbance neither grows nor decays, largest |λ| {radius}"),
         (Some(true), _) if found.radius() == 0.0 => "yes".to_owned(),
         (Some(true), _) => format!("yes, largest |λ| {radius}"),
     }
@@ -86,7 +92,7 @@ fn multipliers(multipliers: &[Multiplier]) -> String {
     let mut rows: Vec<Vec<String>> = multipliers.iter().take(TOLD).map(row).collect();
     if multipliers.len() > TOLD {
         let left = multipliers.len() - TOLD;
-        rows.push(vec![format!("{left} more"), String::new(), "smaller ones".to_owned()]);
+        rows.push(vec![format!("{left} more"), String::new(), "with smaller |λ|".to_owned()]);
     }
     grid(["MULTIPLIERS λ", "|λ|", ""], rows)
 }
