@@ -95,7 +95,11 @@ fn an_interrupted_run_leaves_complete_results_of_before() {
     let files = listing(&folder);
     for _ in 0..2 {
         let output = interrupted(out.path());
-        assert!(stderr(&output).contains("p1.interrupted; those in "), "{}", stderr(&output));
+        assert!(
+            stderr(&output).contains("p1.interrupted; the complete results of an earlier run in "),
+            "{}",
+            stderr(&output)
+        );
         assert_eq!(
             (std::fs::read(folder.join("summary.json")).unwrap(), listing(&folder)),
             (before.clone(), files.clone())

@@ -409,7 +409,7 @@ fn a_run_that_keeps_step_with_the_clock_has_the_same_results() {
             run(&scenario("p1"), &folder, &set)
         };
         assert_eq!(code(&output), 0, "{}", stderr(&output));
-        assert_eq!(stdout(&output).contains("real time: "), paced, "{}", stdout(&output));
+        assert_eq!(stdout(&output).contains("real time was "), paced, "{}", stdout(&output));
         folder.join("p1")
     });
     for name in ["trace.csv", "events.csv", "scenario.json"] {

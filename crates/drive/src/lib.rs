@@ -40,7 +40,7 @@ mod waveform;
 
 pub use error::{Field, Part, RunError, SceneError, SceneFault};
 pub use event::{Event, EventKind, Source};
-pub use linearised::{Indentations, Linearised, NormalMode};
+pub use linearised::{Indentations, LinearInput, Linearised, NormalMode};
 pub use method::{Expected, Method, Tally, Treatment, Why};
 pub use model::{Model, NaturalScale, Pressing, Spared};
 pub use plan::{Accuracy, Limits, Plan, Stepper, UntilSteady};

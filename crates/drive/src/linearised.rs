@@ -6,11 +6,13 @@
 
 mod blocks;
 mod frame;
+mod inputs;
 mod paces;
 mod parts;
 mod reach;
 
 pub(crate) use blocks::eigenvalues as block_eigenvalues;
+pub use inputs::LinearInput;
 pub(crate) use paces::Paces;
 pub(crate) use reach::Reach;
 

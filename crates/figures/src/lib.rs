@@ -24,4 +24,4 @@ pub mod theory;
 
 pub use look::{Colours, Format, Look, Picture};
 pub use origin::{Origin, OriginError};
-pub use pictures::{FigureError, Sources, draw};
+pub use pictures::{FigureError, Sources, draw, draw_one};

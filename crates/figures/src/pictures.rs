@@ -114,6 +114,14 @@ pub fn draw(sources: &Sources<'_>, look: &Look) -> Vec<Result<Vec<Picture>, Figu
     })
 }
 
+/// Draws one picture that the job's scenario names.
+///
+/// # Errors
+/// What keeps it from being drawn.
+pub fn draw_one(sources: &Sources<'_>, plot: PlotName, look: &Look) -> Result<Vec<Picture>, FigureError> {
+    picture(sources, plot, &Pen { look, provenance: provenance(sources.job, sources.kept), kept: None })
+}
+
 /// What a kind of picture shows.
 pub(crate) fn shows(plot: PlotName) -> &'static str {
     kind(plot).shows

@@ -23,6 +23,17 @@ pub fn unit(name: &str) -> &'static str {
     UNITS.iter().find(|(end, _)| name.ends_with(end)).map_or("", |(_, unit)| unit)
 }
 
+/// A name without its unit: `slider.x` of `slider.x_m`.
+pub fn bare(name: &str) -> &str {
+    UNITS.iter().find_map(|(end, _)| name.strip_suffix(end)).unwrap_or(name)
+}
+
+/// A name with its unit at the end, as columns have it: `stroke_m`.
+pub fn with_unit(name: &str, unit: &str) -> String {
+    let unit = unit.replace([' ', '/'], "_").replace('²', "2").replace('Ω', "Ohm");
+    if unit.is_empty() { name.to_owned() } else { format!("{name}_{unit}") }
+}
+
 /// What a channel or figure belongs to: `slider` of `slider.x_m`, `ball` of `contacts.ball.friction_J`.
 pub fn owner(name: &str) -> &str {
     let mut parts = name.split('.');

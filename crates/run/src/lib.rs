@@ -38,6 +38,7 @@ mod insides;
 mod job;
 mod kept;
 mod limits;
+pub mod linear;
 pub mod markdown;
 pub mod measured;
 mod memory;

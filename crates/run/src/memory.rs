@@ -1,9 +1,10 @@
-//! All rows and events of a run in memory, by channel.
+//! Rows and events of a run in memory, by channel.
 
+use crate::columns::Columns;
 use std::collections::HashMap;
 use stickslip_drive::{Channel, Event, Model, Record, state_name};
 
-/// Rows and events of a run, kept whole: hand it to a run as its record.
+/// Rows and events of a run, kept whole: hand it to a run as its record, or to a [`Recorder`](crate::Recorder).
 ///
 /// ```no_run
 /// # use std::path::Path;
@@ -19,6 +20,8 @@ use stickslip_drive::{Channel, Event, Model, Record, state_name};
 #[derive(Debug, Clone, PartialEq)]
 pub struct Table {
     channels: Vec<Channel>,
+    /// Place of each column in a row of all channels.
+    taken: Vec<usize>,
     places: HashMap<String, usize>,
     columns: Vec<Vec<f64>>,
     events: Vec<Event>,
@@ -28,11 +31,17 @@ impl Table {
     /// An empty table of all channels of a model.
     #[must_use]
     pub fn new(model: &Model) -> Self {
-        let channels = model.channels();
+        Self::of(&Columns::all(&model.channels()))
+    }
+
+    /// An empty table of some columns.
+    #[must_use]
+    pub fn of(columns: &Columns) -> Self {
+        let (taken, channels): (_, Vec<Channel>) = columns.places().iter().cloned().unzip();
         let places =
             channels.iter().enumerate().map(|(place, channel)| (channel.name.clone(), place)).collect();
         let columns = vec![Vec::new(); channels.len()];
-        Self { channels, places, columns, events: Vec::new() }
+        Self { channels, taken, places, columns, events: Vec::new() }
     }
 
     /// The channels, in the order of a row.
@@ -59,6 +68,12 @@ impl Table {
         self.columns.first().map_or(0, Vec::len)
     }
 
+    /// All columns, in the order of the channels.
+    #[must_use]
+    pub fn into_columns(self) -> Vec<Vec<f64>> {
+        self.columns
+    }
+
     /// All events, in order.
     #[must_use]
     pub fn events(&self) -> &[Event] {
@@ -68,7 +83,8 @@ impl Table {
 
 impl Record for Table {
     fn row(&mut self, values: &[f64]) {
-        self.columns.iter_mut().zip(values).for_each(|(column, value)| column.push(*value));
+        let taken = self.taken.iter().map(|place| values.get(*place).copied().unwrap_or(f64::NAN));
+        self.columns.iter_mut().zip(taken).for_each(|(column, value)| column.push(value));
     }
 
     fn event(&mut self, event: &Event, _: &[f64]) {

@@ -4,6 +4,7 @@ use crate::Watcher;
 use crate::excess::Excess;
 use crate::job::Job;
 use crate::kept::Kept;
+use crate::memory::Table;
 use crate::record::{Draft, Recorded, Recorder};
 use crate::selection::TakenEvents;
 use std::io;
@@ -41,6 +42,8 @@ pub struct Outcome {
     pub excess: Option<Excess>,
     /// Why something could not be written any further: the run has ended for that, and its tables may have ended before it.
     pub failure: Option<io::Error>,
+    /// Rows and events as tables would have them, where its recorder kept them.
+    pub table: Option<Table>,
 }
 
 impl Outcome {
@@ -61,6 +64,12 @@ impl Job {
     /// Runs the job in memory: nothing is written, and `&()` watches nothing.
     pub fn run(&self, watcher: &dyn Watcher) -> Outcome {
         let (ended, recorder) = Ended::of(self, Recorder::new(self, watcher));
+        ended.outcome(recorder.into_recorded()).0
+    }
+
+    /// The same with all rows and events that its tables would have, in [`Outcome::table`].
+    pub fn run_with_table(&self, watcher: &dyn Watcher) -> Outcome {
+        let (ended, recorder) = Ended::of(self, Recorder::new(self, watcher).with_table());
         ended.outcome(recorder.into_recorded()).0
     }
 
@@ -93,8 +102,20 @@ impl Ended {
     /// With what was recorded.
     pub(crate) fn outcome(self, recorded: Recorded) -> (Outcome, Vec<Draft>) {
         let Self { error, state, wall } = self;
-        let Recorded { kept, books, tally, cycles, bytes, events, rows, absent, drafts, excess, failure } =
-            recorded;
+        let Recorded {
+            kept,
+            books,
+            tally,
+            cycles,
+            bytes,
+            events,
+            rows,
+            absent,
+            drafts,
+            excess,
+            failure,
+            table,
+        } = recorded;
         let outcome = Outcome {
             error,
             state,
@@ -109,6 +130,7 @@ impl Ended {
             wall,
             excess,
             failure,
+            table,
         };
         (outcome, drafts)
     }

@@ -9,6 +9,7 @@ use crate::excess::Excess;
 use crate::folder::Folder;
 use crate::job::Job;
 use crate::kept::Kept;
+use crate::memory::Table;
 use crate::selection::{Selection, TakenEvents};
 use std::io;
 use stickslip_contact::{Memory, Segment};
@@ -24,6 +25,8 @@ pub struct Recorder<'a> {
     job: &'a Job,
     watcher: &'a dyn Watcher,
     tables: Option<Tables<'a>>,
+    /// Rows and events as they are written, kept in memory.
+    table: Option<Table>,
     recorded: Recorded,
     /// What of it is written.
     selection: Selection,
@@ -66,6 +69,8 @@ pub(crate) struct Recorded {
     pub excess: Option<Excess>,
     /// Why something could not be written any further.
     pub failure: Option<io::Error>,
+    /// Rows and events as they are written, where they were kept in memory.
+    pub table: Option<Table>,
 }
 
 impl<'a> Recorder<'a> {
@@ -89,12 +94,14 @@ impl<'a> Recorder<'a> {
             drafts: Vec::new(),
             excess: None,
             failure: None,
+            table: None,
         };
         let marks = Marks::of(job);
         Self {
             job,
             watcher,
             tables: None,
+            table: None,
             recorded,
             selection,
             until: f64::INFINITY,
@@ -117,6 +124,11 @@ impl<'a> Recorder<'a> {
         self.recorded.kept = self.recorded.kept.for_pictures(&self.job.scenario.plots);
         self.recorded.tally.spill(folder.spare(0)?);
         Ok(Self { tables: Some(tables), ..self })
+    }
+
+    /// The same with all rows and events that tables would have, kept in memory.
+    pub fn with_table(self) -> Self {
+        Self { table: Some(Table::of(&self.job.columns)), ..self }
     }
 
     /// The same with a fingerprint of the tables, written or not.
@@ -146,24 +158,25 @@ impl<'a> Recorder<'a> {
         self.asked = Some(next).filter(|next| next.is_finite());
     }
 
-    /// Takes an event whose kind is given by its word.
-    pub(crate) fn event_named(&mut self, source: Source, kind: &str, values: &[f64]) {
+    /// Takes an event whose kind is given by its word; whether tables have it.
+    pub(crate) fn event_named(&mut self, source: Source, kind: &str, values: &[f64]) -> bool {
         if kind == EventKind::Turn.name() {
             // No law ends there: for the account of a period alone.
-            return self.recorded.tally.account(Some((source, kind)), values);
+            self.recorded.tally.account(Some((source, kind)), values);
+            return false;
         }
         self.recorded.books.read_event(values);
         self.recorded.tally.row(values);
         self.recorded.tally.account(Some((source, kind)), values);
         self.moment(values, Some(source));
         if !self.selection.takes(source, kind, values.first().copied().unwrap_or(0.0)) {
-            return;
+            return false;
         }
         let values = self.selection.rounded(values);
         // Names are for those who want them: of a hundred thousand runs in memory nobody reads one.
         if self.tables.is_none() && !self.recorded.kept.wants_words() {
             self.recorded.kept.event(["", ""], values);
-            return;
+            return true;
         }
         let waveform = |w: usize| self.job.scenario.scene.waveforms.get(w).map(|w| w.name.clone());
         let source = self.job.model.source_name(source, |w| waveform(w).unwrap_or_default());
@@ -171,6 +184,7 @@ impl<'a> Recorder<'a> {
             tables.events.write(&[&source, kind], values);
         }
         self.recorded.kept.event([&source, kind], values);
+        true
     }
 
     /// Takes a moment that figures are taken at, and tells the cycles that it ends.
@@ -200,6 +214,7 @@ impl<'a> Recorder<'a> {
         self.ended = self.recorded.tally.finish(self.job);
         self.tell_cycles();
         self.recorded.bytes = self.bytes();
+        self.recorded.table = self.table.take();
         self.recorded.events = self.selection.events();
         self.recorded.kept.whole_until = self.recorded.events.whole_until;
     }
@@ -276,13 +291,19 @@ impl Record for Recorder<'_> {
         if let Some(tables) = &mut self.tables {
             tables.trace.write(&[], values);
         }
+        if let Some(table) = &mut self.table {
+            table.row(values);
+        }
         self.recorded.rows += 1;
         self.recorded.kept.row(values);
         self.watcher.reached(values.first().copied().unwrap_or(0.0));
     }
 
     fn event(&mut self, event: &Event, values: &[f64]) {
-        self.event_named(event.source, event.kind.name(), values);
+        let is_written = self.event_named(event.source, event.kind.name(), values);
+        if let (true, Some(table)) = (is_written, &mut self.table) {
+            table.event(event, values);
+        }
     }
 
     fn next_look(&mut self) -> Option<f64> {

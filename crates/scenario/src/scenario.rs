@@ -136,7 +136,12 @@ impl Scenario {
         Self::read(&sources[0].text, (&sources[0].name, word), base.as_deref(), &all)
     }
 
-    fn read(
+    /// Reads a scenario from a text: `name` stands in errors, which call overrides by `word`; files are looked for in `base`, and there
+    /// may be none without it. Overrides are pairs as in [`Self::load_with`].
+    ///
+    /// # Errors
+    /// Whatever is wrong with the text or an override, with its place.
+    pub fn read(
         text: &str,
         (name, word): (&str, &'static str),
         base: Option<&Path>,

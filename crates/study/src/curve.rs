@@ -244,9 +244,3 @@ impl Sense {
 fn warnings(job: &Job, set: &[(String, String)]) -> Vec<Warning> {
     job.with(set).map(|job| stickslip_run::warning::of_check(&job)).unwrap_or_default()
 }
-
-/// Name of a number with its unit, as it heads a column.
-pub(crate) fn head(name: &str, unit: &str) -> String {
-    let unit = unit.replace([' ', '/'], "_").replace('²', "2").replace('Ω', "Ohm");
-    if unit.is_empty() { name.to_owned() } else { format!("{name}_{unit}") }
-}

@@ -53,7 +53,7 @@ pub(crate) enum ProfileForm {
     /// Profile given by points of its normal law, force over indentation.
     #[schemars(example = json!({ "normal_law": { "points": [[0, 0], ["50 nm", "20 mN"], ["100 nm", "60 mN"]] } }))]
     NormalLaw(NormalLawForm),
-    /// Rough line: heights at equal distances, measured or computed. Only the distribution of the heights matters.
+    /// Rough one-dimensional profile: heights at equal distances, measured or computed. Only the distribution of the heights matters.
     #[schemars(example = json!({ "rough": { "heights": [0, "12 nm", "7 nm"], "spacing": "1 um" } }))]
     Rough(RoughForm),
 }

@@ -76,7 +76,7 @@ impl Variation {
     /// Name of what heads its column, with the unit as in other tables: `stroke_m`.
     #[must_use]
     pub fn head(&self) -> String {
-        super::head(&self.name, self.unit)
+        stickslip_quantity::names::with_unit(&self.name, self.unit)
     }
 
     /// Why there is no range by default.

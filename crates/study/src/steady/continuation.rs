@@ -122,7 +122,7 @@ impl Continuation {
     /// Name of what heads its column, with the unit as in other tables: `contacts.ball.normal.force_N`.
     #[must_use]
     pub fn head(&self) -> String {
-        crate::curve::head(&self.path, self.unit)
+        stickslip_quantity::names::with_unit(&self.path, self.unit)
     }
 
     fn span(&self) -> f64 {

@@ -89,7 +89,7 @@ fn too_few(steps: u64) -> Outlook {
     let asked = "`stickslip steady` and figures.steady_motion=true search without this limit";
     Outlook::NotFound {
         fault: format!(
-            "no steady motion found within {steps} integration steps, a fifth of those of the run; {asked}"
+            "no steady motion found: the search stopped at its limit of {steps} integration steps, a fifth of those of the run; {asked}"
         ),
     }
 }

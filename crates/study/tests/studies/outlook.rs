@@ -49,7 +49,7 @@ fn beside_a_run_it_costs_a_fifth_of_its_steps_or_is_asked_for() -> Result<(), Bo
         outlook(&long, of(140), &|| true),
         outlook(&long, of(700), &|| true),
     );
-    let is_told = |told: &Option<Outlook>| matches!(told, Some(Outlook::NotFound { fault }) if fault.contains("within 29 integration steps, a fifth of those of the run"));
+    let is_told = |told: &Option<Outlook>| matches!(told, Some(Outlook::NotFound { fault }) if fault.contains("its limit of 29 integration steps, a fifth of those of the run"));
     assert!(is_told(&short) && is_told(&scarce), "{short:?} {scarce:?}");
     assert!(matches!(enough, Some(Outlook::Found(_))), "{enough:?}");
     let asked = p1(&[("figures.steady_motion", "true")])?;

@@ -1,0 +1,66 @@
+//! What drives the linearised motions: the right side of M ẍ + C ẋ + K x = Σ (pᵥ v + qᵥ v̇) over the signals v.
+
+use super::Indentations;
+use crate::model::{Measure, Stroke};
+use crate::{Model, State};
+use nalgebra::DVector;
+
+/// A signal that drives the free coordinates.
+#[derive(Debug, Clone, PartialEq)]
+pub struct LinearInput {
+    /// Its place: that of a waveform of the scene, or behind these that of a block.
+    pub signal: usize,
+    /// p: force on each free coordinate per value of the signal.
+    pub stiffness: DVector<f64>,
+    /// q: force on each free coordinate per rate of the signal.
+    pub damping: DVector<f64>,
+}
+
+impl Model {
+    /// The signals that drive the motions of [`Model::linearised`], with all contacts stuck, each at the indentation (m) that
+    /// `depth` picks: bodies that follow a waveform, strokes of stacks, loads. Signals that drive nothing are left out; those
+    /// from waveforms and blocks on are coordinates without mass.
+    #[must_use]
+    pub fn linear_inputs(&self, state: &State, depth: impl Fn(&Indentations) -> f64) -> Vec<LinearInput> {
+        let mut all: Vec<LinearInput> = Vec::new();
+        if self.free.is_empty() {
+            return all;
+        }
+        let mut add = |signal: usize, row: &[(usize, f64)], [value, rate]: [f64; 2]| {
+            let place = all.iter().position(|input| input.signal == signal).unwrap_or_else(|| {
+                let nothing = DVector::zeros(self.free.len());
+                all.push(LinearInput { signal, stiffness: nothing.clone(), damping: nothing });
+                all.len() - 1
+            });
+            for (i, share) in row {
+                all[place].stiffness[*i] += share * value;
+                all[place].damping[*i] += share * rate;
+            }
+        };
+        let mut along = |measure: &Measure, stroke: Option<usize>, [k, c]: [f64; 2]| {
+            for (signal, share) in &measure.driven {
+                add(*signal, &measure.free, [-share * k, -share * c]);
+            }
+            stroke.into_iter().for_each(|signal| add(signal, &measure.free, [k, c]));
+        };
+        for link in &self.links {
+            let stroke = if let Stroke::Driven(signal) = link.stroke { Some(signal) } else { None };
+            along(&link.elongation, stroke, [link.stiffness, link.damping]);
+        }
+        for (c, contact) in self.contacts.iter().enumerate() {
+            let d = self.indentations(state, c).map_or(0.0, |d| depth(&d));
+            if !contact.inert {
+                let stiffness = contact.count * contact.interface.stick_stiffness(d);
+                along(&contact.u, None, [stiffness, contact.interface.viscosity(stiffness)]);
+            }
+            if let Some(normal) = contact.coupling() {
+                along(normal, None, [contact.count * contact.interface.normal_stiffness(d), 0.0]);
+            }
+        }
+        for load in &self.loads {
+            add(load.waveform, &[(load.free, load.arm)], [1.0, 0.0]);
+        }
+        all.retain(|input| input.stiffness.amax() > 0.0 || input.damping.amax() > 0.0);
+        all
+    }
+}
