@@ -60,11 +60,6 @@ impl StateSpace {
             None => names::with_unit(&scene.waveforms[signal].name, scene.waveform_unit(signal)),
             Some(block) => names::with_unit(&scene.blocks[block].name, "m"),
         };
-        let channel = |name: &String, rate: bool| {
-            let (body, axis) = name.rsplit_once('.').unwrap_or(("", name));
-            let (v, unit) = (if rate { "v" } else { "" }, if axis == "pitch" { "rad" } else { "m" });
-            format!("{body}.{v}{axis}_{unit}{}", if rate { "_s" } else { "" })
-        };
         let coordinates = motions.coordinates().iter();
         let outputs: Vec<String> = coordinates
             .clone()
@@ -109,4 +104,11 @@ impl StateSpace {
             d: d.collect(),
         })
     }
+}
+
+/// Name of the channel of a coordinate such as `slider.x`, or of its rate.
+fn channel(name: &str, rate: bool) -> String {
+    let (body, axis) = name.rsplit_once('.').unwrap_or(("", name));
+    let (v, unit) = (if rate { "v" } else { "" }, if axis == "pitch" { "rad" } else { "m" });
+    format!("{body}.{v}{axis}_{unit}{}", if rate { "_s" } else { "" })
 }

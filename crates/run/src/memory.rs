@@ -44,6 +44,13 @@ impl Table {
         Self { channels, taken, places, columns, events: Vec::new() }
     }
 
+    /// The same with room for so many rows.
+    #[must_use]
+    pub fn with_room(mut self, rows: usize) -> Self {
+        self.columns.iter_mut().for_each(|column| column.reserve_exact(rows));
+        self
+    }
+
     /// The channels, in the order of a row.
     #[must_use]
     pub fn channels(&self) -> &[Channel] {

@@ -67,9 +67,9 @@ impl Job {
         ended.outcome(recorder.into_recorded()).0
     }
 
-    /// The same with all rows and events that its tables would have, in [`Outcome::table`].
+    /// The same with all rows and events that its tables would have, in [`Outcome::table`], and with their fingerprint.
     pub fn run_with_table(&self, watcher: &dyn Watcher) -> Outcome {
-        let (ended, recorder) = Ended::of(self, Recorder::new(self, watcher).with_table());
+        let (ended, recorder) = Ended::of(self, Recorder::new(self, watcher).with_table().fingerprinted());
         ended.outcome(recorder.into_recorded()).0
     }
 

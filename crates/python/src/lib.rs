@@ -1,0 +1,45 @@
+//! The module `stickslip._core`: what the package `stickslip` stands on.
+//!
+//! It hands over text and arrays; names, objects and pictures for Python are made in `python/stickslip`. In reading order: `watch`
+//! (signals during long work), `scenario`, `run`, `sim`, `tables` (measured loops, comparisons).
+
+mod run;
+mod scenario;
+mod sim;
+mod tables;
+mod watch;
+
+use pyo3::prelude::*;
+
+pyo3::import_exception!(stickslip._errors, ScenarioError);
+pyo3::import_exception!(stickslip._errors, RunError);
+
+/// A message with what to try, where there is something.
+fn text(message: &impl ToString, help: &str) -> String {
+    if help.is_empty() { message.to_string() } else { format!("{}\n   help: {help}", message.to_string()) }
+}
+
+/// A number in the SI unit, from a text with a unit or without.
+#[pyfunction]
+fn quantity(text: &str, unit: &str) -> PyResult<f64> {
+    stickslip_scenario::quantity(text, unit).map_err(pyo3::exceptions::PyValueError::new_err)
+}
+
+/// The JSON Schema of scenario files.
+#[pyfunction]
+fn schema() -> String {
+    stickslip_scenario::schema()
+}
+
+#[pymodule]
+fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
+    module.add_class::<scenario::Scenario>()?;
+    module.add_class::<run::Run>()?;
+    module.add_class::<sim::Sim>()?;
+    module.add("STATES", run::states())?;
+    module.add_function(wrap_pyfunction!(scenario::run_many, module)?)?;
+    module.add_function(wrap_pyfunction!(tables::measure, module)?)?;
+    module.add_function(wrap_pyfunction!(tables::compare, module)?)?;
+    module.add_function(wrap_pyfunction!(quantity, module)?)?;
+    module.add_function(wrap_pyfunction!(schema, module)?)
+}
