@@ -72,7 +72,9 @@ impl Sim {
             let mut guard = self.standing();
             let (now, Standing { held, last }) = (guard.held.time(), &mut *guard);
             if until.is_nan() || until < now || until.is_infinite() {
-                return Err(PyValueError::new_err(format!("expected a time from {now} s on, got {until} s")));
+                return Err(PyValueError::new_err(format!(
+                    "expected a time from {now} s on, got {until} s: times are absolute"
+                )));
             }
             for ((port, given), last) in self.inputs.iter().zip(given).zip(last) {
                 let is_held = self.is_held(port.place);
@@ -80,7 +82,10 @@ impl Sim {
                     None => continue,
                     Some(value) if is_held => held.hold(port.place, value),
                     Some(_) if until == now => {
-                        let message = format!("{:?} is linear: expected a time after {now} s", port.name);
+                        let message = format!(
+                            "{:?} is linear: expected a time after {now} s; times are absolute",
+                            port.name
+                        );
                         return Err(PyValueError::new_err(message));
                     }
                     Some(value) => held.lead(port.place, until, value),

@@ -33,8 +33,10 @@ impl Columns {
     /// What a column is by its name, written out; empty where there is none.
     #[must_use]
     pub fn text(&self, name: &str) -> &'static str {
-        let mut columns = self.names.iter().zip(self.texts);
-        columns.find(|(known, _)| is_written_out(known, name)).map_or("", |(_, text)| text)
+        let columns = || self.names.iter().zip(self.texts);
+        // `energy.elastic_J` is not the elastic energy of a contact.
+        let own = columns().find(|(known, _)| **known == name);
+        own.or_else(|| columns().find(|(known, _)| is_written_out(known, name))).map_or("", |(_, text)| text)
     }
 
     /// What they are.

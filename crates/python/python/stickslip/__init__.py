@@ -12,9 +12,8 @@ from __future__ import annotations
 
 import json as _json
 
-from . import _core, examples
-from ._errors import Report as ErrorReport
-from ._errors import RunError, ScenarioError, StickslipWarning
+from . import _core, examples, types
+from ._errors import ErrorReport, RunError, ScenarioError, StickslipWarning
 from ._linear import LinearSystem
 from ._report import Report, Table
 from ._result import Event, Plots, Result, Summary, Value
@@ -25,10 +24,10 @@ STATES: list[str] = _core.STATES
 
 __all__ = [
     "STATES", "Curve", "ErrorReport", "Event", "LinearSystem", "Plots", "Report", "Result", "RunError", "Scenario", "ScenarioError",
-    "Simulation", "StickslipWarning", "Summary", "Table", "Value", "compare", "examples", "load", "measure", "run_many", "schema",
+    "Simulation", "StickslipWarning", "Summary", "Table", "Value", "compare", "examples", "load", "measure", "run_many", "schema", "types",
 ]  # fmt: skip
 
 
-def schema() -> dict:
+def schema() -> dict[str, object]:
     """The JSON Schema of scenario files."""
     return _json.loads(_core.schema())

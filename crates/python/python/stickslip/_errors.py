@@ -8,7 +8,7 @@ if TYPE_CHECKING:
     from ._result import Result
 
 
-class Report(NamedTuple):
+class ErrorReport(NamedTuple):
     """One error of a scenario: key path, line and column in the text (from 1), message, help."""
 
     path: str
@@ -36,10 +36,10 @@ class ScenarioError(ValueError):
     line: int | None = None
     column: int | None = None
     help: str | None = None
-    reports: tuple[Report, ...] = ()
+    reports: tuple[ErrorReport, ...] = ()
 
     def _set(self, reports: list[tuple[str, int | None, int | None, str, str | None]]) -> None:
-        self.reports = tuple(Report(*one) for one in reports)
+        self.reports = tuple(ErrorReport(*one) for one in reports)
         self.path, self.line, self.column, _, self.help = self.reports[0]
 
 

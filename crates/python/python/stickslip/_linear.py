@@ -35,7 +35,7 @@ class LinearSystem:
         rates = np.linalg.eigvals(self.A)
         rates = rates[rates.imag > 0]
         rates = rates[np.argsort(np.abs(rates))]
-        return np.abs(rates) / (2 * np.pi), -rates.real / np.abs(rates)
+        return np.abs(rates) / (2 * np.pi), -rates.real / np.abs(rates) + 0.0
 
     def __repr__(self) -> str:
         return f"<LinearSystem from {', '.join(self.inputs)} to {', '.join(self.outputs)}>"

@@ -87,7 +87,11 @@ class Table(Sequence[Mapping[str, Any]]):
         return pandas.DataFrame({name: self[name] for name in self.columns})
 
     def __repr__(self) -> str:
-        return f"<table of {len(self)} rows: {', '.join(self.columns)}>"
+        shown = self._rows if len(self) <= 12 else [*self._rows[:6], None, *self._rows[-6:]]
+        cells = [self.columns, *([_plain(row.get(k)) for k in self.columns] if row else ["…"] * len(self.columns) for row in shown)]
+        widths = [max(len(row[k]) for row in cells) for k in range(len(self.columns))]
+        lines = ("  ".join(cell.ljust(width) for cell, width in zip(row, widths, strict=True)).rstrip() for row in cells)
+        return "\n".join([*lines, f"[{len(self)} rows]"])
 
     def _repr_html_(self) -> str:
         head = "".join(f"<th>{html.escape(name)}</th>" for name in self.columns)
@@ -122,14 +126,15 @@ class Report(Mapping[str, Any]):
     def __getattr__(self, key: str) -> Any:
         if key in self.__dict__.get("data", {}):
             return self[key]
-        known = ", ".join(self.__dict__.get("data", {}))
+        own = [name for name in vars(type(self)) if not name.startswith("_")]
+        known = ", ".join([*own, *self.__dict__.get("data", {})])
         raise AttributeError(f"no {key!r} here; there are: {known}")
 
     def __dir__(self) -> list[str]:
         return [*super().__dir__(), *self.data]
 
     def __repr__(self) -> str:
-        return f"<{type(self).__name__}: {', '.join(self.data)}>"
+        return "\n".join(f"{key}: {_plain(value)}" for key, value in self.data.items())
 
     def _repr_html_(self) -> str:
         return _html(self.data)
@@ -146,13 +151,17 @@ def wrap(value: Any) -> Any:
     return value
 
 
-def _cell(value: Any) -> str:
+def _plain(value: Any) -> str:
     if isinstance(value, float):
-        return f"{value:.5g}"
+        return f"{value:.6g}"
     if isinstance(value, (dict, list)):
-        value = json.dumps(value)
+        value = json.dumps(value, ensure_ascii=False)
         value = value if len(value) < 80 else value[:77] + "…"
-    return "" if value is None else html.escape(str(value))
+    return "" if value is None else str(value)
+
+
+def _cell(value: Any) -> str:
+    return html.escape(_plain(value))
 
 
 def _html(data: dict[str, Any]) -> str:

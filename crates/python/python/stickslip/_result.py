@@ -73,12 +73,15 @@ class Summary(Report):
 
     @property
     def speed(self) -> float | None:
-        """Mean speed (m/s); None without steps."""
-        return (self.data.get("steps") or {}).get("mean_speed_m_s")
+        """Mean speed (m/s) of the steady steps, or of the whole run where they have not settled; None without steps."""
+        steps = self.data.get("steps") or {}
+        if "step_m" in (steps.get("steady") or {}):
+            return steps["steady"]["step_m"] / steps["period_s"]
+        return steps.get("mean_speed_m_s")
 
     @property
     def regime(self) -> dict[str, str]:
-        """Slip regime of each contact that moves back and forth: partial or gross slip."""
+        """Slip regime of each contact whose loop closes: partial or gross slip; a contact that is carried along has none."""
         contacts = (self.data.get("contacts") or {}).items()
         return {name: one["fretting"]["regime"] for name, one in contacts if "regime" in (one.get("fretting") or {})}
 
@@ -90,36 +93,56 @@ class Plots:
         self._result = result
 
     def __call__(self, *columns: str, x: str = "time", ax=None):
-        """Columns over another one, by default over time.
+        """Columns over another one, by default over time; columns of several units get a pair of axes each.
 
         >>> import stickslip as ss
         >>> axes = ss.examples.quickstart().run().plot("slider.x", "foot.x")
         >>> axes.get_xlabel()
         'time (s)'
         """
-        ax, result = _axes(ax), self._result
-        for name in columns:
-            ax.plot(result[x], result[name], label=name)
+        return self._draw(columns, x, ax, slice(None))
+
+    def _draw(self, columns: tuple[str, ...], x: str, ax, rows: slice):
+        result = self._result
         units = list(dict.fromkeys(result.units[result.name_of(name)] for name in columns))
+        if len(units) > 1 and ax is None:
+            # A pair of axes for each unit.
+            import matplotlib.pyplot as plt
+
+            groups = [[name for name in columns if result.units[result.name_of(name)] == unit] for unit in units]
+            _, axes = plt.subplots(len(units), sharex=True)
+            return [self._draw(tuple(group), x, own, rows) for group, own in zip(groups, axes, strict=True)]
+        ax = _axes(ax)
+        for name in columns:
+            ax.plot(result[x][rows], result[name][rows], label=name)
         ax.set_xlabel(_label(x, result))
         ax.set_ylabel(_label(columns[0], result) if len(columns) == 1 else ", ".join(units))
         if len(columns) > 1:
             ax.legend()
         return ax
 
-    def loop(self, contact: str, ax=None):
-        """Hysteresis loop of a contact: tangential force over displacement."""
-        ax = self(f"{contact}.fx", x=f"{contact}.u", ax=ax)
-        ax.set(xlabel=f"displacement u of {contact} (m)", ylabel="tangential force (N)")
+    def loop(self, contact: str, ax=None, *, all: bool = False):  # noqa: A002
+        """Hysteresis loop of a contact: tangential force over displacement, in the last period, or in ``all`` of the run.
+
+        The loop is as fine as the rows: ``output.every`` of a scenario must resolve the flyback.
+        """
+        r = self._result
+        start = 0 if all else int(np.searchsorted(r.t, r.t[-1] - (r.period or np.inf) * (1 + 1e-9)))
+        ax = self._draw((f"{contact}.fx",), f"{contact}.u", ax, slice(start, None))
+        ax.set(xlabel=f"displacement u of {contact} (m)", ylabel="tangential force (N)", title=r.scenario.title)
         return ax
 
     def trajectory(self, ax=None):
         """Displacements of all bodies along the slide, over time."""
-        return self(*[name for name in self._result if name.endswith(".x")], ax=ax)
+        ax = self(*[name for name in self._result if name.endswith(".x")], ax=ax)
+        ax.set(ylabel="displacement (m)", title=self._result.scenario.title)
+        return ax
 
     def energy(self, ax=None):
         """All energies and works over time."""
-        return self(*[name for name, unit in self._result.units.items() if unit == "J"], ax=ax)
+        ax = self(*[name for name, unit in self._result.units.items() if unit == "J"], ax=ax)
+        ax.set(ylabel="energy (J)", title=self._result.scenario.title)
+        return ax
 
     def phase(self, body: str, ax=None):
         """Velocity of a body over its displacement."""
@@ -185,6 +208,13 @@ class Result(Mapping[str, np.ndarray]):
         return len(self._loaded)
 
     @property
+    def period(self) -> float | None:
+        """Period of the drive or of the loops, s; None where there is none."""
+        steps, contacts = self.summary.get("steps") or {}, (self.summary.get("contacts") or {}).values()
+        cycles = [one["fretting"]["cycle_s"] for one in contacts if "cycle_s" in (one.get("fretting") or {})]
+        return steps.get("period_s") or next((end - start for start, end in cycles), None)
+
+    @property
     def t(self) -> np.ndarray:
         """Times of the rows, s."""
         return self["time"]
@@ -223,7 +253,7 @@ class Result(Mapping[str, np.ndarray]):
         return self._core.picture(plot, "svg", theme, 1).decode()
 
     def to_pandas(self):
-        """A pandas.DataFrame of all columns over the time; ``attrs["units"]`` has their units."""
+        """A pandas.DataFrame of all columns over the time; ``attrs["units"]`` has their units. Needs pandas (``stickslip[tables]``)."""
         import pandas
 
         index = pandas.Index(self["time"], name="time")
@@ -232,7 +262,7 @@ class Result(Mapping[str, np.ndarray]):
         return frame
 
     def to_xarray(self):
-        """An xarray.Dataset over the coordinate time; the attributes of each variable have its units and its description."""
+        """An xarray.Dataset over the coordinate time; the attributes of each variable have its units and its description. Needs xarray."""
         import xarray
 
         def attrs(name: str) -> dict[str, str]:

@@ -17,7 +17,7 @@ from . import _core
 from ._errors import RunError, StickslipWarning
 from ._linear import LinearSystem
 from ._report import Report, Table, si
-from ._result import Result
+from ._result import Result, Value
 
 if TYPE_CHECKING:
     from .types import ScenarioDict
@@ -73,6 +73,8 @@ class Scenario:
     """
 
     def __init__(self, data: ScenarioDict | Mapping[str, Any], *, name: str = "scenario", folder: str | os.PathLike[str] | None = None):
+        if not isinstance(data, Mapping):
+            raise TypeError("expected a dict; ss.load(file) reads a file, Scenario.from_text a text")
         text = json.dumps(data, default=_plain, indent=2, ensure_ascii=False)
         self._core = _core.Scenario(text, name, name, None if folder is None else os.fspath(folder), [])
 
@@ -170,16 +172,29 @@ class Scenario:
     ) -> Curve:
         """A curve of the periodic motion (``stickslip curve``).
 
-        ``kind`` is step-amplitude, speed-frequency, force-speed, step-load, preload or holding-force; or ``vary`` is the path of a
-        number, which needs a ``range`` of two ends. ``tolerance`` is that of landmarks such as the stall force, relative.
+        ``kind`` is one of
+
+        - "step-amplitude": step length over the amplitude of the drive, with the zero-step stroke,
+        - "speed-frequency": mean speed over the frequency of the drive,
+        - "force-speed", "step-load": mean speed and power, or step length, over a load against the steps, which is added to the loads of
+          the scenario, with the stall force,
+        - "preload": step length over the normal force of the contacts,
+        - "holding-force": the largest load that the drive at rest holds;
+
+        or ``vary`` is the path of a number, which needs a ``range`` of two ends (numbers in SI, or texts with units). ``tolerance`` is the
+        relative error of landmarks such as the stall force.
 
         >>> import stickslip as ss
         >>> curve = ss.examples.quickstart().curve("force-speed", points=5)
-        >>> curve.table.columns[:2]
-        ['value', 'set']
+        >>> f"{curve.landmark('stall') * 1e3:.2f} mN"
+        '102.50 mN'
         """
         if (kind is None) == (vary is None) and kind != "holding-force":
             raise ValueError("expected either kind or vary")
+        if range is not None and (isinstance(range, str) or not hasattr(range, "__len__") or len(range) != 2):
+            raise TypeError(f"expected a range of two ends, such as (0.1, 0.3) or ('1 N', '2 N'), got {range!r}")
+        if vary is not None and range is None:
+            raise ValueError(f"{vary} needs a range of two ends, such as range=(0.1, 0.3)")
         ends = None if range is None else (_end(range[0]), _end(range[1]))
         self._warn()
         return Curve.from_json(self._core.curve(kind or "", vary, ends, points, log, tolerance, threads))
@@ -262,6 +277,15 @@ class Scenario:
 class Curve(Report):
     """A curve: ``curve.table`` has its points, ``curve.landmarks`` stall force, zero-step stroke and maxima."""
 
+    def landmark(self, name: str) -> Value:
+        """Where a landmark such as "stall" lies, in the unit of what is varied, with its error bound."""
+        found = {one["name"]: one for one in self.data["landmarks"]}
+        if name not in found:
+            raise KeyError(f"{name!r}; landmarks: {', '.join(found)}")
+        if found[name].get("at") is None:
+            raise ValueError(f"{name} was not found: {found[name].get('fault', 'not in this range')}")
+        return Value(found[name]["at"], found[name].get("half_width"))
+
     @property
     def table(self) -> Table:
         """The points, a row each; ``value`` is what is varied, in SI."""
@@ -282,12 +306,19 @@ class Curve(Report):
             is_speed = self.get("curve") in ("force-speed", "speed-frequency")
             name, label = ("speed_m_s", "mean speed (m/s)") if is_speed else ("step_m", "step length (m)")
             ax.plot(self.table["value"], self.table[name], "o-", markersize=3)
+            ax.axhline(0, color="grey", linewidth=0.8, linestyle="--")
+        for one in self.data.get("landmarks", []):
+            if one.get("at") is not None:
+                ax.axvline(one["at"], color="grey", linewidth=0.8, linestyle=":")
+                ax.annotate(one["name"].replace("_", " "), (one["at"], 1), xycoords=("data", "axes fraction"), rotation=90, va="top")
         ax.set(xlabel=f"{self['varied']} ({self.get('unit') or '1'})", ylabel=label, title=self["scenario"])
         return ax
 
 
 class Simulation:
     """A run that stands between two calls: a plant for a controller.
+
+    ``columns`` and ``units`` describe ``row()``; ``inputs`` maps every input to its smallest and largest value.
 
     >>> import stickslip as ss
     >>> with ss.examples.controlled().start() as sim:
@@ -313,6 +344,7 @@ class Simulation:
     def advance(self, t: Any, **inputs: Any) -> None:
         """Moves on to the absolute time ``t``, s or a text with a unit; inputs by their names.
 
+        ``t`` is no step: for a step write ``sim.advance(sim.time + dt)``; it may lie beyond the duration of the scenario.
         An input takes its new value at once and is held, or goes to it in a straight line until ``t``, as its waveform says. Raises
         RunError where the run stops, ValueError for a name that is no input, a value outside its range or a time before the present one.
         """
@@ -328,10 +360,12 @@ class Simulation:
         """Values of all columns, in the order of ``columns``; a state is its code in ``STATES``."""
         return self._core.row()
 
-    def __getitem__(self, name: str) -> float:
+    def __getitem__(self, name: str) -> Any:
+        """The value of a column where it stands; of a state its word."""
         if name not in self._places:
             raise KeyError(f"{name!r}; columns: {', '.join(self.columns)}")
-        return float(self._core.row()[self._places[name]])
+        value = float(self._core.row()[self._places[name]])
+        return _core.STATES[int(value)] if name.endswith(".state") else value
 
     def state(self) -> bytes:
         """All that its future depends on, as bytes; another process continues from them to the same bits."""
@@ -381,7 +415,9 @@ def run_many(scenarios: Sequence[Scenario], *, threads: int = 0) -> list[Result]
     >>> len(results)
     3
     """
-    scenarios = list(scenarios)
+    scenarios = list(scenarios) if not isinstance(scenarios, Scenario) else [scenarios]
+    if any(not isinstance(scenario, Scenario) for scenario in scenarios):
+        raise TypeError("expected a list of scenarios; ss.Scenario(dict) makes one of a dict")
     found = _core.run_many([scenario._core for scenario in scenarios], threads)
     return [_checked(Result(scenario, one)) for scenario, one in zip(scenarios, found, strict=True)]
 

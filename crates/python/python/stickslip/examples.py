@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from pathlib import Path
 
 from ._scenario import Scenario, load
@@ -26,7 +27,7 @@ def __getattr__(name: str):
     def example() -> Scenario:
         return load(file)
 
-    example.__name__, example.__doc__ = name, f"The example {name}."
+    example.__name__, example.__doc__ = name, f"The example {name}: {json.loads(file.read_text(encoding='utf-8'))['title']}."
     return example
 
 
