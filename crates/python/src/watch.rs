@@ -8,7 +8,7 @@ use std::time::{Duration, Instant};
 use stickslip_run::Watcher;
 
 /// How often Python is asked for signals.
-const EVERY: Duration = Duration::from_millis(50);
+const EVERY: Duration = Duration::from_millis(20);
 /// Calls between two looks at the clock.
 const CALLS: u32 = 64;
 
