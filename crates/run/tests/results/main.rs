@@ -27,6 +27,7 @@ mod held;
 mod in_memory;
 mod kept;
 mod last_period;
+mod linear;
 mod long_rows;
 mod loops;
 mod methods;
