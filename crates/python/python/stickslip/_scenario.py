@@ -239,6 +239,8 @@ class Scenario:
         >>> f"{contact.fields['pressure_Pa'].max() / 1e6:.0f} MPa"
         '2596 MPa'
         """
+        if not 2 <= points <= 100_000:
+            raise ValueError(f"expected 2 to 100 000 points, got {points}")
         normal = _one({"force": (force, "N"), "indentation": (indentation, "m"), "radius": (radius, "m")})
         pushed = _one(
             {"tangential_force": (tangential_force, "N"), "displacement": (displacement, "m"), "stick_radius": (stick_radius, "m")}
