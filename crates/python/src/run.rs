@@ -1,13 +1,13 @@
 //! What came of a run: columns, events, the summary, pictures.
 
 use crate::scenario::refused;
-use crate::watch::Signals;
+use crate::watch::{Signals, is_main, lock};
 use crate::{RunError, text};
 use numpy::{IntoPyArray, PyArray1};
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
 use std::path::PathBuf;
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::{Arc, Mutex};
 use std::time::{Duration, Instant};
 use stickslip_drive::{Channel, Event, Record};
 use stickslip_figures::{Colours, Format, Look, Sources, draw_one};
@@ -57,6 +57,7 @@ impl Ended {
             || events.kinds.is_some()
             || events.contacts.is_some()
             || job.scenario.memory_limit.is_some()
+            || job.scenario.plan.limits.wall.is_some()
         {
             return None;
         }
@@ -120,8 +121,9 @@ pub(crate) struct Run {
 impl Run {
     /// Runs a job; what ends it early stands in [`Self::error`].
     pub(crate) fn new(py: Python<'_>, job: &Arc<Job>) -> PyResult<Self> {
+        let is_main = is_main(py)?;
         let ended = py.detach(|| {
-            let signals = Signals::new();
+            let signals = Signals::new(is_main);
             let ended = Ended::of(job, &signals);
             signals.take().map(|()| ended)
         })?;
@@ -147,9 +149,13 @@ impl Run {
     }
 
     /// What the summary and pictures are made from.
-    fn with_outcome<T>(&self, of: impl FnOnce(&Outcome, &Signals) -> PyResult<T>) -> PyResult<T> {
-        let mut outcome = self.outcome.lock().unwrap_or_else(PoisonError::into_inner);
-        let signals = Signals::new();
+    fn with_outcome<T>(
+        &self,
+        is_main: bool,
+        of: impl FnOnce(&Outcome, &Signals) -> PyResult<T>,
+    ) -> PyResult<T> {
+        let mut outcome = lock(&self.outcome)?;
+        let signals = Signals::new(is_main);
         let found = outcome.get_or_insert_with(|| self.job.run_with_table(&signals));
         if let Err(error) = signals.take() {
             *outcome = None;
@@ -200,8 +206,9 @@ impl Run {
 
     /// `summary.json` but for the files and the time taken.
     fn summary(&self, py: Python<'_>) -> PyResult<String> {
+        let is_main = is_main(py)?;
         py.detach(|| {
-            self.with_outcome(|outcome, signals| {
+            self.with_outcome(is_main, |outcome, signals| {
                 let (summary, _) = stickslip_study::summary(&self.job, outcome, &|| signals.goes_on());
                 signals.take()?;
                 summary.pretty().map_err(|error| RunError::new_err(error.to_string()))
@@ -231,14 +238,18 @@ impl Run {
             scale,
             width: None,
         };
+        let is_main = is_main(py)?;
         let bytes = py.detach(|| {
             if self.job.scenario.plots.contains(&plot) {
-                return self.with_outcome(|outcome, _| drawn(&self.job, outcome, plot, &look));
+                return self.with_outcome(is_main, |outcome, _| drawn(&self.job, outcome, plot, &look));
             }
             // What this picture needs was not kept: the same run again, with it.
             let plots = [("plots".to_owned(), format!("[\"{}\"]", plot.name()))];
             let job = self.job.with(&plots).map_err(|error| refused(&error))?;
-            drawn(&job, &job.run_with_table(&()), plot, &look)
+            let signals = Signals::new(is_main);
+            let outcome = job.run_with_table(&signals);
+            signals.take()?;
+            drawn(&job, &outcome, plot, &look)
         })?;
         Ok(PyBytes::new(py, &bytes))
     }

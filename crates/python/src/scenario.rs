@@ -2,7 +2,7 @@
 
 use crate::run::{Ended, Run};
 use crate::sim::Sim;
-use crate::watch::{Flag, Signals, wait};
+use crate::watch::{Flag, Signals, is_main, wait};
 use crate::{RunError, ScenarioError};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
@@ -125,8 +125,9 @@ impl Scenario {
     }
 
     fn info(&self, py: Python<'_>) -> PyResult<String> {
+        let is_main = is_main(py)?;
         py.detach(|| {
-            let signals = Signals::new();
+            let signals = Signals::new(is_main);
             let info = stickslip_study::Info::of(&self.job, &|| signals.goes_on());
             signals.take()?;
             serde_json::to_string(&info).map_err(stopped)
@@ -264,12 +265,12 @@ impl Scenario {
     }
 
     /// The linear system with all contacts stuck, as JSON.
-    fn linear(&self, at: &str) -> PyResult<String> {
-        let found = match at {
+    fn linear(&self, py: Python<'_>, at: &str) -> PyResult<String> {
+        let found = py.detach(|| match at {
             "least" => StateSpace::of(&self.job, |d| d.least),
             "most" => StateSpace::of(&self.job, |d| d.most),
             _ => StateSpace::of(&self.job, |d| d.start),
-        };
+        });
         found.map_err(invalid).and_then(|found| serde_json::to_string(&found).map_err(stopped))
     }
 }

@@ -1,12 +1,12 @@
 //! A run that stands between two calls.
 
-use crate::watch::Signals;
+use crate::watch::{Signals, is_main, lock};
 use crate::{RunError, text};
 use numpy::{IntoPyArray, PyArray1};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
-use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::sync::{Arc, Mutex, MutexGuard};
 use stickslip_drive::{Interpolation, Shape, Unrecorded};
 use stickslip_run::{Held, Job, Port};
 
@@ -20,8 +20,8 @@ pub(crate) struct Sim {
 
 struct Standing {
     held: Held,
-    /// What each input was given last; nothing after a state was restored.
-    last: Vec<Option<f64>>,
+    /// What each input was given last, and until when.
+    last: Vec<Option<(f64, f64)>>,
 }
 
 impl Sim {
@@ -37,13 +37,60 @@ impl Sim {
         Self { job: Arc::clone(job), inputs, standing: Mutex::new(Standing { held, last }) }
     }
 
-    fn standing(&self) -> MutexGuard<'_, Standing> {
-        self.standing.lock().unwrap_or_else(PoisonError::into_inner)
+    fn standing(&self) -> PyResult<MutexGuard<'_, Standing>> {
+        lock(&self.standing)
     }
 
-    fn restored(&self, bytes: &[u8]) -> PyResult<Held> {
-        Held::from_bytes(Arc::clone(&self.job), bytes)
-            .map_err(|error| PyValueError::new_err(error.to_string()))
+    /// A state as bytes, with what the inputs were given last behind it.
+    fn bytes(standing: &Standing) -> Vec<u8> {
+        let mut bytes = standing.held.to_bytes();
+        for last in &standing.last {
+            let (value, until) = last.unwrap_or((f64::NAN, f64::NAN));
+            bytes.extend(value.to_le_bytes().into_iter().chain(until.to_le_bytes()));
+        }
+        bytes
+    }
+
+    fn restored(&self, bytes: &[u8]) -> PyResult<Standing> {
+        let (state, behind) = bytes.split_at(bytes.len().saturating_sub(16 * self.inputs.len()));
+        let held = Held::from_bytes(Arc::clone(&self.job), state)
+            .map_err(|error| PyValueError::new_err(error.to_string()))?;
+        let number = |bytes: &[u8]| bytes.try_into().map_or(f64::NAN, f64::from_le_bytes);
+        let last = behind.chunks(16).map(|pair| {
+            let (value, until) = pair.split_at(pair.len().min(8));
+            Some((number(value), number(until)))
+                .filter(|(value, until)| value.is_finite() && until.is_finite())
+        });
+        let mut last: Vec<_> = last.collect();
+        last.resize(self.inputs.len(), None);
+        Ok(Standing { held, last })
+    }
+
+    /// What is wrong with a value that an input is given.
+    fn check(
+        &self,
+        port: &Port,
+        given: Option<f64>,
+        last: Option<(f64, f64)>,
+        (now, until): (f64, f64),
+    ) -> Result<(), String> {
+        let Some(value) = given else { return Ok(()) };
+        let (name, (low, high)) = (&port.name, port.range);
+        if !(low..=high).contains(&value) {
+            return Err(format!("{name:?} takes values from {low} to {high} {}, got {value}", port.unit));
+        }
+        if self.is_held(port.place) {
+            return Ok(());
+        }
+        match last {
+            _ if until == now => {
+                Err(format!("{name:?} is linear: expected a time after {now} s; times are absolute"))
+            }
+            Some((known, end)) if end >= until && known != value => {
+                Err(format!("{name:?} has its value {known} until {end} s already"))
+            }
+            _ => Ok(()),
+        }
     }
 
     /// Whether an input is held until its next value, or led there in a straight line.
@@ -68,35 +115,33 @@ impl Sim {
             };
             given[place] = Some(value);
         }
+        let is_main = is_main(py)?;
         py.detach(|| {
-            let mut guard = self.standing();
+            let mut guard = self.standing()?;
             let (now, Standing { held, last }) = (guard.held.time(), &mut *guard);
             if until.is_nan() || until < now || until.is_infinite() {
-                return Err(PyValueError::new_err(format!(
-                    "expected a time from {now} s on, got {until} s: times are absolute"
-                )));
+                let message = format!("expected a time from {now} s on, got {until} s: times are absolute");
+                return Err(PyValueError::new_err(message));
+            }
+            // Nothing is fed before all of it is found good.
+            for ((port, given), last) in self.inputs.iter().zip(&given).zip(&*last) {
+                self.check(port, *given, *last, (now, until)).map_err(PyValueError::new_err)?;
             }
             for ((port, given), last) in self.inputs.iter().zip(given).zip(last) {
                 let is_held = self.is_held(port.place);
-                let fed = match given.or(last.filter(|_| !is_held && until > now)) {
+                // A linear input that is left out stays; one whose piece reaches so far already has its value.
+                let open = !is_held && until > now && last.is_none_or(|(_, end)| end < until);
+                let value = if is_held || open { given } else { None };
+                let fed = match value.or(last.map(|(value, _)| value).filter(|_| open)) {
                     None => continue,
-                    Some(value) if is_held => held.hold(port.place, value),
-                    Some(_) if until == now => {
-                        let message = format!(
-                            "{:?} is linear: expected a time after {now} s; times are absolute",
-                            port.name
-                        );
-                        return Err(PyValueError::new_err(message));
-                    }
-                    Some(value) => held.lead(port.place, until, value),
+                    Some(value) if is_held => held.hold(port.place, value).map(|()| value),
+                    Some(value) => held.lead(port.place, until, value).map(|()| value),
                 };
-                fed.map_err(|error| {
-                    let (place, name) = (format!("input {}", port.place), format!("input {:?}", port.name));
-                    PyValueError::new_err(error.to_string().replacen(&place, &name, 1))
-                })?;
-                *last = given.or(*last);
+                let value =
+                    fed.map_err(|error| PyValueError::new_err(format!("{:?}: {error}", port.name)))?;
+                *last = Some((value, until));
             }
-            let signals = Signals::new();
+            let signals = Signals::new(is_main);
             let moved = held.advance(until, &mut Unrecorded(&signals));
             signals.take()?;
             moved.map_err(|error| {
@@ -112,46 +157,42 @@ impl Sim {
     }
 
     /// Values of all channels, in their order.
-    fn row<'p>(&self, py: Python<'p>) -> Bound<'p, PyArray1<f64>> {
-        let row = py.detach(|| self.standing().held.row());
-        row.into_pyarray(py)
+    fn row<'p>(&self, py: Python<'p>) -> PyResult<Bound<'p, PyArray1<f64>>> {
+        Ok(py.detach(|| self.standing().map(|standing| standing.held.row()))?.into_pyarray(py))
     }
 
     #[getter]
-    fn time(&self, py: Python<'_>) -> f64 {
-        py.detach(|| self.standing().held.time())
+    fn time(&self, py: Python<'_>) -> PyResult<f64> {
+        py.detach(|| Ok(self.standing()?.held.time()))
     }
 
-    fn state<'p>(&self, py: Python<'p>) -> Bound<'p, PyBytes> {
-        let bytes = py.detach(|| self.standing().held.to_bytes());
-        PyBytes::new(py, &bytes)
+    fn state<'p>(&self, py: Python<'p>) -> PyResult<Bound<'p, PyBytes>> {
+        let bytes = py.detach(|| self.standing().map(|standing| Self::bytes(&standing)))?;
+        Ok(PyBytes::new(py, &bytes))
     }
 
     fn restore(&self, py: Python<'_>, bytes: &[u8]) -> PyResult<()> {
         py.detach(|| {
             let restored = self.restored(bytes)?;
-            let last = vec![None; self.inputs.len()];
-            *self.standing() = Standing { held: restored, last };
+            *self.standing()? = restored;
             Ok(())
         })
     }
 
     fn copy(&self, py: Python<'_>) -> PyResult<Self> {
         py.detach(|| {
-            let (bytes, last) = {
-                let standing = self.standing();
-                (standing.held.to_bytes(), standing.last.clone())
-            };
-            let copy = Self::of(&self.job, self.restored(&bytes)?);
-            copy.standing().last = last;
+            let bytes = Self::bytes(&*self.standing()?);
+            let Standing { held, last } = self.restored(&bytes)?;
+            let copy = Self::of(&self.job, held);
+            copy.standing()?.last = last;
             Ok(copy)
         })
     }
 
     /// Name with unit and unit of every channel.
-    fn channels(&self, py: Python<'_>) -> Vec<(String, &'static str)> {
-        let channels = py.detach(|| self.standing().held.channels());
-        channels.into_iter().map(|channel| (channel.name, channel.unit)).collect()
+    fn channels(&self, py: Python<'_>) -> PyResult<Vec<(String, &'static str)>> {
+        let channels = py.detach(|| self.standing().map(|standing| standing.held.channels()))?;
+        Ok(channels.into_iter().map(|channel| (channel.name, channel.unit)).collect())
     }
 
     /// Name, unit, smallest and largest value of every input.

@@ -4,24 +4,56 @@ use pyo3::prelude::*;
 use std::cell::{Cell, RefCell};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{RecvTimeoutError, channel};
+use std::sync::{Mutex, MutexGuard, PoisonError, TryLockError};
 use std::time::{Duration, Instant};
 use stickslip_run::Watcher;
 
 /// How often Python is asked for signals.
 const EVERY: Duration = Duration::from_millis(20);
-/// Calls between two looks at the clock.
-const CALLS: u32 = 64;
+
+thread_local! {
+    /// Whether handlers of Python's signals run on this thread, which holds a run meanwhile.
+    static HANDLES: Cell<bool> = const { Cell::new(false) };
+}
+
+/// Whether Python called from its main thread: others get no signals, and may outlive the interpreter.
+pub(crate) fn is_main(py: Python<'_>) -> PyResult<bool> {
+    let threading = py.import("threading")?;
+    let [own, main] = ["current_thread", "main_thread"].map(|name| threading.call_method0(name));
+    Ok(own?.is(&main?))
+}
+
+/// Locks; a handler of a signal that came during a call that holds the lock is refused, since it would wait for itself.
+pub(crate) fn lock<T>(mutex: &Mutex<T>) -> PyResult<MutexGuard<'_, T>> {
+    if !HANDLES.get() {
+        return Ok(mutex.lock().unwrap_or_else(PoisonError::into_inner));
+    }
+    match mutex.try_lock() {
+        Ok(guard) => Ok(guard),
+        Err(TryLockError::Poisoned(poisoned)) => Ok(poisoned.into_inner()),
+        Err(TryLockError::WouldBlock) => {
+            Err(crate::RunError::new_err("the run is busy: a signal came during a call"))
+        }
+    }
+}
+
+fn check() -> PyResult<()> {
+    HANDLES.set(true);
+    let checked = Python::attach(|py| py.check_signals());
+    HANDLES.set(false);
+    checked
+}
 
 /// Watches a run on the thread that Python called.
 pub(crate) struct Signals {
-    calls: Cell<u32>,
+    is_main: bool,
     asked: Cell<Instant>,
     raised: RefCell<Option<PyErr>>,
 }
 
 impl Signals {
-    pub(crate) fn new() -> Self {
-        Self { calls: Cell::new(0), asked: Cell::new(Instant::now()), raised: RefCell::new(None) }
+    pub(crate) fn new(is_main: bool) -> Self {
+        Self { is_main, asked: Cell::new(Instant::now()), raised: RefCell::new(None) }
     }
 
     /// What Python raised meanwhile.
@@ -31,11 +63,9 @@ impl Signals {
 
     /// Whether the work continues.
     pub(crate) fn goes_on(&self) -> bool {
-        let calls = self.calls.get().wrapping_add(1);
-        self.calls.set(calls);
-        if calls.is_multiple_of(CALLS) && self.asked.get().elapsed() > EVERY {
+        if self.is_main && self.asked.get().elapsed() > EVERY {
             self.asked.set(Instant::now());
-            if let Err(error) = Python::attach(|py| py.check_signals()) {
+            if let Err(error) = check() {
                 self.raised.borrow_mut().replace(error);
             }
         }
@@ -65,7 +95,7 @@ impl Watcher for Flag {
 
 /// Does work on a thread of its own without the interpreter's lock, while this one waits for signals.
 pub(crate) fn wait<T: Send>(py: Python<'_>, work: impl FnOnce(&Flag) -> T + Send) -> PyResult<T> {
-    let flag = Flag::default();
+    let (flag, is_main) = (Flag::default(), is_main(py)?);
     py.detach(|| {
         std::thread::scope(|scope| {
             let (done, result) = channel();
@@ -75,8 +105,8 @@ pub(crate) fn wait<T: Send>(py: Python<'_>, work: impl FnOnce(&Flag) -> T + Send
             loop {
                 match result.recv_timeout(EVERY) {
                     Ok(value) => return raised.map_or(Ok(value), Err),
-                    Err(RecvTimeoutError::Timeout) if raised.is_none() => {
-                        if let Err(error) = Python::attach(|py| py.check_signals()) {
+                    Err(RecvTimeoutError::Timeout) if is_main && raised.is_none() => {
+                        if let Err(error) = check() {
                             flag.0.store(true, Ordering::Relaxed);
                             raised = Some(error);
                         }

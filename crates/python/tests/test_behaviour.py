@@ -71,6 +71,10 @@ def test_quantities_of_pint_and_numpy():
     unit = pint.UnitRegistry()
     s = ss.Scenario(QUICK).set("bodies.slider.mass", 20 * unit.gram, "contacts.ball.friction", np.float64(0.25))
     assert s.to_dict()["bodies"]["slider"]["mass"] == pytest.approx(0.02, rel=1e-15)
+    with pytest.raises(ss.ScenarioError, match="bodies.slider.mass"):
+        s.set("bodies.slider.mass", 3 * unit.second)
+    with pytest.raises(pint.DimensionalityError):
+        ss.examples.controlled().start().advance(1e-3 * unit.newton)
     sim = ss.examples.controlled().start()
     sim.advance(1 * unit.ms, drive=100 * unit.nm)
     assert sim.time == 1e-3 and sim["foot.x"] == pytest.approx(1e-7, rel=1e-12)
@@ -160,6 +164,59 @@ def test_bad_input_to_a_held_run():
     # An input that is left out stays where it is.
     sim.advance(3e-3)
     assert sim["foot.x"] == 2e-7
+    other = ss.examples.controlled().start()
+    other.restore(sim.state())
+    sim.advance(4e-3), other.advance(4e-3)
+    assert sim.state() == other.state()
+
+
+TWO = {**QUICK, "waveforms": {name: {"input": {"initial": 0, "range": [-1e-6, 1e-6], "interpolation": "linear"}} for name in ("drive", "other")}}
+TWO["bodies"] = {**QUICK["bodies"], "second": {"x": {"follows": "other"}}}
+TWO["contacts"] = {**QUICK["contacts"], "beside": {**QUICK["contacts"]["ball"], "between": ["second", "slider"]}}
+TWO["run"] = {"duration": "5 ms"}
+
+
+def test_a_refused_advance_feeds_nothing():
+    """The first of two inputs was fed before the second was refused, and nothing could be advanced any more."""
+    sim = ss.Scenario(TWO).start()
+    sim.advance(1e-3, drive=1e-8, other=0.0)
+    state = sim.state()
+    with pytest.raises(ValueError, match="other"):
+        sim.advance(2e-3, drive=2e-8, other=1.0)
+    assert sim.state() == state
+    sim.advance(2e-3, drive=2e-8, other=1e-8)
+    with pytest.raises(TypeError):
+        sim.advance(t=3e-3)
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="signals of POSIX")
+def test_a_handler_of_a_signal_does_not_wait_for_its_own_run():
+    """It waited for ever for the run that it had interrupted."""
+    code = """
+import signal, stickslip as ss
+s = ss.examples.quickstart().set("run.duration", "1e5 s", "output.every", "1 s", "output.events", "off", "plots", "[]")
+sim = s.start()
+signal.signal(signal.SIGALRM, lambda *_: print(sim.time))
+signal.setitimer(signal.ITIMER_REAL, 0.3)
+try:
+    sim.advance(1e5)
+except ss.RunError as error:
+    print(error)
+"""
+    done = subprocess.run([sys.executable, "-W", "ignore", "-c", code], capture_output=True, text=True, timeout=60, check=False)
+    assert "busy" in done.stdout, done
+
+
+def test_what_is_sent_to_other_processes():
+    r = ss.Scenario(QUICK).run()
+    step = pickle.loads(pickle.dumps(r.results.step))
+    assert (step, step.error) == (r.results.step, r.results.step.error)
+    error = ss.RunError("stopped")
+    error.t, error.result = 1.0, r
+    assert pickle.loads(pickle.dumps(error)).t == 1.0
+    with pytest.raises(TypeError, match="to_pandas"):
+        pickle.dumps(r)
+    assert r != ss.Scenario(QUICK).run() and r.scenario.info() == ss.Scenario(QUICK).info()
 
 
 def test_forged_states_are_refused_or_go_on():

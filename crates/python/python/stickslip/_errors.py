@@ -48,6 +48,17 @@ class RunError(RuntimeError):
 
     t: float | None = None
     result: Result | None = None
+    results: list[Result] | None = None
+
+    def __reduce__(self):
+        # A result stays in its process.
+        return _run_error, (str(self), self.t)
+
+
+def _run_error(text: str, t: float | None) -> RunError:
+    error = RunError(text)
+    error.t = t
+    return error
 
 
 class StickslipWarning(UserWarning):

@@ -19,7 +19,7 @@ def si(value: Any, unit: str) -> float:
     if isinstance(value, str):
         return _core.quantity(value, unit)
     if hasattr(value, "to_base_units"):
-        value = value.to_base_units().magnitude
+        value = (value.to(unit) if unit else value.to_base_units()).magnitude
     return float(value)
 
 
@@ -132,6 +132,11 @@ class Report(Mapping[str, Any]):
 
     def __dir__(self) -> list[str]:
         return [*super().__dir__(), *self.data]
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, Report) and self.data == other.data
+
+    __hash__ = object.__hash__
 
     def __repr__(self) -> str:
         return "\n".join(f"{key}: {_plain(value)}" for key, value in self.data.items())

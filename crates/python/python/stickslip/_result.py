@@ -6,6 +6,7 @@ import base64
 import html
 import json
 import os
+import threading
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from functools import cached_property
@@ -37,6 +38,11 @@ class _Column:
     values: np.ndarray
     full: str
 
+    @cached_property
+    def shown(self) -> np.ndarray:
+        """Numbers, or the words of states."""
+        return np.array(_core.STATES)[self.values.astype(int)] if self.is_state else self.values
+
 
 class Value(float):
     """A number with its error bound: ``value.error``, in the same unit; None where no bound is known."""
@@ -47,6 +53,9 @@ class Value(float):
         self = super().__new__(cls, value)
         self.error = error
         return self
+
+    def __getnewargs__(self) -> tuple[float, float | None]:
+        return float(self), self.error
 
     def __repr__(self) -> str:
         return float.__repr__(self) if self.error is None else f"{float(self)!r} ± {self.error:.2g}"
@@ -196,10 +205,14 @@ class Result(Mapping[str, np.ndarray]):
         return name
 
     def __getitem__(self, name: str) -> np.ndarray:
-        column = self._loaded[self.name_of(name)]
-        if column.is_state:
-            column.values, column.is_state = np.array(_core.STATES)[column.values.astype(int)], False
-        return column.values
+        return self._loaded[self.name_of(name)].shown
+
+    # Two results are compared by `==` of their columns.
+    __eq__ = object.__eq__
+    __hash__ = object.__hash__
+
+    def __reduce__(self):
+        raise TypeError("a Result cannot be pickled: send columns, to_pandas() or summary")
 
     def __iter__(self) -> Iterator[str]:
         return iter(self._loaded)
@@ -221,7 +234,7 @@ class Result(Mapping[str, np.ndarray]):
 
     @cached_property
     def events(self) -> list[Event]:
-        """All events, in order."""
+        """The events of events.csv, in order: all of them up to ``output.events.most``, of later ones a part."""
         return [Event(*one) for one in self._core.events]
 
     @cached_property
@@ -246,6 +259,8 @@ class Result(Mapping[str, np.ndarray]):
         >>> ss.examples.quickstart().run().png("loop")[1:4]
         b'PNG'
         """
+        if theme not in ("light", "dark") or scale not in (1, 2, 3, 4):
+            raise ValueError(f"expected the theme light or dark and a scale from 1 to 4, got {theme!r} and {scale!r}")
         return self._core.picture(plot, "png", theme, scale)
 
     def svg(self, plot: str, *, theme: str = "light") -> str:
@@ -273,9 +288,9 @@ class Result(Mapping[str, np.ndarray]):
         return xarray.Dataset(data, coords=coords, attrs={"title": self.scenario.title})
 
     def save(self, file: str | os.PathLike[str]) -> None:
-        """Writes all columns: .parquet, .csv or .nc, under their names with units; a file appears whole or not at all."""
+        """Writes all columns: .parquet or .csv, under their names with units, or .nc; a file appears whole or not at all."""
         file = os.fspath(file)
-        draft = f"{file}.{os.getpid()}.part"
+        draft = f"{file}.{os.getpid()}.{threading.get_ident()}.part"
         frame = self.to_pandas().reset_index().rename(columns={name: column.full for name, column in self._loaded.items()})
         writers = {
             ".parquet": lambda: frame.to_parquet(draft),

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from . import _core
-from ._errors import RunError, StickslipWarning
+from ._errors import RunError, ScenarioError, StickslipWarning
 from ._linear import LinearSystem
 from ._report import Report, Table, si
 from ._result import Result, Value
@@ -26,8 +26,8 @@ if TYPE_CHECKING:
 def _plain(value: Any) -> Any:
     """A value that JSON does not know: an array, a numpy number, a quantity with units."""
     if hasattr(value, "to_base_units"):
-        value = value.to_base_units().magnitude
-        return value if isinstance(value, (int, float)) else _plain(value)
+        # With its unit, which is checked like that of a text.
+        return float(value.magnitude) if value.dimensionless else f"{float(value.magnitude)!r} {value.units:~C}"
     if hasattr(value, "tolist"):
         return value.tolist()
     if isinstance(value, Mapping):
@@ -39,6 +39,7 @@ def _plain(value: Any) -> Any:
 
 def _text(value: Any) -> str:
     """A value as ``--set`` takes it: a text as it stands, anything else as JSON."""
+    value = _plain(value) if hasattr(value, "to_base_units") else value
     return value if isinstance(value, str) else json.dumps(value, default=_plain)
 
 
@@ -251,7 +252,7 @@ class Scenario:
             text = self._core.contact(name, normal, pushed, history, points, folder)
             tables = {file.stem: Table.from_csv(file.read_text(encoding="utf-8")) for file in Path(folder).glob("*.csv")}
         report = Report.from_json(text)
-        report.__dict__.update(tables)
+        report.data.update({name: table._rows for name, table in tables.items()})
         return report
 
     def linearise(self, at: str = "start") -> LinearSystem:
@@ -281,7 +282,8 @@ class Curve(Report):
 
     def landmark(self, name: str) -> Value:
         """Where a landmark such as "stall" lies, in the unit of what is varied, with its error bound."""
-        found = {one["name"]: one for one in self.data["landmarks"]}
+        # Of two with one name the first is meant; both stand in ``landmarks``.
+        found = {one["name"]: one for one in reversed(self.data.get("landmarks", []))}
         if name not in found:
             raise KeyError(f"{name!r}; landmarks: {', '.join(found)}")
         if found[name].get("at") is None:
@@ -343,7 +345,7 @@ class Simulation:
         for name, unit, limits in self._core.inputs():
             self.inputs[name], self._units[name] = limits, unit
 
-    def advance(self, t: Any, **inputs: Any) -> None:
+    def advance(self, t: Any, /, **inputs: Any) -> None:
         """Moves on to the absolute time ``t``, s or a text with a unit; inputs by their names.
 
         ``t`` is no step: for a step write ``sim.advance(sim.time + dt)``; it may lie beyond the duration of the scenario.
@@ -404,12 +406,17 @@ def load(file: str | os.PathLike[str]) -> Scenario:
     <Scenario drive: Sawtooth drive on three ruby balls>
     """
     path = Path(file)
-    text = path.read_bytes().decode("utf-8-sig", errors="replace")
+    try:
+        text = path.read_bytes().decode("utf-8-sig")
+    except UnicodeDecodeError as error:
+        raise ScenarioError(f"{path}: byte {error.start + 1} is not UTF-8; save the file as UTF-8") from None
     return Scenario._of(_core.Scenario(text, str(path), path.stem, str(path.parent), []))
 
 
 def run_many(scenarios: Sequence[Scenario], *, threads: int = 0) -> list[Result]:
-    """Runs scenarios side by side, on all cores by default; the results in their order. A run that stops early raises RunError.
+    """Runs scenarios side by side, on all cores by default; the results in their order.
+
+    A run that stops early raises RunError; its ``results`` are those of all runs.
 
     >>> import stickslip as ss
     >>> s = ss.examples.quickstart()
@@ -421,7 +428,12 @@ def run_many(scenarios: Sequence[Scenario], *, threads: int = 0) -> list[Result]
     if any(not isinstance(scenario, Scenario) for scenario in scenarios):
         raise TypeError("expected a list of scenarios; ss.Scenario(dict) makes one of a dict")
     found = _core.run_many([scenario._core for scenario in scenarios], threads)
-    return [_checked(Result(scenario, one)) for scenario, one in zip(scenarios, found, strict=True)]
+    results = [Result(scenario, one) for scenario, one in zip(scenarios, found, strict=True)]
+    try:
+        return [_checked(result) for result in results]
+    except RunError as error:
+        error.results = results
+        raise
 
 
 def measure(
@@ -470,7 +482,7 @@ def compare(
     time_tolerance = None if time_tolerance is None else si(time_tolerance, "s")
     pairs = list((absolute or {}).items())
     folders = (os.fspath(a), os.fspath(b))
-    return Report.from_json(_core.compare(folders, exact, tolerance, pairs, time_tolerance, list(ignore)))
+    return Report.from_json(_core.compare(folders, exact, tolerance, pairs, time_tolerance, _names(ignore)))
 
 
 def _checked(result: Result) -> Result:
