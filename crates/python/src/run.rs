@@ -156,7 +156,12 @@ impl Run {
     ) -> PyResult<T> {
         let mut outcome = lock(&self.outcome)?;
         let signals = Signals::new(is_main);
-        let found = outcome.get_or_insert_with(|| self.job.run_with_table(&signals));
+        let found = outcome.get_or_insert_with(|| {
+            let mut outcome = self.job.run_with_table(&signals);
+            // The columns are there already.
+            outcome.table = None;
+            outcome
+        });
         if let Err(error) = signals.take() {
             *outcome = None;
             return Err(error);

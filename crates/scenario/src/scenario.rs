@@ -110,19 +110,6 @@ impl Scenario {
         Self::read(text, (name, "--set"), None, &[])
     }
 
-    /// Reads a scenario from a text alone, for callers without files: it names none, and its errors say where by line and column.
-    /// Overrides are pairs as in [`Self::load_with`]; errors call them by `word`, as the caller does.
-    ///
-    /// # Errors
-    /// Whatever is wrong with the text or an override, with its place.
-    pub fn from_text(
-        text: &str,
-        overrides: &[(&str, &str)],
-        word: &'static str,
-    ) -> Result<Self, ScenarioError> {
-        Self::read(text, ("", word), None, overrides)
-    }
-
     /// The same scenario, read again with further overrides after its own.
     ///
     /// # Errors

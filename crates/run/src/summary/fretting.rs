@@ -24,7 +24,7 @@ pub struct Fretting {
     /// δ₀, half of the way between the places where F_x passes the middle of its range
     #[serde(rename = "half_opening_m", skip_serializing_if = "Option::is_none")]
     half_opening: Option<Real>,
-    /// E_d, all that the contact loses in the cycle: friction work, and of a damped contact what its damping takes; left out where other parts lose energy as well, for their share is not told apart
+    /// E_d, all that the contact loses in the cycle: friction work, and of a damped contact what its damping takes; left out where other parts lose energy as well, for their share cannot be separated
     #[serde(rename = "dissipated_J", skip_serializing_if = "Option::is_none")]
     pub dissipated: Option<Real>,
     /// friction's part of E_d, of a damped contact

@@ -88,9 +88,10 @@ fn a_table_has_all_rows_and_events_by_channel() {
 fn a_text_alone_is_told_in_the_caller_s_words() {
     let text = std::fs::read_to_string(example("p1")).unwrap();
     let set = [("run.cycles", "2")];
-    assert!(Scenario::from_text(&text, &set, "set=").is_ok());
-    let said =
-        |text: &str, set: &[(&str, &str)]| Scenario::from_text(text, set, "with").unwrap_err().to_string();
+    assert!(Scenario::read(&text, ("", "set="), None, &set).is_ok());
+    let said = |text: &str, set: &[(&str, &str)]| {
+        Scenario::read(text, ("", "with"), None, set).unwrap_err().to_string()
+    };
     assert!(
         said(&text, &[("run.cycle", "2")]).starts_with("with run.cycle=2  "),
         "{}",
