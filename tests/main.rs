@@ -36,5 +36,6 @@ mod scenarios;
 mod sensitivity;
 mod steady;
 mod strangers;
+mod study;
 mod warnings;
 mod words;

@@ -13,8 +13,9 @@ pub(crate) mod realtime;
 pub(crate) mod run;
 pub(crate) mod sensitivity;
 pub(crate) mod steady;
+pub(crate) mod study;
 
-use crate::commands::new;
+use crate::commands::{new, schema};
 use clap::builder::PossibleValuesParser;
 use clap::{Args, Parser, Subcommand};
 use std::path::PathBuf;
@@ -104,6 +105,9 @@ pub(crate) enum Command {
     /// Compute the sensitivity of results to every parameter, with error estimates
     #[command(long_about = sensitivity::ABOUT, after_long_help = sensitivity::EXAMPLES)]
     Sensitivity(SensitivityArguments),
+    /// Run thousands of variants of a scenario: grids, distributions, sensitivity indices
+    #[command(long_about = study::ABOUT, after_long_help = study::EXAMPLES, subcommand)]
+    Study(study::StudyCommand),
     /// Solve a single contact without a run: constants, load histories, stresses
     #[command(long_about = contact::ABOUT, after_long_help = contact::EXAMPLES)]
     Contact(ContactArguments),
@@ -128,9 +132,15 @@ pub(crate) enum Command {
         after_long_help = "Example:\n  stickslip materials\n\n  With \"materials\": [\"ruby\", \"hardened steel\"] in a contact the scenario needs no section \"materials\"."
     )]
     Materials,
-    /// Print the JSON Schema of scenario files
-    #[command(after_long_help = "Example:\n  stickslip schema > scenario-1.json")]
-    Schema,
+    /// Print the JSON Schema of scenario files, or of study files
+    #[command(
+        after_long_help = "Examples:\n  stickslip schema > scenario-1.json\n  stickslip schema study > study-1.json"
+    )]
+    Schema {
+        /// Kind of file
+        #[arg(value_enum, default_value_t = schema::Kind::Scenario)]
+        kind: schema::Kind,
+    },
     /// Print the script with which a shell completes commands and options
     #[command(after_long_help = COMPLETIONS_EXAMPLES)]
     Completions {

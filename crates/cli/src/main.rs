@@ -10,7 +10,7 @@ use arguments::{Arguments, Command, meant};
 use clap::FromArgMatches;
 use commands::{
     branch, check, compare, completions, contact, curve, explain, golden, info, materials, measure, new,
-    plot, realtime, repro, run, schema, sensitivity, steady,
+    plot, realtime, repro, run, schema, sensitivity, steady, study,
 };
 use std::process::ExitCode;
 
@@ -31,8 +31,9 @@ fn main() -> ExitCode {
         Command::Sensitivity(arguments) => sensitivity::sensitivity(&arguments),
         Command::Branch(arguments) => branch::branch(&arguments),
         Command::Steady(arguments) => steady::steady(&arguments),
+        Command::Study(command) => study::study(&command),
         Command::New(arguments) => new::new(&arguments),
-        Command::Schema => schema::print(),
+        Command::Schema { kind } => schema::print(kind),
         Command::Explain { names } => explain::explain(&names),
         Command::Materials => materials::list(),
         Command::Completions { shell } => completions::print(shell),
@@ -45,10 +46,27 @@ fn main() -> ExitCode {
     ExitCode::from(verdict.max(stickslip_console::answer::verdict()).code())
 }
 
-/// x^y for what the program is made of: dependencies (the progress bar's estimate, the benchmarks' other solver) ask for it by this
-/// name, and would be given the C library's of the machine.
-#[expect(unsafe_code, reason = "a name that C libraries define as well; the function is safe")]
-#[unsafe(no_mangle)]
-extern "C" fn pow(x: f64, y: f64) -> f64 {
-    math::powf(x, y)
+/// Functions that dependencies (the progress bar's estimate, the writer of Parquet) ask for by these names, and would be given the C
+/// library's of the machine.
+mod shared_names {
+    /// x^y.
+    #[expect(unsafe_code, reason = "a name that C libraries define as well; the function is safe")]
+    #[unsafe(no_mangle)]
+    extern "C" fn pow(x: f64, y: f64) -> f64 {
+        math::powf(x, y)
+    }
+
+    /// Natural logarithm.
+    #[expect(unsafe_code, reason = "a name that C libraries define as well; the function is safe")]
+    #[unsafe(no_mangle)]
+    extern "C" fn log(x: f64) -> f64 {
+        math::ln(x)
+    }
+
+    /// Decimal logarithm.
+    #[expect(unsafe_code, reason = "a name that C libraries define as well; the function is safe")]
+    #[unsafe(no_mangle)]
+    extern "C" fn log10(x: f64) -> f64 {
+        math::log10(x)
+    }
 }

@@ -22,7 +22,7 @@ use crate::equations::Equations;
 use crate::method::Tally;
 use crate::model::{Balanced, Binding, BlockState};
 use crate::scene::Axis;
-use crate::{Model, Piece, RunError};
+use crate::{Model, Piece, RunError, record};
 use stickslip_contact::{Apex, ContactError, Memory, Move};
 
 /// State of a drive: cloneable, comparable. A run started from a copy goes on to the same bits.
@@ -333,6 +333,12 @@ impl State {
     /// Work done so far.
     pub fn counts(&self) -> Counts {
         self.counts
+    }
+
+    /// Writes the values of all channels where it stands into a row.
+    pub fn write_row(&self, model: &Model, row: &mut Vec<f64>) {
+        let equations = Equations::on(model, self, self.layout(model), false);
+        record::fill(&equations, self, self.t, &|i| self.y[i], row);
     }
 
     /// The methods by which it was done.

@@ -1,11 +1,12 @@
 //! The module `stickslip._core`: what the package `stickslip` stands on.
 //!
 //! It hands over text and arrays; names, objects and pictures for Python are made in `python/stickslip`. In reading order: `watch`
-//! (signals during long work), `scenario`, `run`, `sim`, `tables` (measured loops, comparisons).
+//! (signals during long work), `scenario`, `run`, `sim`, `study`, `tables` (measured loops, comparisons).
 
 mod run;
 mod scenario;
 mod sim;
+mod study;
 mod tables;
 mod watch;
 
@@ -36,6 +37,7 @@ fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<scenario::Scenario>()?;
     module.add_class::<run::Run>()?;
     module.add_class::<sim::Sim>()?;
+    module.add_class::<study::Study>()?;
     module.add("STATES", run::states())?;
     module.add_function(wrap_pyfunction!(scenario::run_many, module)?)?;
     module.add_function(wrap_pyfunction!(tables::measure, module)?)?;

@@ -52,7 +52,8 @@ fn invalid(error: impl ToString) -> PyErr {
     PyValueError::new_err(error.to_string())
 }
 
-fn cores(threads: usize) -> usize {
+/// A number of threads: all cores for 0.
+pub(crate) fn cores(threads: usize) -> usize {
     if threads > 0 { threads } else { available_parallelism().map_or(1, usize::from) }
 }
 

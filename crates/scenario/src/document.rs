@@ -3,6 +3,7 @@
 use crate::error::{Report, ScenarioError};
 use crate::excerpt::{Excerpt, visible};
 use crate::fault::{Fault, Mark};
+use crate::guide::Guide;
 use crate::path::{KeyPath, Step};
 use crate::place::{Inner, Place, Span};
 use crate::syntax;
@@ -42,6 +43,8 @@ pub(crate) struct Document {
     pub(crate) base: Option<PathBuf>,
     /// What the caller calls an override.
     pub(crate) word: &'static str,
+    /// What is known of the keys of such files.
+    pub(crate) guide: &'static Guide,
 }
 
 /// Most characters of a value that a message repeats.
@@ -58,6 +61,7 @@ impl Document {
             tables: Vec::new(),
             base: None,
             word: "--set",
+            guide: Guide::get(),
         };
         document.add(file.to_owned(), text.to_owned(), SourceKind::Scenario);
         document
@@ -75,6 +79,12 @@ impl Document {
             }
             Err(fault) => Err(ScenarioError::from(document.report(fault)).unread()),
         }
+    }
+
+    /// The same of a study file.
+    pub(crate) fn read_study(file: &str, text: &str) -> Result<(Self, Vec<Fault>), ScenarioError> {
+        let (document, faults) = Self::read(file, text)?;
+        Ok((Self { guide: Guide::of_studies(), ..document }, faults))
     }
 
     /// The table whose file holds the value at a path.
@@ -126,7 +136,7 @@ impl Document {
         fault.path = self.given(&fault.path);
         let written = if fault.value { self.written(&fault.path) } else { None };
         let span = self.span(&fault);
-        let help = fault.help.about(&fault.path);
+        let help = fault.help.about(&fault.path, self.guide);
         let mut report = Report {
             file: String::new(),
             is_override: false,

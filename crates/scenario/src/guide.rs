@@ -24,7 +24,7 @@ pub(crate) enum Help {
 
 impl Help {
     /// The sentence about the value under a path.
-    pub(crate) fn about(self, path: &KeyPath) -> Option<String> {
+    pub(crate) fn about(self, path: &KeyPath, guide: &Guide) -> Option<String> {
         let mut path = path.clone();
         match self {
             Self::None => None,
@@ -32,15 +32,10 @@ impl Help {
             Self::Meaning => {
                 // What a list means says more than what its entries are.
                 while path.0.pop_if(|last| matches!(last, Step::Index(_))).is_some() {}
-                let guide = Guide::get();
                 guide.description(guide.at(&path)?)
             }
-            Self::Shape => {
-                let guide = Guide::get();
-                Some(format!("such as {}", line(guide.example(guide.at(&path)?)?)))
-            }
+            Self::Shape => Some(format!("such as {}", line(guide.example(guide.at(&path)?)?))),
             Self::Missing(key) => {
-                let guide = Guide::get();
                 let schema = guide.enter(guide.at(&path)?, &Step::Key(key.clone()))?;
                 let (example, description) = (guide.example(schema)?, guide.description(schema)?);
                 Some(format!("add \"{key}\": {} ({description})", line(example)))
@@ -50,6 +45,7 @@ impl Help {
 }
 
 /// The schema as a book to look things up in.
+#[derive(Debug, PartialEq)]
 pub(crate) struct Guide {
     root: Value,
 }
@@ -59,6 +55,12 @@ impl Guide {
     pub(crate) fn get() -> &'static Self {
         static GUIDE: OnceLock<Guide> = OnceLock::new();
         GUIDE.get_or_init(|| Self { root: schema::tree() })
+    }
+
+    /// That of study files.
+    pub(crate) fn of_studies() -> &'static Self {
+        static GUIDE: OnceLock<Guide> = OnceLock::new();
+        GUIDE.get_or_init(|| Self { root: schema::study_tree() })
     }
 
     /// What the schema says about the value under a path.
@@ -307,25 +309,26 @@ mod tests {
 
     #[test]
     fn the_schema_answers() {
+        let guide = Guide::get();
         let friction = "the Coulomb coefficient of the pair, 0 to 1000; typical 0.05 to 0.6";
-        assert_eq!(Help::Meaning.about(&path("contacts.a b.friction")).unwrap(), friction);
+        assert_eq!(Help::Meaning.about(&path("contacts.a b.friction"), guide).unwrap(), friction);
         assert_eq!(
-            Help::Missing("friction".to_owned()).about(&path("contacts.ball")).unwrap(),
+            Help::Missing("friction".to_owned()).about(&path("contacts.ball"), guide).unwrap(),
             format!("add \"friction\": 0.2 ({friction})")
         );
-        let modulus = Help::Meaning.about(&path("materials.x.youngs_modulus")).unwrap();
+        let modulus = Help::Meaning.about(&path("materials.x.youngs_modulus"), guide).unwrap();
         assert!(modulus.starts_with("Young's modulus E, Pa"));
-        let radius = Help::Meaning.about(&path("contacts.c.profile.sphere.radius")).unwrap();
+        let radius = Help::Meaning.about(&path("contacts.c.profile.sphere.radius"), guide).unwrap();
         assert!(radius.ends_with("typical 0.1 mm to 50 mm"));
         assert_eq!(
-            Help::Shape.about(&path("gravity")).unwrap(),
+            Help::Shape.about(&path("gravity"), guide).unwrap(),
             "such as {\"acceleration\": \"9.81 m/s²\", \"incline\": \"90 deg\"}"
         );
-        let inline = Help::Meaning.about(&path("loads[3].x.follows.sine.delay")).unwrap();
+        let inline = Help::Meaning.about(&path("loads[3].x.follows.sine.delay"), guide).unwrap();
         assert!(inline.starts_with("delay, s, at least 0"));
-        let points = Help::Meaning.about(&path("waveforms.w.table.points[2][0]")).unwrap();
+        let points = Help::Meaning.about(&path("waveforms.w.table.points[2][0]"), guide).unwrap();
         assert!(points.starts_with("pairs of time and value"));
-        assert_eq!(Help::Meaning.about(&path("nowhere.to.go")), None);
+        assert_eq!(Help::Meaning.about(&path("nowhere.to.go"), guide), None);
     }
 
     #[test]

@@ -15,7 +15,7 @@
 //! stand where, with the docs that become the schema), the `reader` that fills it, `misfit` and `refusal` (what does not
 //! fit, as data and in words); `mistakes` (what else does not); `tables` in the scenario's `folder`; `meaning` (the conversion, and its warnings); `resolved`
 //! (canonical JSON); `pairing` (what contacts are made of); `address` (where the parts of a scene stand in the file);
-//! `schema`, and `guide`, which answers from it; `parameter` (numbers that may be varied); `named` (materials by name) and `substance` (what a material's name means).
+//! `schema`, and `guide`, which answers from it; `parameter` (numbers that may be varied); `study` (the other file: which of them are, and what is kept of each run); `named` (materials by name) and `substance` (what a material's name means).
 //! [`Report`] is what all of them say, [`Excerpt`] the line it shows.
 
 mod address;
@@ -42,6 +42,7 @@ mod refusal;
 mod resolved;
 mod scenario;
 mod schema;
+mod study;
 mod substance;
 mod suggest;
 mod syntax;
@@ -61,7 +62,8 @@ pub use parameter::Parameter;
 pub use plot_name::PlotName;
 pub use quantity::quantity;
 pub use scenario::Scenario;
-pub use schema::schema;
+pub use schema::{schema, study_schema};
+pub use study::{Sampling, StudyFile, Variation};
 pub use substance::{Substance, substance};
 pub use suggest::help as suggestion;
 pub use tables::{Pairs, pairs};

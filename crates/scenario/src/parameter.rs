@@ -22,22 +22,40 @@ pub struct Parameter {
     pub value: Option<f64>,
     /// Its SI unit; empty for a plain number.
     pub unit: &'static str,
+    /// Whether it counts whole things.
+    pub is_whole: bool,
 }
 
 impl Scenario {
-    /// The number under a key path.
+    /// The number under a key path that a motion changes with continuously.
     ///
     /// # Errors
-    /// Nothing under that path, something else than a number, or one that counts whole things.
+    /// Nothing under that path, something else than a number, one that counts whole things, or one that says how a run is run.
     pub fn parameter(&self, path: &str) -> Result<Parameter, ScenarioError> {
+        let is_in =
+            |steps: &KeyPath, part: &&str| KeyPath::parse(part).is_some_and(|part| steps.lies_in(&part));
+        if KeyPath::parse(path).is_some_and(|steps| OF_A_RUN.iter().any(|part| is_in(&steps, part))) {
+            let message = "it says how a run is run or written and changes no motion";
+            return Err(self.locate(path, message, None));
+        }
+        let found = self.number(path)?;
+        if found.is_whole {
+            let message = "it counts whole things: a number that can change by any amount is needed here";
+            return Err(self.locate(path, message, None));
+        }
+        Ok(found)
+    }
+
+    /// The number under a key path, whatever it says.
+    ///
+    /// # Errors
+    /// Nothing under that path, or something else than a number.
+    pub fn number(&self, path: &str) -> Result<Parameter, ScenarioError> {
         let refused = |message: &str, help: Option<String>| Err(self.locate(path, message, help));
         let Some(steps) = KeyPath::parse(path).filter(|steps| !steps.0.is_empty()) else {
             let help = "such as contacts.ball.friction or loads[0].x".to_owned();
             return refused("expected a key path", Some(help));
         };
-        if OF_A_RUN.iter().any(|part| KeyPath::parse(part).is_some_and(|part| steps.lies_in(&part))) {
-            return refused("it says how a run is run or written and changes no motion", None);
-        }
         let tree = serde_json::to_value(&self.form).unwrap_or_default();
         let schema = Guide::get().at(&steps);
         let found = match (look(&tree, &steps.0), schema) {
@@ -57,19 +75,15 @@ impl Scenario {
             }
         };
         let Some(schema) = schema else { return refused("there is nothing under this path", None) };
-        if is_whole(schema) {
-            let message = "it counts whole things: a number that can change by any amount is needed here";
-            return refused(message, None);
-        }
         let (kind, takes) = dimension(schema, DEEPEST);
         let kind = match takes {
-            Takes::Nothing => return refused("expected the path of a number", None),
+            Takes::Nothing if !is_whole(schema) => return refused("expected the path of a number", None),
             // That of what follows the waveform. A factor of it has none.
             Takes::Values => kind.or_else(|| followed(&tree, &steps)),
-            Takes::Numbers => kind,
+            Takes::Numbers | Takes::Nothing => kind,
         };
         let unit = kind.map_or("", Kind::si);
-        Ok(Parameter { path: path.to_owned(), value, unit })
+        Ok(Parameter { path: path.to_owned(), value, unit, is_whole: is_whole(schema) })
     }
 }
 

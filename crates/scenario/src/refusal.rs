@@ -12,7 +12,7 @@ use serde_path_to_error::Segment;
 
 /// Gives a refusal its place and its words.
 pub(crate) fn fault(document: &Document, error: &serde_path_to_error::Error<Misfit>) -> Fault {
-    let refusal = Refusal { document, guide: Guide::get(), path: path(document, error.path()) };
+    let refusal = Refusal { document, guide: document.guide, path: path(document, error.path()) };
     refusal.fault(error.inner()).of_shape()
 }
 

@@ -279,7 +279,8 @@ fn warnings(document: &Document, odd: Vec<Oddity>) -> Vec<Warning> {
     warnings
 }
 
-fn read(path: &Path, name: &str) -> Result<String, ScenarioError> {
+/// The text of a file.
+pub(crate) fn read(path: &Path, name: &str) -> Result<String, ScenarioError> {
     let failed = |message: String, help: Option<&str>| {
         ScenarioError::from(Report {
             file: name.to_owned(),

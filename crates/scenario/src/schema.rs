@@ -11,9 +11,10 @@ pub(crate) use rule::{
 
 use crate::form::Form;
 use crate::resolved;
-use schemars::Schema;
+use crate::study::StudyForm;
 use schemars::generate::SchemaSettings;
 use schemars::transform::transform_subschemas;
+use schemars::{JsonSchema, Schema};
 use serde_json::{Map, Value, json};
 
 /// The JSON Schema (draft 2020-12) of the scenario file, version 1; a copy lies in `schema/scenario-1.json`.
@@ -21,15 +22,29 @@ pub fn schema() -> String {
     resolved::print(&tree())
 }
 
+/// The JSON Schema (draft 2020-12) of study files, version 1; a copy lies in `schema/study-1.json`.
+pub fn study_schema() -> String {
+    resolved::print(&study_tree())
+}
+
 /// The schema as a value.
 pub(crate) fn tree() -> Value {
-    let generator = SchemaSettings::draft2020_12().into_generator();
-    let mut schema = generator.into_root_schema_for::<Form>();
+    let mut schema = of::<Form>();
+    schema.insert("defaultSnippets".to_owned(), json!([{ "label": "a drive", "body": snippet() }]));
+    schema.to_value()
+}
+
+/// That of study files.
+pub(crate) fn study_tree() -> Value {
+    of::<StudyForm>().to_value()
+}
+
+fn of<T: JsonSchema>() -> Schema {
+    let mut schema = SchemaSettings::draft2020_12().into_generator().into_root_schema_for::<T>();
     tidy(&mut schema);
     // What editors of JSON make of comments and of a comma too many.
     schema.insert("allowComments".to_owned(), json!(true));
-    schema.insert("defaultSnippets".to_owned(), json!([{ "label": "a drive", "body": snippet() }]));
-    schema.to_value()
+    schema
 }
 
 /// What an editor offers for an empty file.

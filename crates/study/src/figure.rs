@@ -1,16 +1,14 @@
 //! Figures of a variant: the few numbers that are kept of its run.
 
-use std::sync::atomic::{AtomicBool, Ordering};
 use stickslip_drive::{Event, Model, Plan, Record, Scene};
+use stickslip_run::Watcher;
 use thiserror::Error;
 
 /// A number that is told of every variant.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub enum Figure {
+pub(crate) enum Figure {
     /// Value of a channel at the end, such as `slider.x_m`.
     End(String),
-    /// The same less its value at the start.
-    Change(String),
     /// What a channel gains in the last whole period of a waveform: of `slider.x_m` the step of a drive. NaN where no period is
     /// over.
     Step {
@@ -23,7 +21,7 @@ pub enum Figure {
 
 /// A figure that a scene does not have.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
-pub enum FigureError {
+pub(crate) enum FigureError {
     /// No channel of that name.
     #[error("\"{0}\": expected the name of a channel, such as {1}")]
     Channel(String, String),
@@ -42,7 +40,6 @@ pub(crate) struct Placed {
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Kind {
     End,
-    Change,
     Step(usize),
 }
 
@@ -51,7 +48,6 @@ impl Figure {
     pub(crate) fn place(&self, scene: &Scene, model: &Model) -> Result<Placed, FigureError> {
         let (name, kind) = match self {
             Self::End(name) => (name, Kind::End),
-            Self::Change(name) => (name, Kind::Change),
             Self::Step { channel, waveform } => {
                 let period = scene.waveforms.get(*waveform).and_then(|named| named.part.period());
                 period.ok_or(FigureError::Waveform(*waveform))?;
@@ -65,22 +61,12 @@ impl Figure {
         })?;
         Ok(Placed { channel, kind })
     }
-
-    /// What heads its column.
-    #[must_use]
-    pub fn head(&self) -> String {
-        match self {
-            Self::End(channel) => channel.clone(),
-            Self::Change(channel) => format!("change of {channel}"),
-            Self::Step { channel, .. } => format!("step of {channel}"),
-        }
-    }
 }
 
 /// Reads figures off a run: its first and its last row, and those where the last whole period begins and ends.
 pub(crate) struct Reading<'a> {
     figures: &'a [Placed],
-    stop: &'a AtomicBool,
+    watcher: &'a dyn Watcher,
     /// The figures as they are known so far: before the last row what their channels were at the start, or where the period began.
     pub(crate) values: Vec<f64>,
     /// Moments to read at, s, ascending, and which of them is next.
@@ -96,11 +82,11 @@ pub(crate) struct Reading<'a> {
 const SAME: f64 = 4.0 * f64::EPSILON;
 
 impl<'a> Reading<'a> {
-    pub(crate) fn new(figures: &'a [Placed], stop: &'a AtomicBool) -> Self {
+    pub(crate) fn new(figures: &'a [Placed], watcher: &'a dyn Watcher) -> Self {
         let count = figures.len();
         Self {
             figures,
-            stop,
+            watcher,
             values: vec![f64::NAN; count],
             moments: Vec::with_capacity(2 * count),
             next: 0,
@@ -118,7 +104,7 @@ impl<'a> Reading<'a> {
         self.spans.clear();
         for figure in self.figures {
             let span = match figure.kind {
-                Kind::End | Kind::Change => [0.0, self.end],
+                Kind::End => [0.0, self.end],
                 Kind::Step(waveform) => last_period(scene, waveform, self.end),
             };
             let last = self.end * (1.0 - SAME);
@@ -186,6 +172,6 @@ impl Record for Reading<'_> {
     }
 
     fn goes_on(&mut self, _: f64) -> bool {
-        !self.stop.load(Ordering::Relaxed)
+        self.watcher.goes_on()
     }
 }

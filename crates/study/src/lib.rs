@@ -3,31 +3,25 @@
 //! Knows no terminal and draws nothing, so that any door can stand on it. What it computes does not depend on the number of
 //! threads.
 //!
-//! In reading order: `number` (numbers of a scene that a batch sets) and `sketch` (those of its waveforms), `figure` (what is kept of
-//! a run), `line` (what is told of it), `batch` (the runs); [`steady`], the motion that repeats itself every period, and how it
+//! In reading order: [`sweep`], many runs in parts on disk, with `number` (numbers of a scene that are set without reading it again),
+//! `sketch` (those of its waveforms) and `figure` (what is kept of such a run); [`steady`], the motion that repeats itself every period, and how it
 //! comes back when it is disturbed; [`curve`], what that motion makes of a number that is varied; [`sensitivity`], by how much a
 //! figure changes with each number of the scenario; `published`, the files of curves, branches and derivatives, whole or interrupted.
 //! `each` does many things side by side, `grip` tells whether something holds a body, `interruptible` lets a run be given up.
 
-mod batch;
 pub mod curve;
 mod each;
 mod figure;
 mod grip;
 mod info;
 mod interruptible;
-mod line;
 mod number;
 mod published;
 pub mod report;
 pub mod sensitivity;
 mod sketch;
 pub mod steady;
-
-pub use batch::Batch;
-pub use figure::{Figure, FigureError};
-pub use line::{Ended, Line, LineFault, Lines};
-pub use number::{NumberError, ValueError};
+pub mod sweep;
 
 pub use info::Info;
 pub use report::summary;
@@ -45,6 +39,9 @@ pub fn definitions() -> Vec<Definition> {
     all.extend(steady::continuation::definitions());
     all.extend(curve::definitions());
     all.extend(sensitivity::definitions());
+    all.extend(read::<sweep::Forecast>("study plan --json"));
+    all.extend(read::<sweep::Statistics>("study run --json"));
+    all.extend(read::<sweep::Indices>("study indices --json"));
     let mut met = HashSet::new();
     all.retain(|one| met.insert((one.file, one.name.clone())));
     all

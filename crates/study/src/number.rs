@@ -50,7 +50,7 @@ pub(crate) enum Number {
 /// A key path that names no number which variants can set.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 #[error("\"{path}\" is no number of this scene that variants can set: {why}")]
-pub struct NumberError {
+pub(crate) struct NumberError {
     /// As it was given.
     pub path: String,
     /// What would be one.
@@ -59,7 +59,7 @@ pub struct NumberError {
 
 /// A number that its part refuses.
 #[derive(Debug, Clone, PartialEq, Error)]
-pub enum ValueError {
+pub(crate) enum ValueError {
     /// A coefficient of friction.
     #[error(transparent)]
     Friction(#[from] FrictionError),

@@ -1,10 +1,24 @@
-//! `stickslip schema`: the JSON Schema of the scenario file.
+//! `stickslip schema`: the JSON Schema of the files that the program reads.
 
+use clap::ValueEnum;
 use stickslip_console::answer::say;
 use stickslip_console::verdict::Verdict;
 
-/// Prints the schema.
-pub(crate) fn print() -> Verdict {
-    say(format_args!("{}", stickslip_scenario::schema().trim_end()));
+/// A kind of file.
+#[derive(Debug, Clone, Copy, ValueEnum)]
+pub(crate) enum Kind {
+    /// Scenario files
+    Scenario,
+    /// Study files
+    Study,
+}
+
+/// Prints a schema.
+pub(crate) fn print(kind: Kind) -> Verdict {
+    let schema = match kind {
+        Kind::Scenario => stickslip_scenario::schema(),
+        Kind::Study => stickslip_scenario::study_schema(),
+    };
+    say(format_args!("{}", schema.trim_end()));
     Verdict::Done
 }

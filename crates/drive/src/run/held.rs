@@ -4,9 +4,8 @@ use super::fixed::{Fixed, Frame, Moved};
 use super::horizon::Goal;
 use super::located::LocatedRun;
 use super::output::Opening;
-use crate::equations::Equations;
 use crate::method::{self, Method, SceneTraits};
-use crate::record::{self, Record};
+use crate::record::Record;
 use crate::waveform::Command;
 use crate::{CommandError, InputError, Model, Plan, RunError, State, Stepper};
 use stickslip_stepper::{Nystrom4, Rk4, Verlet};
@@ -273,12 +272,8 @@ impl<'m> Run<'m> {
     /// The values of all channels where the run stands, into the room of `row`; their names and units are those of
     /// [`Model::channels`], in that order. Before the first advance it is the first row that the run will write.
     pub fn row(&self, row: &mut Vec<f64>) {
-        let fill = |state: &State, row: &mut Vec<f64>| {
-            let equations = Equations::on(self.model, state, state.layout(self.model), false);
-            record::fill(&equations, state, state.t, &|i| state.y[i], row);
-        };
         if self.begun || self.resumed {
-            return fill(&self.state, row);
+            return self.state.write_row(self.model, row);
         }
         let mut state = self.state.clone();
         if let Ok(mut way) = Way::new(self.model, &self.plan) {

@@ -6,9 +6,10 @@
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
 use std::fs;
-use stickslip_scenario::{Scenario, schema};
+use stickslip_scenario::{Scenario, schema, study_schema};
 
 const COPY: &str = "../../schema/scenario-1.json";
+const STUDIES: &str = "../../schema/study-1.json";
 const SCENARIOS: &str = "../../scenarios";
 
 fn validator() -> jsonschema::Validator {
@@ -23,6 +24,44 @@ fn the_copy_is_the_schema_of_the_types() {
         fs::write(COPY, schema()).unwrap();
     }
     assert_eq!(fs::read_to_string(COPY).unwrap(), schema());
+    if std::env::var_os("STICKSLIP_WRITE").is_some() {
+        fs::write(STUDIES, study_schema()).unwrap();
+    }
+    assert_eq!(fs::read_to_string(STUDIES).unwrap(), study_schema());
+}
+
+/// The study file of the docs, and one with every kind of variation.
+#[test]
+fn good_studies_are_valid() {
+    let schema: Value = serde_json::from_str(&study_schema()).unwrap();
+    jsonschema::draft202012::meta::validate(&schema).unwrap();
+    let validator = jsonschema::validator_for(&schema).unwrap();
+    let own: Value =
+        serde_json::from_str(&fs::read_to_string("../../docs/studies/friction.json").unwrap()).unwrap();
+    let vary = json!({
+        "a": { "grid": ["1 um", 2e-6, 3] }, "b": { "log": [1, "2 N", 3] }, "c": { "list": [1, "2 N"] },
+        "d": { "uniform": [1, 2] }, "e": { "normal": [1, 2] }, "f": { "normal": [1, 2, 0, 3] },
+        "g": { "lognormal": ["1 N", 1.2] }, "h": { "triangular": [1, 2, 3] },
+    });
+    let mut all = own.clone();
+    all["vary"] = vary;
+    for good in [&own, &all] {
+        let errors: Vec<_> = validator.iter_errors(good).map(|error| error.to_string()).collect();
+        assert!(errors.is_empty(), "{errors:?}");
+    }
+    for (key, bad) in [
+        ("vary", json!({ "a": { "uniform": [1] } })),
+        ("vary", json!({ "a": { "normal": [1, 2, 3] } })),
+        ("vary", json!({ "a": { "gauss": [1, 2] } })),
+        ("chunk", json!(0)),
+        ("results", json!([])),
+        ("sampling", json!("grid")),
+        ("other", json!(1)),
+    ] {
+        let mut study = own.clone();
+        study[key] = bad;
+        assert!(!validator.is_valid(&study), "{key}");
+    }
 }
 
 #[test]

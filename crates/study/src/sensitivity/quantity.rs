@@ -30,7 +30,7 @@ impl Quantity {
     /// # Errors
     /// None that can change by any amount, or one that the scenario leaves out.
     pub(super) fn of(job: &Job, path: &str) -> Result<Self, SensitivityError> {
-        let Parameter { path, value, unit } = job.scenario.parameter(path)?;
+        let Parameter { path, value, unit, .. } = job.scenario.parameter(path)?;
         match value {
             Some(value) => Ok(Self { path, unit, value }),
             None => Err(SensitivityError::LeftOut { file: job.name.clone(), path }),

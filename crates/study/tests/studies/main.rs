@@ -13,7 +13,6 @@ fn prepared(file: &Path, set: &[(String, String)]) -> Result<Job, Refusal> {
 
 mod five_points;
 
-mod batch;
 mod branch_ends;
 mod continuation;
 mod curve;
@@ -29,5 +28,7 @@ mod passing_grip;
 mod sensitivity;
 mod shakedown;
 mod steady;
+mod sweep;
+mod variants;
 mod variations;
 mod vibrating_table;

@@ -1,0 +1,109 @@
+//! Variance-based sensitivity indices of the results: which number accounts for how much of the spread.
+
+use super::sobol_indices::{Accumulator, Index};
+use super::{Study, StudyError};
+use schemars::JsonSchema;
+use serde::Serialize;
+use std::path::{Path, PathBuf};
+use stickslip_quantity::Real;
+use stickslip_scenario::Sampling;
+
+/// The indices of all results.
+#[derive(Debug, Serialize, JsonSchema)]
+pub struct Indices {
+    /// how they were computed
+    pub scheme: String,
+    /// number of base samples N: of k numbers N (k + 2) cases were run
+    pub samples: u64,
+    /// base samples left out since one of their cases has no such result, by result
+    pub left_out: IndexTable<u64>,
+    /// by result and by number that varies
+    pub indices: IndexTable<IndexTable<IndexOf>>,
+}
+
+/// Things by name, in order.
+pub type IndexTable<T> = stickslip_run::Parts<T>;
+
+/// The indices of a result for a number.
+#[derive(Debug, Clone, Copy, Serialize, JsonSchema)]
+pub struct IndexOf {
+    /// first-order index: share of the variance that this number accounts for alone
+    pub first: Real,
+    /// standard error of the first-order index
+    pub first_error: Real,
+    /// total index: share of the variance that is left where all others are known
+    pub total: Real,
+    /// standard error of the total index
+    pub total_error: Real,
+}
+
+impl Study {
+    /// The study whose cases the indices need: this one where it is sampled by Saltelli's scheme, or else one with as many base samples
+    /// as this one has samples; and the folder of its parts, beside those of this one.
+    ///
+    /// # Errors
+    /// Grids and lists, or no distribution.
+    pub fn for_indices(&self, out: &Path) -> Result<(Self, PathBuf), StudyError> {
+        let mut file = self.file.clone();
+        if self.design.spreads == 0 {
+            return Err(StudyError::Unasked(
+                "indices need distributions; grids and lists have no variance of their own".to_owned(),
+            ));
+        }
+        let is_own = self.design.sampling == Sampling::Saltelli;
+        file.sampling = Some(Sampling::Saltelli);
+        let mut folder = out.as_os_str().to_owned();
+        folder.push("-indices");
+        let folder = if is_own { out.to_owned() } else { PathBuf::from(folder) };
+        Ok((Self::new(file)?, folder))
+    }
+
+    /// Indices from the parts of a study by Saltelli's scheme.
+    ///
+    /// # Errors
+    /// Parts that are missing or cannot be read.
+    pub fn indices(&self, folder: &Path) -> Result<Indices, StudyError> {
+        let k = self.design.spreads;
+        let (mut left_out, mut all) = (Vec::new(), Vec::new());
+        for (result, wanted) in self.wanted.iter().enumerate().filter(|(_, wanted)| wanted.codes.is_none()) {
+            let (mut accumulator, mut missing) = (Accumulator::new(k), 0);
+            let mut block = Vec::with_capacity(k + 2);
+            self.each_part(folder, |_, open| {
+                for value in open.result(self, result)? {
+                    block.push(value);
+                    if block.len() < k + 2 {
+                        continue;
+                    }
+                    if block.iter().all(|value| value.is_finite()) {
+                        accumulator.take(block[0], block[k + 1], &block[1..=k]);
+                    } else {
+                        missing += 1;
+                    }
+                    block.clear();
+                }
+                Ok(())
+            })?;
+            let of = |index: Index| IndexOf {
+                first: Real(index.first),
+                first_error: Real(index.first_error),
+                total: Real(index.total),
+                total_error: Real(index.total_error),
+            };
+            let paths = self.design.axes.iter().map(|axis| axis.path.clone());
+            let indices = paths.zip(accumulator.finish().into_iter().map(of)).collect();
+            all.push((wanted.name.clone(), stickslip_run::Parts(indices)));
+            left_out.push((wanted.name.clone(), missing));
+        }
+        if all.is_empty() {
+            return Err(StudyError::Unasked(
+                "indices are those of numbers: all results of this study are words".to_owned(),
+            ));
+        }
+        Ok(Indices {
+            scheme: "Saltelli's samples of the Sobol sequence; first order by Saltelli (2010), total by Jansen (1999)".to_owned(),
+            samples: self.design.samples,
+            left_out: stickslip_run::Parts(left_out),
+            indices: stickslip_run::Parts(all),
+        })
+    }
+}

@@ -1,0 +1,147 @@
+//! The parts of a study among processes.
+
+use super::StudyError;
+use std::str::FromStr;
+
+/// One of several processes that share a study: shard i of n takes the parts i - 1, i - 1 + n, …
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Shard {
+    /// Which, from 0.
+    index: u64,
+    /// Of how many.
+    count: u64,
+}
+
+/// Environment variables of array jobs: number of the task, the least of them and their number; and what sets them.
+const ARRAYS: [(&str, &str, &str, &str); 4] = [
+    ("SLURM_ARRAY_TASK_ID", "SLURM_ARRAY_TASK_MIN", "SLURM_ARRAY_TASK_COUNT", "Slurm"),
+    ("HQ_TASK_ID", "HQ_TASK_MIN", "HQ_TASK_COUNT", "HyperQueue"),
+    ("PBS_ARRAY_INDEX", "PBS_ARRAY_MIN", "PBS_ARRAY_COUNT", "PBS"),
+    ("SGE_TASK_ID", "SGE_TASK_FIRST", "SGE_TASK_COUNT", "Grid Engine"),
+];
+
+impl Shard {
+    /// All parts.
+    pub const WHOLE: Self = Self { index: 0, count: 1 };
+
+    /// Shard i of n, i from 0: with as many shards as there are parts, one part.
+    #[must_use]
+    pub fn new(index: u64, count: u64) -> Option<Self> {
+        (index < count).then_some(Self { index, count })
+    }
+
+    /// Whether it takes a part.
+    #[must_use]
+    pub fn takes(self, part: u64) -> bool {
+        part % self.count == self.index
+    }
+
+    /// Whether it takes all parts.
+    #[must_use]
+    pub fn is_whole(self) -> bool {
+        self.count == 1
+    }
+
+    /// That of the array job which the environment tells of.
+    ///
+    /// # Errors
+    /// No array job, or one that does not say how many tasks it has.
+    pub fn from_environment(variable: &dyn Fn(&str) -> Option<String>) -> Result<Self, StudyError> {
+        let refused = |text: String| StudyError::Shard(text);
+        let number = |name: &str| -> Result<Option<u64>, StudyError> {
+            let Some(text) = variable(name) else { return Ok(None) };
+            let read = text.trim().parse();
+            read.map(Some).map_err(|_| {
+                refused(format!("--shard auto: expected a whole number in {name}, got \"{text}\""))
+            })
+        };
+        for (id, least, count, engine) in ARRAYS {
+            // Grid Engine sets "undefined" outside of arrays.
+            if variable(id).is_none_or(|text| text == "undefined") {
+                continue;
+            }
+            let Some(id_value) = number(id)? else { continue };
+            let first = number(least)?.unwrap_or(1);
+            let of = match number(count)? {
+                Some(of) => Some(of),
+                // Grid Engine says which is the last one.
+                None if id == "SGE_TASK_ID" => {
+                    number("SGE_TASK_LAST")?.map(|last| (last + 1).saturating_sub(first))
+                }
+                None => None,
+            };
+            let Some(of) = of.filter(|of| *of > 0) else {
+                return Err(refused(format!(
+                    "--shard auto: {engine} says which task this is ({id}={id_value}), and not how many there are\n   help: set {count}, or give --shard i/n"
+                )));
+            };
+            return Self::numbered(id_value.wrapping_sub(first).wrapping_add(1), of).ok_or_else(|| {
+                refused(format!(
+                    "--shard auto: task {id_value} of {engine} is not one of {of} from {first} on"
+                ))
+            });
+        }
+        let known: Vec<&str> = ARRAYS.iter().map(|(id, ..)| *id).collect();
+        Err(refused(format!(
+            "--shard auto: this is no array job: none of {} is set\n   help: give --shard i/n",
+            known.join(", ")
+        )))
+    }
+
+    fn numbered(i: u64, count: u64) -> Option<Self> {
+        Self::new(i.checked_sub(1)?, count)
+    }
+}
+
+impl FromStr for Shard {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        let parts = text.split_once('/').and_then(|(i, n)| Some((i.parse().ok()?, n.parse().ok()?)));
+        parts
+            .and_then(|(i, n)| Self::numbered(i, n))
+            .ok_or_else(|| "expected i/n with i from 1 to n, such as 2/7, or auto".to_owned())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn auto(set: &[(&str, &str)]) -> Result<Shard, String> {
+        let variable =
+            |name: &str| set.iter().find(|(known, _)| *known == name).map(|(_, value)| (*value).to_owned());
+        Shard::from_environment(&variable).map_err(|error| error.to_string())
+    }
+
+    #[test]
+    fn all_shards_together_take_every_part_once() {
+        for count in [1, 2, 7] {
+            let shards: Vec<Shard> = (1..=count).map(|i| format!("{i}/{count}").parse().unwrap()).collect();
+            assert!((0..100).all(|part| shards.iter().filter(|shard| shard.takes(part)).count() == 1));
+        }
+        for text in ["0/3", "4/3", "1/0", "1", "a/b", "-1/2", ""] {
+            assert!(text.parse::<Shard>().is_err(), "{text}");
+        }
+    }
+
+    #[test]
+    fn an_array_job_says_which_shard_it_is() {
+        let slurm = |id, least, count| {
+            auto(&[
+                ("SLURM_ARRAY_TASK_ID", id),
+                ("SLURM_ARRAY_TASK_MIN", least),
+                ("SLURM_ARRAY_TASK_COUNT", count),
+            ])
+        };
+        assert_eq!(slurm("3", "0", "4"), Ok("4/4".parse().unwrap()));
+        assert_eq!(slurm("1", "1", "4"), Ok("1/4".parse().unwrap()));
+        assert!(slurm("7", "1", "4").unwrap_err().contains("task 7 of Slurm is not one of 4"));
+        assert_eq!(
+            auto(&[("SGE_TASK_ID", "2"), ("SGE_TASK_FIRST", "1"), ("SGE_TASK_LAST", "5")]),
+            Ok("2/5".parse().unwrap())
+        );
+        assert!(auto(&[("PBS_ARRAY_INDEX", "2")]).unwrap_err().contains("PBS_ARRAY_COUNT"));
+        assert!(auto(&[("SGE_TASK_ID", "undefined")]).unwrap_err().contains("no array job"));
+    }
+}

@@ -1,0 +1,260 @@
+//! What the results of a study say: quantiles, failures, extremes. Memory does not grow with the number of cases.
+
+use super::{Study, StudyError};
+use schemars::JsonSchema;
+use serde::Serialize;
+use std::collections::BTreeMap;
+use std::path::Path;
+use stickslip_quantity::Real;
+
+/// Probabilities of the quantiles.
+const PROBABILITIES: [f64; 7] = [0.0, 0.05, 0.25, 0.5, 0.75, 0.95, 1.0];
+/// Cases at each end that are told as extremes.
+const FAR: usize = 5;
+/// Reasons of failures that are told apart; all others are counted together.
+const REASONS: usize = 20;
+/// Bits of a number that one reading of the results sorts by, and how many readings there are.
+const BITS: u32 = 16;
+const READINGS: u32 = 4;
+
+/// What the results of a study say.
+#[derive(Debug, Serialize, JsonSchema)]
+pub struct Statistics {
+    /// number of cases
+    pub cases: u64,
+    /// number of cases without results
+    pub failed: u64,
+    /// failed cases by reason, without the values that differ from case to case
+    pub reasons: Vec<(String, u64)>,
+    /// quantiles of each result, in the order of the study file
+    pub quantiles: Vec<Quantiles>,
+    /// cases with the smallest and the largest values of the first numerical result
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub extremes: Option<Extremes>,
+}
+
+/// Quantiles of one result, or how often each word occurs.
+#[derive(Debug, Serialize, JsonSchema)]
+pub struct Quantiles {
+    /// the result
+    pub result: String,
+    /// number of cases in which it has a value
+    pub count: u64,
+    /// arithmetic mean
+    pub mean: Real,
+    /// smallest value, the quantiles of 5, 25, 50, 75 and 95 %, and the largest value: order statistics, the value of rank
+    /// round(p (n - 1)) among n
+    pub quantiles: [Real; 7],
+    /// how often each word occurs, of a result that is a word
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub words: Vec<(String, u64)>,
+}
+
+/// Cases at both ends of a result.
+#[derive(Debug, Serialize, JsonSchema)]
+pub struct Extremes {
+    /// the result
+    pub result: String,
+    /// number of each case and its value, the smallest first
+    pub lowest: Vec<(u64, Real)>,
+    /// number of each case and its value, the largest first
+    pub highest: Vec<(u64, Real)>,
+}
+
+impl Study {
+    /// What the results in a folder say, all parts of them.
+    ///
+    /// # Errors
+    /// Parts that are missing or cannot be read.
+    pub fn statistics(&self, folder: &Path) -> Result<Statistics, StudyError> {
+        let (mut failed, mut reasons) = (0, BTreeMap::new());
+        let first = self.wanted.iter().position(|wanted| wanted.codes.is_none());
+        let mut ends = Ends::default();
+        self.each_part(folder, |part, open| {
+            for error in open.errors(self)?.into_iter().flatten() {
+                failed += 1;
+                let reason = without_values(&error);
+                let is_known = reasons.len() < REASONS || reasons.contains_key(&reason);
+                *reasons
+                    .entry(if is_known { reason } else { "other reasons".to_owned() })
+                    .or_insert(0_u64) += 1;
+            }
+            if let Some(result) = first {
+                let from = self.part(part).start;
+                let values = open.result(self, result)?;
+                (from..).zip(values).filter(|(_, value)| value.is_finite()).for_each(|case| ends.take(case));
+            }
+            Ok(())
+        })?;
+        let quantiles =
+            (0..self.wanted.len()).map(|result| self.quantiles(folder, result)).collect::<Result<_, _>>()?;
+        let mut reasons: Vec<(String, u64)> = reasons.into_iter().collect();
+        reasons.sort_by(|a, b| b.1.cmp(&a.1).then_with(|| a.0.cmp(&b.0)));
+        let told = |all: Vec<(u64, f64)>| all.into_iter().map(|(case, value)| (case, Real(value))).collect();
+        let extremes = first.map(|result| Extremes {
+            result: self.wanted[result].name.clone(),
+            lowest: told(ends.lowest),
+            highest: told(ends.highest),
+        });
+        Ok(Statistics { cases: self.cases(), failed, reasons, quantiles, extremes })
+    }
+
+    fn quantiles(&self, folder: &Path, result: usize) -> Result<Quantiles, StudyError> {
+        let wanted = &self.wanted[result];
+        let (mut count, mut sum) = (0_u64, Sum::default());
+        let mut words = vec![0_u64; wanted.codes.as_ref().map_or(0, Vec::len)];
+        let mut search = [Search::default(); PROBABILITIES.len()];
+        // The digits of all wanted values are found one after the other, from the highest on: a histogram for each prefix.
+        for reading in 0..if wanted.codes.is_some() { 1 } else { READINGS } {
+            let mut prefixes: Vec<u64> = search.iter().map(|search| search.prefix).collect();
+            prefixes.dedup();
+            let mut histograms = vec![vec![0_u64; 1 << BITS]; prefixes.len()];
+            self.each_part(folder, |_, open| {
+                for value in open.result(self, result)?.into_iter().filter(|value| value.is_finite()) {
+                    if reading == 0 {
+                        (count, _) = (count + 1, sum.add(value));
+                        words.get_mut(value as usize).into_iter().for_each(|word| *word += 1);
+                    }
+                    let (prefix, digit) = split(ordered(value), reading);
+                    if let Ok(place) = prefixes.binary_search(&prefix) {
+                        histograms[place][digit] += 1;
+                    }
+                }
+                Ok(())
+            })?;
+            for (search, probability) in search.iter_mut().zip(PROBABILITIES) {
+                if reading == 0 {
+                    search.rank = (probability * count.saturating_sub(1) as f64).round() as u64;
+                }
+                if let Ok(place) = prefixes.binary_search(&search.prefix) {
+                    search.descend(&histograms[place]);
+                }
+            }
+        }
+        let found = |search: Search| Real(if count == 0 { f64::NAN } else { value(search.prefix) });
+        let names = wanted.codes.iter().flatten().cloned().zip(words).filter(|(_, count)| *count > 0);
+        Ok(Quantiles {
+            result: wanted.name.clone(),
+            count,
+            mean: Real(if wanted.codes.is_some() { f64::NAN } else { sum.total() / count as f64 }),
+            quantiles: if wanted.codes.is_some() { [Real(f64::NAN); 7] } else { search.map(found) },
+            words: names.collect(),
+        })
+    }
+}
+
+/// A rank that is looked for among numbers, digit by digit.
+#[derive(Debug, Clone, Copy, Default)]
+struct Search {
+    prefix: u64,
+    rank: u64,
+}
+
+impl Search {
+    fn descend(&mut self, histogram: &[u64]) {
+        for (digit, count) in histogram.iter().enumerate() {
+            if self.rank < *count {
+                self.prefix = (self.prefix << BITS) | digit as u64;
+                return;
+            }
+            self.rank -= count;
+        }
+    }
+}
+
+/// A number as bits that are ordered as numbers are.
+fn ordered(value: f64) -> u64 {
+    let bits = value.to_bits();
+    if bits >> 63 == 1 { !bits } else { bits | (1 << 63) }
+}
+
+fn value(ordered: u64) -> f64 {
+    f64::from_bits(if ordered >> 63 == 1 { ordered & !(1 << 63) } else { !ordered })
+}
+
+/// The digits before that of a reading, and that digit.
+fn split(ordered: u64, reading: u32) -> (u64, usize) {
+    let below = BITS * (READINGS - reading);
+    let prefix = ordered.checked_shr(below).unwrap_or(0);
+    (prefix, ((ordered >> (below - BITS)) & ((1 << BITS) - 1)) as usize)
+}
+
+/// A sum that keeps what rounding would lose (Neumaier's).
+#[derive(Debug, Default)]
+struct Sum {
+    sum: f64,
+    lost: f64,
+}
+
+impl Sum {
+    fn add(&mut self, value: f64) {
+        let sum = self.sum + value;
+        self.lost +=
+            if self.sum.abs() >= value.abs() { (self.sum - sum) + value } else { (value - sum) + self.sum };
+        self.sum = sum;
+    }
+
+    fn total(&self) -> f64 {
+        self.sum + self.lost
+    }
+}
+
+/// The cases at both ends.
+#[derive(Debug, Default)]
+struct Ends {
+    lowest: Vec<(u64, f64)>,
+    highest: Vec<(u64, f64)>,
+}
+
+impl Ends {
+    fn take(&mut self, case: (u64, f64)) {
+        keep(&mut self.lowest, case, |a, b| a < b);
+        keep(&mut self.highest, case, |a, b| a > b);
+    }
+}
+
+fn keep(ends: &mut Vec<(u64, f64)>, case: (u64, f64), is_before: impl Fn(f64, f64) -> bool) {
+    if ends.len() < FAR || ends.last().is_some_and(|last| is_before(case.1, last.1)) {
+        let place = ends.iter().position(|known| is_before(case.1, known.1)).unwrap_or(ends.len());
+        ends.insert(place, case);
+        ends.truncate(FAR);
+    }
+}
+
+/// A reason without what was given: `bodies.slider.mass: expected a mass above 0`.
+fn without_values(error: &str) -> String {
+    error.split(", got ").next().unwrap_or(error).to_owned()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Against sorting.
+    #[test]
+    fn ranks_are_found_digit_by_digit() {
+        let values: Vec<f64> =
+            (0..1000).map(|i| math::sin(f64::from(i) * 1.7) * math::exp(f64::from(i % 37) - 20.0)).collect();
+        let mut sorted = values.clone();
+        sorted.sort_by(f64::total_cmp);
+        for rank in [0, 1, 17, 500, 998, 999] {
+            let mut search = Search { prefix: 0, rank };
+            for reading in 0..READINGS {
+                let mut histogram = vec![0; 1 << BITS];
+                for value in &values {
+                    let (prefix, digit) = split(ordered(*value), reading);
+                    histogram[digit] += u64::from(prefix == search.prefix);
+                }
+                search.descend(&histogram);
+            }
+            assert_eq!(value(search.prefix).to_bits(), sorted[rank as usize].to_bits());
+        }
+    }
+
+    #[test]
+    fn sums_keep_what_rounding_would_lose() {
+        let mut sum = Sum::default();
+        [1e16, 1.0, -1e16, 1.0].into_iter().for_each(|value| sum.add(value));
+        assert_eq!(sum.total(), 2.0);
+    }
+}
