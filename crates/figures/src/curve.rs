@@ -1,6 +1,7 @@
 //! The picture of a curve of a machine; [`holding`], that of what it holds at rest.
 
 pub mod holding;
+pub mod optimum;
 
 use crate::look::{Look, Pen, Picture};
 use crate::pictures::FigureError;
@@ -54,6 +55,20 @@ fn drawn(
     machine: &MachineCurve<'_>,
     look: &Look,
 ) -> Result<Vec<Picture>, FigureError> {
+    let (plot, mut title) = (NAMES[usize::from(is_cut)], job.title().to_owned());
+    if is_cut {
+        title.push_str(&format!(" (interrupted: {done} of {all} points)"));
+    }
+    pictured((job, curve), (plot, &title), machine, look)
+}
+
+/// A figure of this name and title with what it comes from.
+fn pictured(
+    (job, curve): (&Job, &str),
+    (plot, title): (&'static str, &str),
+    machine: &MachineCurve<'_>,
+    look: &Look,
+) -> Result<Vec<Picture>, FigureError> {
     let entries = [
         (TITLE, job.title().to_owned()),
         (PROGRAM, job.program.clone()),
@@ -63,12 +78,7 @@ fn drawn(
     ];
     let provenance = entries.map(|(key, text)| (key.to_owned(), text)).to_vec();
     let pen = Pen { look, provenance, kept: None };
-    let (plot, mut title) = (NAMES[usize::from(is_cut)], job.title().to_owned());
-    if is_cut {
-        title.push_str(&format!(" (interrupted: {done} of {all} points)"));
-    }
-    let figure = machine_figure(&title, machine);
-    pen.draw_as(plot, figure).map_err(|source| FigureError::Plot { plot, source })
+    pen.draw_as(plot, machine_figure(title, machine)).map_err(|source| FigureError::Plot { plot, source })
 }
 
 /// What the curve is of, and what it is as well.

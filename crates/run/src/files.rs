@@ -36,6 +36,8 @@ pub const SENSITIVITY: &str = "sensitivity.json";
 pub const PARTIAL_SENSITIVITY: &str = "sensitivity-partial.json";
 /// The steady motion of a drive, found without a run.
 pub const STEADY: &str = "steady.json";
+/// Where a result is largest or smallest.
+pub const OPTIMUM: &str = "optimum.json";
 /// Steady motions one after another, as a number of a scenario changes.
 pub const BRANCH: &str = "branch.json";
 /// The same of a branch that was interrupted: a finished one stays beside it.

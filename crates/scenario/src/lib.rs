@@ -63,7 +63,7 @@ pub use plot_name::PlotName;
 pub use quantity::quantity;
 pub use scenario::Scenario;
 pub use schema::{schema, study_schema};
-pub use study::{Sampling, StudyFile, Variation};
+pub use study::{Basis, Goal, Sampling, Shaped, StudyFile, Variation};
 pub use substance::{Substance, substance};
 pub use suggest::help as suggestion;
 pub use tables::{Pairs, pairs};

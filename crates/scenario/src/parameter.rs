@@ -46,6 +46,20 @@ impl Scenario {
         Ok(found)
     }
 
+    /// Periods, or frequencies, of all named waveforms that have one.
+    #[must_use]
+    pub fn periods(&self) -> Vec<Parameter> {
+        let tree = serde_json::to_value(&self.form).unwrap_or_default();
+        let all = tree["waveforms"].as_object().into_iter().flatten();
+        let periods = all.filter_map(|(name, form)| {
+            let (kind, keys) = form.as_object()?.iter().next()?;
+            let key = ["period", "frequency"].into_iter().find(|key| keys[key].is_number())?;
+            let path = ["waveforms", name, kind, key].map(|key| Step::Key(key.to_owned()));
+            self.number(&KeyPath(path.to_vec()).to_string()).ok()
+        });
+        periods.collect()
+    }
+
     /// The number under a key path, whatever it says.
     ///
     /// # Errors

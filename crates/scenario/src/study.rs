@@ -1,6 +1,7 @@
 //! The study file: which numbers of a scenario vary, how, and what is kept of each run.
 
 mod form;
+mod goal;
 
 use crate::document::Document;
 use crate::error::ScenarioError;
@@ -13,10 +14,12 @@ use crate::reader::Reader;
 use crate::refusal;
 use crate::scenario::{Scenario, read};
 use form::{Amount, Normal, SubjectForm, VariationForm};
+use serde_json::Value;
 use std::path::{Path, PathBuf};
 
 pub use form::Sampling;
 pub(crate) use form::StudyForm;
+pub use goal::{Basis, Goal, Shaped};
 
 /// Version of the form that this program reads.
 const VERSION: u64 = 1;
@@ -46,6 +49,8 @@ pub struct StudyFile {
     pub results: Vec<String>,
     /// Cases of a part.
     pub chunk: u64,
+    /// What is optimised instead of varied.
+    pub goal: Option<Goal>,
     document: Document,
 }
 
@@ -98,7 +103,7 @@ impl StudyFile {
         if !(1..=MOST_CHUNK).contains(&chunk) {
             return Err(at(Fault::expected(key("chunk"), format!("a whole number from 1 to {MOST_CHUNK}"))));
         }
-        if form.results.is_empty() {
+        if form.results.is_empty() && !form.is_of_optimum() {
             return Err(at(Fault::new(key("results"), "expected at least one result")));
         }
         let (scenario, name) = form.subject((file, stem), base, &at)?;
@@ -111,9 +116,11 @@ impl StudyFile {
             let path = KeyPath(vec![Step::Key("results".to_owned()), Step::Index(twice.0)]);
             return Err(at(Fault::new(path, "this result is named twice")));
         }
+        let goal = form.is_of_optimum().then(|| form.goal(&scenario)).transpose().map_err(&at)?;
         Ok(Self {
             scenario,
             name,
+            goal,
             sampling: form.sampling,
             cases: form.cases.map(|cases| cases.0),
             seed: form.seed.map_or(1, |seed| seed.0),
@@ -148,9 +155,12 @@ impl StudyFile {
         help: Option<String>,
     ) -> ScenarioError {
         let mut path = key(at);
-        path.0.extend(inside.map(|inside| match self.document.value[at].as_array() {
-            Some(list) => Step::Index(list.iter().position(|entry| entry == inside).unwrap_or(0)),
-            None => Step::Key(inside.to_owned()),
+        path.0.extend(inside.and_then(|inside| match &self.document.value[at] {
+            Value::Array(list) => {
+                Some(Step::Index(list.iter().position(|entry| entry == inside).unwrap_or(0)))
+            }
+            Value::Object(_) => Some(Step::Key(inside.to_owned())),
+            _ => None,
         }));
         self.document.report(Fault::new(path, message).maybe_help(help)).into()
     }

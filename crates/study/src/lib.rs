@@ -6,7 +6,7 @@
 //! In reading order: [`sweep`], many runs in parts on disk, with `number` (numbers of a scene that are set without reading it again),
 //! `sketch` (those of its waveforms) and `figure` (what is kept of such a run); [`steady`], the motion that repeats itself every period, and how it
 //! comes back when it is disturbed; [`curve`], what that motion makes of a number that is varied; [`sensitivity`], by how much a
-//! figure changes with each number of the scenario; `published`, the files of curves, branches and derivatives, whole or interrupted.
+//! figure changes with each number of the scenario; [`optimum`], where a result is largest or smallest; `published`, the files of curves, branches and derivatives, whole or interrupted.
 //! `each` does many things side by side, `grip` tells whether something holds a body, `interruptible` lets a run be given up.
 
 pub mod curve;
@@ -16,6 +16,7 @@ mod grip;
 mod info;
 mod interruptible;
 mod number;
+pub mod optimum;
 mod published;
 pub mod report;
 pub mod sensitivity;
@@ -42,6 +43,7 @@ pub fn definitions() -> Vec<Definition> {
     all.extend(read::<sweep::Forecast>("study plan --json"));
     all.extend(read::<sweep::Statistics>("study run --json"));
     all.extend(read::<sweep::Indices>("study indices --json"));
+    all.extend(read::<optimum::Report>(stickslip_run::files::OPTIMUM));
     let mut met = HashSet::new();
     all.retain(|one| met.insert((one.file, one.name.clone())));
     all

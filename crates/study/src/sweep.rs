@@ -15,7 +15,7 @@ mod latin;
 mod normal;
 mod part;
 mod plan;
-mod points;
+pub(crate) mod points;
 mod quick;
 mod shard;
 mod sobol_directions;
@@ -23,8 +23,8 @@ mod sobol_indices;
 mod sobol_points;
 mod spread;
 mod statistics;
-mod wanted;
-mod worker;
+pub(crate) mod wanted;
+pub(crate) mod worker;
 
 pub use desk::Ran;
 pub use error::StudyError;
@@ -71,10 +71,18 @@ impl Study {
     }
 
     fn new(file: StudyFile) -> Result<Self, ScenarioError> {
+        if let Some(goal) = &file.goal {
+            let key = if goal.is_maximum { "maximise" } else { "minimise" };
+            let help = "`stickslip study optimise` takes it".to_owned();
+            return Err(file.refusal(key, None, "this study asks for an optimum, not for cases", Some(help)));
+        }
         let job = Job::new(file.scenario.clone(), file.name.clone(), PathBuf::new())?;
         let design = Design::new(&file)?;
-        let wanted =
-            file.results.iter().map(|name| Wanted::named(&file, &job, name)).collect::<Result<_, _>>()?;
+        let wanted = file
+            .results
+            .iter()
+            .map(|name| Wanted::named(&file, &job, ("results", name)))
+            .collect::<Result<_, _>>()?;
         let mut study = Self { job, file, design, wanted, hash: String::new() };
         study.hash = stickslip_run::hash(&study.definition().to_string());
         Ok(study)

@@ -1,5 +1,6 @@
 //! The command line of studies.
 
+use super::look::LookArguments;
 use clap::{Args, Subcommand};
 use std::path::PathBuf;
 
@@ -31,7 +32,8 @@ Examples:
   stickslip study run friction.json --threads 8
   stickslip study run friction.json --shard auto     in an array job of Slurm, PBS or Grid Engine
   stickslip study merge friction.json --csv friction.csv
-  stickslip study indices friction.json              which number accounts for the scatter?";
+  stickslip study indices friction.json              which number accounts for the scatter?
+  stickslip study optimise fastest.json              largest or smallest result, and at which numbers";
 
 #[derive(Debug, Subcommand)]
 pub(crate) enum StudyCommand {
@@ -56,12 +58,50 @@ pub(crate) enum StudyCommand {
     ///
     /// Exit codes: 0 done; 2 bad input, or parts are missing; 3 the file cannot be written.
     Merge(MergeStudyArguments),
+    /// Find the maximum or minimum of a result over numbers or over the shape of a waveform
+    ///
+    /// The study file has "maximise" or "minimise" and "over" or "waveform" instead of "vary" and "results". Local searches (COBYLA)
+    /// begin at several points. Each point is judged by the worst result at the period and at 0.99 and 1.01 times the period. The same
+    /// command resumes an interrupted search. Writes optimum.json, optimum.png and, for a waveform, waveform.csv and waveform.json.
+    /// Exit codes: 0 done; 2 bad input, or the folder holds another search; 3 all cases failed, or a file cannot be written;
+    /// 130 interrupted.
+    Optimise(OptimiseStudyArguments),
     /// Compute variance-based sensitivity indices (Sobol indices) of the results
     ///
     /// The first-order index is the share of the variance of a result that a number accounts for alone. The total index includes
     /// its interactions with other numbers. A study with "sampling": "saltelli" is used as it is. For another study, the command runs
     /// N (k + 2) cases for k distributions and N = "cases", and keeps their parts in the folder DIR-indices. Exit codes: as for run.
     Indices(IndicesStudyArguments),
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct OptimiseStudyArguments {
+    /// Study file
+    #[arg(value_name = "FILE")]
+    pub(crate) file: PathBuf,
+    /// Folder of the results [default: results/NAME-optimum]
+    #[arg(long, value_name = "DIR")]
+    pub(crate) out: Option<PathBuf>,
+    /// Number of cases run in parallel [default: number of processor cores]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    pub(crate) threads: Option<u16>,
+    /// Begin anew instead of resuming an interrupted search
+    #[arg(long)]
+    pub(crate) fresh: bool,
+    /// Sample rate of waveform.csv, such as "1 MHz", adjusted to a whole number of samples per period [default: 1000 samples]
+    #[arg(long, value_name = "RATE")]
+    pub(crate) rate: Option<String>,
+    /// Gain of the amplifier between generator and stack, by which the column "generator" is divided
+    #[arg(long, value_name = "FACTOR", default_value_t = 1.0, allow_negative_numbers = true)]
+    pub(crate) gain: f64,
+    /// Print one line of JSON instead of tables
+    #[arg(long)]
+    pub(crate) json: bool,
+    /// Print errors only: no progress, no warnings, no tables
+    #[arg(short, long)]
+    pub(crate) quiet: bool,
+    #[command(flatten)]
+    pub(crate) look: LookArguments,
 }
 
 /// A study, and where its parts are.

@@ -1,9 +1,12 @@
 //! `stickslip study`: many runs of one scenario that differ in some numbers.
 
+mod optimise;
+
 use crate::arguments::study::{
     CheckStudyArguments, IndicesStudyArguments, MergeStudyArguments, PlaceArguments, PlanStudyArguments,
     RunStudyArguments, StatusStudyArguments, StudyCommand,
 };
+use optimise::optimise;
 use serde::Serialize;
 use serde_json::json;
 use std::path::{Path, PathBuf};
@@ -25,6 +28,7 @@ pub(crate) fn study(command: &StudyCommand) -> Verdict {
         StudyCommand::Status(arguments) => status(arguments),
         StudyCommand::Merge(arguments) => merge(arguments),
         StudyCommand::Indices(arguments) => indices(arguments),
+        StudyCommand::Optimise(arguments) => optimise(arguments),
     };
     verdict.unwrap_or_else(|error| {
         complain(format_args!("{error}"));

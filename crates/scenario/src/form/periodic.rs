@@ -132,3 +132,8 @@ pub(super) fn no_time() -> Time {
 pub(super) fn no_value() -> AnyQuantity {
     AnyQuantity { si: 0.0, kind: None }
 }
+
+#[expect(clippy::trivially_copy_pass_by_ref, reason = "serde asks so")]
+pub(super) fn is_no_value(value: &AnyQuantity) -> bool {
+    value.si == 0.0
+}

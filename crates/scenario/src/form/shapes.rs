@@ -1,6 +1,6 @@
 //! Shapes of waveforms that come by themselves, each with its own keys.
 
-use super::periodic::{BurstForm, Periodic, SectionForm, no_angle, no_time, no_value, periodic};
+use super::periodic::{BurstForm, Periodic, SectionForm, is_no_value, no_angle, no_time, no_value, periodic};
 use crate::quantity::{Angle, AnyQuantity, Frequency, Time};
 use crate::schema::{above_zero, at_least_zero, flyback_or_resonance, period_or_frequency};
 use schemars::JsonSchema;
@@ -60,6 +60,10 @@ periodic! {
         /// Sine terms of the sum, at least one; at most 1000 in all waveforms together.
         #[schemars(length(min = 1, max = 1000), example = json!([{ "amplitude": "100 nm", "order": 1 }]))]
         terms: Vec<HarmonicForm>,
+        /// Mean value, in the unit of the driven quantity.
+        #[serde(default = "no_value", skip_serializing_if = "is_no_value")]
+        #[schemars(example = &"60 V")]
+        offset: AnyQuantity,
     }
 }
 

@@ -7,6 +7,7 @@ use crate::guide::Help;
 use crate::path::{At, KeyPath};
 use crate::quantity::{AnyQuantity, Dimension};
 use crate::units::Kind;
+use std::f64::consts::FRAC_PI_2;
 use stickslip_drive::scene::{Named, Varying};
 use stickslip_drive::{Harmonic, Shape, Timing, Waveform, WaveformError};
 
@@ -213,7 +214,7 @@ fn refused(at: &At<'_>, error: &WaveformError) -> Fault {
 }
 
 fn harmonics(at: &At<'_>, form: &HarmonicsForm, values: &mut Values<'_>) -> Result<Shape, Fault> {
-    let at = at.key("terms");
+    let (offset, at) = (at.key("offset"), at.key("terms"));
     if form.terms.is_empty() {
         return Err(at.fault("expected at least one term").ask(Help::Shape));
     }
@@ -223,6 +224,10 @@ fn harmonics(at: &At<'_>, form: &HarmonicsForm, values: &mut Values<'_>) -> Resu
         let order = range::count_between(&at.key("order"), term.order.0, 1, MAX_ORDER)? as u32;
         let amplitude = values.take(&at.key("amplitude"), term.amplitude)?;
         terms.push(Harmonic { amplitude, order: order.into(), phase: term.phase.si });
+    }
+    if form.offset.si != 0.0 {
+        let amplitude = values.take(&offset, form.offset)?;
+        terms.push(Harmonic { amplitude, order: 0.0, phase: FRAC_PI_2 });
     }
     Ok(Shape::Harmonics { terms })
 }

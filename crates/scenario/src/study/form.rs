@@ -42,16 +42,81 @@ pub(crate) struct StudyForm {
     pub(super) sampling: Option<Sampling>,
     /// Numbers that vary, by their key path in the scenario, such as `contacts.ball.friction` or `run.duration`. Values are numbers in SI
     /// or texts with a unit.
+    #[serde(default)]
     #[schemars(example = json!({ "contacts.ball.friction": { "uniform": [0.1, 0.2] } }), transform = by_paths)]
     pub(super) vary: Parts<VariationForm>,
     /// Results of each case: paths of `summary.json`, such as `steps.last_m`, or channels of `trace.csv` at the end of the run, such as
     /// `slider.x_m`.
+    #[serde(default)]
     #[schemars(example = json!(["slider.x_m", "steps.last_m"]), extend("minItems" = 1))]
     pub(super) results: Vec<String>,
     /// Number of cases in one part of the result, 1000 by default: what is computed, written and taken up again as a whole.
     #[serde(default)]
     #[schemars(extend("minimum" = 1), example = 10_000)]
     pub(super) chunk: Option<Count>,
+    /// Result of which `stickslip study optimise` finds the maximum; named as in `results`. The file then has `over` or `waveform`, and
+    /// no `vary`, `results`, `cases`, `sampling` and `chunk`.
+    #[serde(default)]
+    #[schemars(example = &"steady_motion.speed_m_s")]
+    pub(super) maximise: Option<String>,
+    /// Result of which the minimum is found; give either this or `maximise`.
+    #[serde(default)]
+    #[schemars(example = &"steps.steady.back_step")]
+    pub(super) minimise: Option<String>,
+    /// Numbers over which the optimum is searched, at most six, by their key path: least and largest value.
+    #[serde(default)]
+    #[schemars(example = json!({ "waveforms.drive.sawtooth.flyback": ["5 us", "0.5 ms"] }), transform = by_paths)]
+    pub(super) over: Parts<[Amount; 2]>,
+    /// Waveform over whose shape the optimum is searched.
+    #[serde(default)]
+    pub(super) waveform: Option<ShapeForm>,
+    /// Number of local searches, 1 to 64, 8 by default. Each begins at another of the best of four times as many Sobol points.
+    #[serde(default)]
+    #[schemars(extend("minimum" = 1, "maximum" = 64), example = 8)]
+    pub(super) starts: Option<Count>,
+    /// Most evaluations of a local search; by default 40 (n + 1) for n numbers.
+    #[serde(default)]
+    #[schemars(extend("minimum" = 1, "maximum" = 100_000), example = 200)]
+    pub(super) evaluations: Option<Count>,
+    /// Whether a result is judged by its worst value at the period, at 0.99 and at 1.01 times the period of all waveforms. True by
+    /// default if a named waveform has a period.
+    #[serde(default)]
+    #[schemars(example = true)]
+    pub(super) worst_of_period: Option<bool>,
+}
+
+/// Shape of a waveform that is searched: corners or harmonics within the limits of a driver.
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct ShapeForm {
+    /// Key path of the waveform.
+    #[schemars(example = &"waveforms.drive")]
+    pub(super) path: String,
+    /// Number of corners of a polygon at equal distances in time, 3 to 24; give either this or `harmonics`.
+    #[serde(default)]
+    #[schemars(extend("minimum" = 3, "maximum" = 24), example = 12)]
+    pub(super) corners: Option<Count>,
+    /// Number of harmonics, 2 to 24; give either this or `corners`.
+    #[serde(default)]
+    #[schemars(extend("minimum" = 2, "maximum" = 24), example = 3)]
+    pub(super) harmonics: Option<Count>,
+    /// Least and largest period, s; that of the waveform by default.
+    #[serde(default)]
+    #[schemars(example = json!(["0.5 ms", "1 ms"]))]
+    pub(super) period: Option<[Amount; 2]>,
+    /// Least and largest value; the window of the driver by default.
+    #[serde(default)]
+    #[schemars(example = json!(["0 V", "120 V"]))]
+    pub(super) window: Option<[Amount; 2]>,
+    /// Largest current, A; that of the driver by default. It limits the rate of the voltage to current/capacitance.
+    #[serde(default)]
+    #[schemars(example = &"2 A")]
+    pub(super) current: Option<Amount>,
+    /// Bandwidth, Hz; that of the driver by default. No harmonic lies above it, and the time between two corners is at least half of
+    /// its period.
+    #[serde(default)]
+    #[schemars(example = &"10 kHz")]
+    pub(super) bandwidth: Option<Amount>,
 }
 
 /// Keys are paths, not names of parts.

@@ -47,6 +47,9 @@ pub enum StudyError {
     /// What the study does not have.
     #[error("{0}")]
     Unasked(String),
+    /// No case of a search has the result.
+    #[error("all cases failed: {0}")]
+    AllFailed(String),
     /// A shard that is none.
     #[error("{0}")]
     Shard(String),
@@ -59,6 +62,6 @@ impl StudyError {
     /// Whether the input is to blame, not the machine.
     #[must_use]
     pub fn is_input(&self) -> bool {
-        !matches!(self, Self::Disk { .. } | Self::Damaged { .. } | Self::Interrupted)
+        !matches!(self, Self::Disk { .. } | Self::Damaged { .. } | Self::AllFailed(_) | Self::Interrupted)
     }
 }

@@ -48,7 +48,11 @@ pub(crate) enum Place {
 
 impl Wanted {
     /// What a name of a study file means.
-    pub(crate) fn named(file: &StudyFile, job: &Job, name: &str) -> Result<Self, ScenarioError> {
+    pub(crate) fn named(
+        file: &StudyFile,
+        job: &Job,
+        (key, name): (&str, &str),
+    ) -> Result<Self, ScenarioError> {
         let channels = job.model.channels();
         let is = |channel: &Channel| channel.name == name || names::bare(&channel.name) == name;
         if let Some(place) = channels.iter().position(is) {
@@ -56,8 +60,7 @@ impl Wanted {
                 channels[place].is_state.then(|| STATES.map(|code| state_name(code).to_owned()).to_vec());
             return Ok(Self { name: name.to_owned(), place: Place::End(place), codes });
         }
-        let refused =
-            |message: &str, help: Option<String>| Err(file.refusal("results", Some(name), message, help));
+        let refused = |message: &str, help: Option<String>| Err(file.refusal(key, Some(name), message, help));
         let keys: Vec<String> =
             name.replace('[', ".").replace(']', "").split('.').map(str::to_owned).collect();
         if keys[0] == UNSTEADY {

@@ -87,61 +87,65 @@ impl<'s> Worker<'s> {
             results.extend_from_slice(found);
             return Ok(());
         }
-        self.record(without_output(job), results)
-    }
-
-    /// Runs a job as `stickslip run` does.
-    fn record(&mut self, mut job: Job, results: &mut Vec<f64>) -> Result<(), Fault> {
-        let wanted = &self.study.wanted;
-        let goes_on = || self.watcher.goes_on();
-        if !wanted.iter().any(Wanted::needs_rows) {
-            job.scenario.plan.every = Some(job.scenario.plan.duration);
-        }
-        if wanted.iter().any(Wanted::is_of_motion) {
-            // It is asked for: at whatever it costs.
-            job.scenario.steady_motion = Some(true);
-        }
-        if wanted.iter().all(Wanted::is_of_motion) {
-            let found = outlook(&job, None, &goes_on);
-            if !goes_on() {
-                return Err(Fault::Interrupted);
-            }
-            let told = serde_json::json!({ "steady_motion": found });
-            results.extend(wanted.iter().map(|wanted| wanted.of(&told)));
-            return Ok(());
-        }
-        let outcome = job.run(&Silent(self.watcher));
-        if matches!(outcome.error, Some(RunError::Interrupted { .. })) && outcome.excess.is_none() {
-            return Err(Fault::Interrupted);
-        }
-        let summary = if wanted.iter().any(Wanted::needs_outlook) {
-            let (summary, gave_up) = summary(&job, &outcome, &goes_on);
-            if gave_up && !goes_on() {
-                return Err(Fault::Interrupted);
-            }
-            summary
-        } else {
-            Summary::new(&job, &outcome)
-        };
-        if summary.status != Status::Done {
-            return Err(Fault::Failed(
-                summary.stop().map_or_else(String::new, |(why, _)| format!("stopped: {why}")),
-            ));
-        }
-        // Numbers and texts: there is nothing that JSON could refuse.
-        let is_told = wanted.iter().any(|wanted| matches!(wanted.place, Place::Summary(_)));
-        let told = if is_told { serde_json::to_value(&summary).unwrap_or_default() } else { Value::Null };
-        outcome.state.write_row(&job.model, &mut self.row);
-        results.extend(wanted.iter().map(|wanted| match wanted.place {
-            Place::End(place) => self.row.get(place).copied().unwrap_or(f64::NAN),
-            Place::Summary(_) => wanted.of(&told),
-        }));
-        Ok(())
+        record(without_output(job), (&self.study.wanted, self.watcher), &mut self.row, results)
     }
 }
 
+/// Appends what is wanted of a job, which is run as `stickslip run` does; `row` is room for a row.
+pub(crate) fn record(
+    mut job: Job,
+    (wanted, watcher): (&[Wanted], &(dyn Watcher + Sync)),
+    row: &mut Vec<f64>,
+    results: &mut Vec<f64>,
+) -> Result<(), Fault> {
+    let goes_on = || watcher.goes_on();
+    if !wanted.iter().any(Wanted::needs_rows) {
+        job.scenario.plan.every = Some(job.scenario.plan.duration);
+    }
+    if wanted.iter().any(Wanted::is_of_motion) {
+        // It is asked for: at whatever it costs.
+        job.scenario.steady_motion = Some(true);
+    }
+    if wanted.iter().all(Wanted::is_of_motion) {
+        let found = outlook(&job, None, &goes_on);
+        if !goes_on() {
+            return Err(Fault::Interrupted);
+        }
+        let told = serde_json::json!({ "steady_motion": found });
+        results.extend(wanted.iter().map(|wanted| wanted.of(&told)));
+        return Ok(());
+    }
+    let outcome = job.run(&Silent(watcher));
+    if matches!(outcome.error, Some(RunError::Interrupted { .. })) && outcome.excess.is_none() {
+        return Err(Fault::Interrupted);
+    }
+    let summary = if wanted.iter().any(Wanted::needs_outlook) {
+        let (summary, gave_up) = summary(&job, &outcome, &goes_on);
+        if gave_up && !goes_on() {
+            return Err(Fault::Interrupted);
+        }
+        summary
+    } else {
+        Summary::new(&job, &outcome)
+    };
+    if summary.status != Status::Done {
+        return Err(Fault::Failed(
+            summary.stop().map_or_else(String::new, |(why, _)| format!("stopped: {why}")),
+        ));
+    }
+    // Numbers and texts: there is nothing that JSON could refuse.
+    let is_told = wanted.iter().any(|wanted| matches!(wanted.place, Place::Summary(_)));
+    let told = if is_told { serde_json::to_value(&summary).unwrap_or_default() } else { Value::Null };
+    outcome.state.write_row(&job.model, row);
+    results.extend(wanted.iter().map(|wanted| match wanted.place {
+        Place::End(place) => row.get(place).copied().unwrap_or(f64::NAN),
+        Place::Summary(_) => wanted.of(&told),
+    }));
+    Ok(())
+}
+
 /// A job of which nothing is drawn, and nothing written but what summaries are made of.
-fn without_output(mut job: Job) -> Job {
+pub(crate) fn without_output(mut job: Job) -> Job {
     job.scenario.plots.clear();
     job.scenario.own_plots.clear();
     (job.scenario.springs, job.scenario.memory, job.scenario.fields) = (None, None, None);
@@ -149,7 +153,7 @@ fn without_output(mut job: Job) -> Job {
 }
 
 /// What is wrong with the numbers of a case, in one line.
-fn refused(error: &ScenarioError) -> Fault {
+pub(crate) fn refused(error: &ScenarioError) -> Fault {
     let Report { path, message, .. } = &**error;
     let message = message.lines().next().unwrap_or_default();
     Fault::Failed(if path.is_empty() { message.to_owned() } else { format!("{path}: {message}") })

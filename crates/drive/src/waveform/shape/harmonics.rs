@@ -12,7 +12,7 @@ use std::f64::consts::TAU;
 pub struct Harmonic {
     /// Half of peak to peak.
     pub amplitude: f64,
-    /// Multiple of the fundamental frequency, a whole number of at least 1.
+    /// Multiple of the fundamental frequency, a whole number; 0 makes a constant, amplitude · sin(phase).
     pub order: f64,
     /// Phase, rad.
     pub phase: f64,
@@ -55,8 +55,8 @@ fn check(terms: &[Harmonic], curvature: f64) -> Result<(), WaveformError> {
         sum += term.amplitude.abs() * (term.order * term.order * curvature).max(1.0);
         smooth("amplitude", term.amplitude, sum)?;
         finite("phase", term.phase)?;
-        let whole = term.order >= 1.0 && term.order.fract() == 0.0;
-        within("order", term.order, "a whole number of at least 1", whole)?;
+        let whole = term.order >= 0.0 && term.order.fract() == 0.0;
+        within("order", term.order, "a whole number of at least 0", whole)?;
     }
     Ok(())
 }

@@ -1,0 +1,237 @@
+//! An optimum: the maximum or minimum of a result over some numbers of a scenario, or over the shape of a waveform.
+//!
+//! In reading order: `space` (what a point of the unit cube means) with `shape` (waveforms within the limits of a driver), `search`
+//! (local searches from many points), `journal` (every evaluation on disk), `flatness` (how fast the result falls beside the optimum), `report` (what
+//! is written of all that).
+
+mod flatness;
+mod journal;
+mod report;
+mod search;
+mod shape;
+mod space;
+
+pub use flatness::Section;
+pub use report::Report;
+
+use crate::sweep::StudyError;
+use crate::sweep::wanted::Wanted;
+use crate::sweep::worker::{Fault, record, refused, without_output};
+use journal::{Found, Journal};
+use search::{Effort, Local, SCREENED};
+use space::Space;
+use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::{Mutex, MutexGuard, PoisonError};
+use stickslip_run::{Job, Watcher, program};
+use stickslip_scenario::{Goal, ScenarioError, StudyFile};
+
+/// Factors of the period by which an optimum is judged: ± 1 %.
+const STRETCHES: [f64; 3] = [0.99, 1.0, 1.01];
+/// Evaluations of a local search, times the number of coordinates and one.
+const EVALUATIONS: usize = 40;
+
+/// A search for an optimum, read and checked.
+pub struct Optimum {
+    /// The scenario that is optimised.
+    pub job: Job,
+    pub(crate) goal: Goal,
+    pub(crate) wanted: Wanted,
+    pub(crate) space: Space,
+    /// Factors of the period at which a point is evaluated.
+    stretches: Vec<f64>,
+    seed: u64,
+    /// SHA-256 of all that the evaluations depend on.
+    pub hash: String,
+}
+
+/// What a search has found.
+#[derive(Debug, Clone)]
+pub struct Best {
+    pub(crate) point: Vec<f64>,
+    /// The result at each factor of the period.
+    pub(crate) values: Vec<f64>,
+    pub(crate) locals: Vec<Local>,
+    /// How the result falls beside the optimum, number by number.
+    pub sections: Vec<Section>,
+    /// Evaluations, and those without a result.
+    pub(crate) counts: (usize, usize),
+}
+
+impl Optimum {
+    /// Reads and checks a study file.
+    ///
+    /// # Errors
+    /// Whatever is wrong with it or its scenario, with its place; a study of cases.
+    pub fn load(path: &Path) -> Result<Self, ScenarioError> {
+        Self::new(&StudyFile::load(path)?)
+    }
+
+    /// The same of a text; see [`StudyFile::from_str`].
+    ///
+    /// # Errors
+    /// Whatever is wrong with it or its scenario, with its place; a study of cases.
+    pub fn from_str(text: &str, (file, stem): (&str, &str), base: &Path) -> Result<Self, ScenarioError> {
+        Self::new(&StudyFile::from_str(text, (file, stem), base)?)
+    }
+
+    fn new(file: &StudyFile) -> Result<Self, ScenarioError> {
+        let Some(goal) = file.goal.clone() else {
+            let help =
+                "`stickslip study run` takes it; an optimum needs \"maximise\" or \"minimise\"".to_owned();
+            return Err(file.refusal(
+                "vary",
+                None,
+                "this study asks for cases, not for an optimum",
+                Some(help),
+            ));
+        };
+        let key = if goal.is_maximum { "maximise" } else { "minimise" };
+        let job = Job::new(file.scenario.clone(), file.name.clone(), PathBuf::new())?;
+        let wanted = Wanted::named(file, &job, (key, &goal.result))?;
+        if wanted.codes.is_some() {
+            return Err(file.refusal(key, None, "this result is a word: an optimum needs a number", None));
+        }
+        let space = Space::new(&goal, &job);
+        let stretches = match (goal.worst_of_period, space.has_period()) {
+            (Some(true), false) => {
+                let message = "no named waveform has a period that could be varied";
+                return Err(file.refusal("worst_of_period", None, message, None));
+            }
+            (Some(false), _) | (None, false) => vec![1.0],
+            (_, true) => STRETCHES.to_vec(),
+        };
+        let definition = serde_json::json!({
+            "program": format!("{} {}", program::NAME, program::VERSION),
+            "scenario": job.hash,
+            "goal": format!("{goal:?}"),
+            "stretches": stretches,
+            "seed": file.seed,
+        });
+        let hash = stickslip_run::hash(&definition.to_string());
+        Ok(Self { job, goal, wanted, space, stretches, seed: file.seed, hash })
+    }
+
+    /// Evaluations at most, of so many periods each.
+    #[must_use]
+    pub fn most_evaluations(&self) -> u64 {
+        let starts = self.goal.starts;
+        1 + starts * (SCREENED + self.evaluations() as u64) + flatness::most(self.dimensions()) as u64
+    }
+
+    /// Number of coordinates.
+    #[must_use]
+    pub fn dimensions(&self) -> usize {
+        self.space.names().len()
+    }
+
+    fn evaluations(&self) -> usize {
+        self.goal.evaluations.map_or(EVALUATIONS * (self.dimensions() + 1), |most| most as usize)
+    }
+
+    /// Searches on so many threads; the watcher is told how many evaluations there are. Each of them is written to a journal in the
+    /// folder, from which an interrupted search continues; `is_fresh` begins anew. What it finds does not depend on the threads.
+    ///
+    /// # Errors
+    /// The journal of another search, a folder that cannot be written, an interruption, and a search in which no case has the result.
+    pub fn run(
+        &self,
+        out: &Path,
+        (threads, is_fresh): (usize, bool),
+        watcher: &(dyn Watcher + Sync),
+    ) -> Result<Best, StudyError> {
+        let journal = Mutex::new(Journal::open(out, &self.hash, is_fresh)?);
+        let bench = Bench { optimum: self, journal, watcher, done: AtomicU64::new(0) };
+        let effort =
+            Effort { starts: self.goal.starts, evaluations: self.evaluations(), seed: self.seed, threads };
+        let judge = |point: &[f64]| bench.judge(point);
+        let locals = search::search(&self.space.present(&self.job), effort, &judge);
+        bench.check()?;
+        let Some(locals) = locals else { return Err(StudyError::AllFailed(bench.journal().reason())) };
+        // The first of equal ones; there is one at least.
+        let better = |best: Option<(Vec<f64>, f64)>, local: &Local| match best {
+            Some(best) if best.1 >= local.to.1 => Some(best),
+            _ => Some(local.to.clone()),
+        };
+        let (point, _) = locals.iter().fold(None, better).unwrap_or_default();
+        let sections = flatness::sections(&self.space, &point, threads, &judge);
+        bench.check()?;
+        let sections = sections.into_iter().map(|section| section.signed(self.sign())).collect();
+        let values = bench.found(&point).unwrap_or_default();
+        let journal = bench.journal();
+        journal.sort()?;
+        Ok(Best { point, values, locals, sections, counts: journal.counts() })
+    }
+
+    /// The higher, the better, after this factor.
+    pub(crate) fn sign(&self) -> f64 {
+        if self.goal.is_maximum { 1.0 } else { -1.0 }
+    }
+}
+
+/// Where points are evaluated.
+struct Bench<'o> {
+    optimum: &'o Optimum,
+    journal: Mutex<Journal>,
+    watcher: &'o (dyn Watcher + Sync),
+    done: AtomicU64,
+}
+
+impl Bench<'_> {
+    fn journal(&self) -> MutexGuard<'_, Journal> {
+        self.journal.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// Whether the search was interrupted, or could not be written down.
+    fn check(&self) -> Result<(), StudyError> {
+        match self.journal().fault.take() {
+            Some(fault) => Err(fault),
+            None if self.watcher.goes_on() => Ok(()),
+            None => Err(StudyError::Interrupted),
+        }
+    }
+
+    /// The worst of a point's results, the higher the better; NaN where one of them is missing.
+    fn judge(&self, point: &[f64]) -> f64 {
+        let sign = self.optimum.sign();
+        let worst =
+            |worst: f64, value: &f64| if value.is_finite() { worst.min(sign * value) } else { f64::NAN };
+        match self.found(point) {
+            Ok(values) if values.iter().all(|value| value.is_finite()) => {
+                values.iter().fold(f64::INFINITY, worst)
+            }
+            _ => f64::NAN,
+        }
+    }
+
+    /// The results of a point at each factor of the period.
+    fn found(&self, point: &[f64]) -> Found {
+        // Not in the condition of a match, whose lock would last as long as its arms.
+        let known = self.journal().get(point);
+        if let Some(known) = known {
+            return known;
+        }
+        let found = match self.evaluate(point) {
+            Ok(values) => Ok(values),
+            Err(Fault::Failed(why)) => Err(why),
+            Err(Fault::Interrupted) => return Err(String::new()),
+        };
+        self.journal().add(point, found.clone());
+        self.watcher.reached((self.done.fetch_add(1, Ordering::Relaxed) + 1) as f64);
+        found
+    }
+
+    fn evaluate(&self, point: &[f64]) -> Result<Vec<f64>, Fault> {
+        let Optimum { job, space, wanted, stretches, .. } = self.optimum;
+        let (mut values, mut row) = (Vec::new(), Vec::new());
+        for stretch in stretches {
+            if !self.watcher.goes_on() {
+                return Err(Fault::Interrupted);
+            }
+            let case = job.with(&space.overrides(point, *stretch)).map_err(|error| refused(&error))?;
+            let wanted = (std::slice::from_ref(wanted), self.watcher);
+            record(without_output(case), wanted, &mut row, &mut values)?;
+        }
+        Ok(values)
+    }
+}

@@ -1,0 +1,108 @@
+//! How fast a result falls beside its optimum: sections along each coordinate.
+
+use super::search::Judge;
+use super::space::Space;
+use crate::each::each;
+
+/// Distances from the optimum at which the result is evaluated, shares of a coordinate's range.
+const DISTANCES: [f64; 5] = [1.0 / 512.0, 1.0 / 128.0, 1.0 / 32.0, 1.0 / 8.0, 1.0 / 2.0];
+
+/// The result along one number, all others at the optimum.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Section {
+    /// Name of the number.
+    pub name: String,
+    /// Its SI unit; empty of a share of a range.
+    pub unit: &'static str,
+    /// Its value at the optimum.
+    pub best: f64,
+    /// Values of the number and the worst result there, NaN where there is none, in ascending order.
+    pub points: Vec<(f64, f64)>,
+    /// The range that is searched.
+    pub bounds: [f64; 2],
+    /// Whether the optimum lies at the lower and at the upper bound.
+    pub at_bound: [bool; 2],
+}
+
+impl Section {
+    pub(super) fn signed(mut self, sign: f64) -> Self {
+        self.points.iter_mut().for_each(|(_, value)| *value *= sign);
+        self
+    }
+
+    /// The same points over the distance from the optimum, as a part of the searched range.
+    #[must_use]
+    pub fn distances(&self) -> Vec<(f64, f64)> {
+        let [low, high] = self.bounds;
+        self.points.iter().map(|(x, value)| ((x - self.best) / (high - low), *value)).collect()
+    }
+
+    /// The range in which the result is within a share of the optimum, by lines between the points; each end is none where the bound of
+    /// the search ends it.
+    #[must_use]
+    pub fn range(&self, share: f64) -> [Option<f64>; 2] {
+        let Some(at) = self.points.iter().position(|(x, _)| *x == self.best) else { return [None; 2] };
+        let optimum = self.points[at].1;
+        let loss = |value: f64| if value.is_nan() { f64::INFINITY } else { (value - optimum).abs() };
+        let most = share * optimum.abs();
+        let end = |points: &mut dyn Iterator<Item = &(f64, f64)>| {
+            let (mut x, mut before) = (self.best, 0.0);
+            for (next, value) in points {
+                let lost = loss(*value);
+                if lost > most {
+                    let part = if lost.is_finite() { (most - before) / (lost - before) } else { 0.0 };
+                    return Some(x + (next - x) * part);
+                }
+                (x, before) = (*next, lost);
+            }
+            None
+        };
+        [end(&mut self.points[..at].iter().rev()), end(&mut self.points[at + 1..].iter())]
+    }
+}
+
+/// Evaluations of all sections at most.
+pub(super) fn most(dimensions: usize) -> usize {
+    2 * DISTANCES.len() * dimensions
+}
+
+/// The sections through a point.
+pub(super) fn sections(space: &Space, point: &[f64], threads: usize, judge: &Judge<'_>) -> Vec<Section> {
+    let places: Vec<Vec<f64>> = point.iter().map(|share| places(*share)).collect();
+    let all: Vec<(usize, f64)> = places
+        .iter()
+        .enumerate()
+        .flat_map(|(i, places)| places.iter().map(move |place| (i, *place)))
+        .collect();
+    let values = each(all.len(), threads, |k| {
+        let mut moved = point.to_vec();
+        moved[all[k].0] = all[k].1;
+        judge(&moved)
+    });
+    let numbers = space.numbers();
+    let section = |(i, name): (usize, String)| Section {
+        name,
+        unit: numbers.get(i).map_or("", |(_, unit, _)| unit),
+        best: space.value(i, point[i]),
+        points: all
+            .iter()
+            .zip(&values)
+            .filter(|((coordinate, _), _)| *coordinate == i)
+            .map(|((_, share), value)| (space.value(i, *share), *value))
+            .collect(),
+        bounds: numbers.get(i).map_or([0.0, 1.0], |(.., range)| *range),
+        at_bound: [point[i] <= 0.0, point[i] >= 1.0],
+    };
+    space.names().into_iter().enumerate().map(section).collect()
+}
+
+/// Where a section is evaluated, in ascending order; a bound ends it.
+fn places(share: f64) -> Vec<f64> {
+    let mut places = vec![share];
+    places.extend(
+        DISTANCES.iter().flat_map(|distance| [(share - distance).max(0.0), (share + distance).min(1.0)]),
+    );
+    places.sort_by(f64::total_cmp);
+    places.dedup();
+    places
+}

@@ -1,0 +1,117 @@
+//! What a point of the unit cube means: numbers of the scenario, and a waveform.
+
+use super::shape::{self, Drawing};
+use stickslip_run::Job;
+use stickslip_scenario::{Goal, Parameter, Shaped};
+
+/// Numbers and waveform over which an optimum is searched. The first coordinates are the numbers of `over`, then the period of the waveform
+/// where it has a range, then its shape.
+#[derive(Debug, Clone)]
+pub(crate) struct Space {
+    over: Vec<(Parameter, [f64; 2])>,
+    shaped: Option<Shaped>,
+    /// Periods of named waveforms that are not searched, which the worst of period ± 1 % varies.
+    periods: Vec<Parameter>,
+}
+
+impl Space {
+    pub(crate) fn new(goal: &Goal, job: &Job) -> Self {
+        let shaped = goal.shaped.clone();
+        let mut periods = job.scenario.periods();
+        periods.retain(|period| {
+            let is_inside = |shaped: &Shaped| period.path.starts_with(&format!("{}.", shaped.path));
+            period.value.is_some() && !shaped.as_ref().is_some_and(is_inside)
+        });
+        Self { over: goal.over.clone(), shaped, periods }
+    }
+
+    /// Whether a period can be varied.
+    pub(crate) fn has_period(&self) -> bool {
+        self.shaped.is_some() || !self.periods.is_empty()
+    }
+
+    pub(crate) fn shaped(&self) -> Option<&Shaped> {
+        self.shaped.as_ref()
+    }
+
+    /// Ranges and units of the leading coordinates that are numbers, with their names.
+    pub(crate) fn numbers(&self) -> Vec<(String, &'static str, [f64; 2])> {
+        let over = self.over.iter().map(|(number, range)| (number.path.clone(), number.unit, *range));
+        let period = self.shaped.iter().filter(|shaped| shaped.period[0] < shaped.period[1]);
+        over.chain(period.map(|shaped| (format!("{}.period", shaped.path), "s", shaped.period))).collect()
+    }
+
+    /// Names of all coordinates.
+    pub(crate) fn names(&self) -> Vec<String> {
+        let numbers = self.numbers().into_iter().map(|(name, ..)| name);
+        numbers.chain(self.shaped.iter().flat_map(shape::names)).collect()
+    }
+
+    /// Value of a coordinate: a number in SI, or a share of the range of a shape's coordinate.
+    pub(crate) fn value(&self, coordinate: usize, share: f64) -> f64 {
+        self.numbers().get(coordinate).map_or(share, |(.., range)| between(*range, share))
+    }
+
+    /// The waveform at a point, and its period, s.
+    pub(crate) fn drawing(&self, point: &[f64]) -> Option<(Drawing, f64)> {
+        let shaped = self.shaped.as_ref()?;
+        let numbers = self.numbers().len();
+        let period = match numbers > self.over.len() {
+            true => self.value(numbers - 1, point[numbers - 1]),
+            false => shaped.period[0],
+        };
+        Some((Drawing::new(shaped, period, &point[numbers..]), period))
+    }
+
+    /// A point as overrides of the scenario, with all periods stretched by a factor.
+    pub(crate) fn overrides(&self, point: &[f64], stretch: f64) -> Vec<(String, String)> {
+        let stretched = |number: &Parameter, value: f64| match self.is_period(number) {
+            true if number.unit == "s" => value * stretch,
+            true => value / stretch,
+            false => value,
+        };
+        let over = self.over.iter().enumerate().map(|(i, (number, range))| {
+            (number.path.clone(), text(stretched(number, between(*range, point[i]))))
+        });
+        let searched = |period: &&Parameter| self.over.iter().all(|(number, _)| number.path != period.path);
+        let rest =
+            self.periods.iter().filter(|_| stretch != 1.0).filter(searched).map(|period| {
+                (period.path.clone(), text(stretched(period, period.value.unwrap_or(f64::NAN))))
+            });
+        let waveform = self.shaped.iter().zip(self.drawing(point)).map(|(shaped, (drawing, period))| {
+            (shaped.path.clone(), drawing.form(period * stretch).to_string())
+        });
+        over.chain(rest).chain(waveform).collect()
+    }
+
+    fn is_period(&self, number: &Parameter) -> bool {
+        self.periods.iter().any(|period| period.path == number.path)
+    }
+
+    /// The point of the scenario as it is, or the nearest one; numbers that it does not give are in the middle.
+    pub(crate) fn present(&self, job: &Job) -> Vec<f64> {
+        let share = |[low, high]: [f64; 2], value: f64| ((value - low) / (high - low)).clamp(0.0, 1.0);
+        let over =
+            self.over.iter().map(|(number, range)| number.value.map_or(0.5, |value| share(*range, value)));
+        let mut point: Vec<f64> = over.collect();
+        let Some(shaped) = &self.shaped else { return point };
+        let waveform = job.scenario.scene.waveforms.get(shaped.waveform).map(|named| &named.part);
+        if self.numbers().len() > self.over.len() {
+            let period = waveform.and_then(|waveform| waveform.period());
+            point.push(period.map_or(0.5, |period| share(shaped.period, period)));
+        }
+        let middle = || vec![0.5; shape::dimensions(shaped)];
+        point.extend(waveform.and_then(|waveform| shape::nearest(shaped, waveform)).unwrap_or_else(middle));
+        point
+    }
+}
+
+/// A value of a range by its share, exact at both ends.
+fn between([low, high]: [f64; 2], share: f64) -> f64 {
+    if share >= 1.0 { high } else { low + (high - low) * share }
+}
+
+/// As short as it can be, and read back to the same bits.
+fn text(value: f64) -> String {
+    format!("{value:?}").trim_end_matches(".0").to_owned()
+}
