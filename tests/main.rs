@@ -21,6 +21,7 @@ mod insides;
 mod library;
 mod measured_loops;
 mod new;
+mod optimise;
 mod output;
 mod pictures;
 mod planar;

@@ -89,7 +89,7 @@ pub(crate) struct OptimiseStudyArguments {
     #[arg(long)]
     pub(crate) fresh: bool,
     /// Sample rate of waveform.csv, such as "1 MHz", adjusted to a whole number of samples per period [default: 1000 samples]
-    #[arg(long, value_name = "RATE")]
+    #[arg(long, value_name = "RATE", allow_hyphen_values = true)]
     pub(crate) rate: Option<String>,
     /// Gain of the amplifier between generator and stack, by which the column "generator" is divided
     #[arg(long, value_name = "FACTOR", default_value_t = 1.0, allow_negative_numbers = true)]

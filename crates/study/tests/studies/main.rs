@@ -22,6 +22,7 @@ mod harmonic_balance;
 mod holding;
 mod landmarks;
 mod noisy_table;
+mod optimise;
 mod outlook;
 mod page;
 mod passing_grip;

@@ -122,9 +122,9 @@ fn tell(report: &Report) {
     let ends: Vec<String> = report.starts.iter().map(|start| shown(start.to, unit)).collect();
     say(format_args!("local searches ended at {}", ends.join(", ")));
     say(format_args!("{} evaluations, {} without a result", report.evaluations, report.failed));
-    let set = best.set.iter().filter(|set| set.len() < LONGEST).map(|set| format!(" --set {set}"));
-    say(format_args!("run it with{}", set.collect::<String>()));
+    // The waveform, which is the last one, stands in its file.
+    let numbers = best.set.len() - usize::from(report.waveform.is_some());
+    let mut set: Vec<String> = best.set.iter().take(numbers).map(|set| format!("--set {set}")).collect();
+    set.extend(report.waveform.as_ref().map(|_| format!("the waveform of {WAVEFORM}")));
+    say(format_args!("run it with {}", set.join(" ")));
 }
-
-/// Longest option that is printed: the waveform stands in its file.
-const LONGEST: usize = 200;
