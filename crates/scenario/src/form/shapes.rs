@@ -60,7 +60,7 @@ periodic! {
         /// Sine terms of the sum, at least one; at most 1000 in all waveforms together.
         #[schemars(length(min = 1, max = 1000), example = json!([{ "amplitude": "100 nm", "order": 1 }]))]
         terms: Vec<HarmonicForm>,
-        /// Mean value, in the unit of the driven quantity.
+        /// Mean value, in the unit of the driven quantity; 0 by default.
         #[serde(default = "no_value", skip_serializing_if = "is_no_value")]
         #[schemars(example = &"60 V")]
         offset: AnyQuantity,
