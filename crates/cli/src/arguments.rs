@@ -5,6 +5,7 @@ pub(crate) mod contact;
 pub(crate) mod curve;
 pub(crate) mod golden;
 pub(crate) mod look;
+pub(crate) mod map;
 pub(crate) mod meant;
 pub(crate) mod measure;
 mod overview;
@@ -23,6 +24,7 @@ use std::path::PathBuf;
 pub(crate) use compare::CompareArguments;
 pub(crate) use contact::ContactArguments;
 pub(crate) use curve::CurveArguments;
+pub(crate) use map::MapArguments;
 pub(crate) use measure::MeasureArguments;
 pub(crate) use overview::command;
 pub(crate) use pictures::{PlotArguments, ReproArguments};
@@ -108,6 +110,9 @@ pub(crate) enum Command {
     /// Run thousands of variants of a scenario: grids, distributions, sensitivity indices
     #[command(long_about = study::ABOUT, after_long_help = study::EXAMPLES, subcommand)]
     Study(study::StudyCommand),
+    /// Map a result over two parameters: contours; borders of stick, partial and gross slip
+    #[command(long_about = map::ABOUT, after_long_help = map::EXAMPLES)]
+    Map(MapArguments),
     /// Solve a single contact without a run: constants, load histories, stresses
     #[command(long_about = contact::ABOUT, after_long_help = contact::EXAMPLES)]
     Contact(ContactArguments),

@@ -9,6 +9,7 @@ pub(crate) mod curve;
 pub(crate) mod explain;
 pub(crate) mod golden;
 pub(crate) mod info;
+pub(crate) mod map;
 pub(crate) mod materials;
 pub(crate) mod measure;
 pub(crate) mod new;

@@ -9,7 +9,7 @@ mod commands;
 use arguments::{Arguments, Command, meant};
 use clap::FromArgMatches;
 use commands::{
-    branch, check, compare, completions, contact, curve, explain, golden, info, materials, measure, new,
+    branch, check, compare, completions, contact, curve, explain, golden, info, map, materials, measure, new,
     plot, realtime, repro, run, schema, sensitivity, steady, study,
 };
 use std::process::ExitCode;
@@ -31,6 +31,7 @@ fn main() -> ExitCode {
         Command::Sensitivity(arguments) => sensitivity::sensitivity(&arguments),
         Command::Branch(arguments) => branch::branch(&arguments),
         Command::Steady(arguments) => steady::steady(&arguments),
+        Command::Map(arguments) => map::map(&arguments),
         Command::Study(command) => study::study(&command),
         Command::New(arguments) => new::new(&arguments),
         Command::Schema { kind } => schema::print(kind),

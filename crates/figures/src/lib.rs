@@ -6,13 +6,14 @@
 //! In reading order: [`look`] (as what files, in what colours and size); `pictures` (the table of their kinds) with a module
 //! for each: what it shows, what it needs and how it is drawn; [`comparison`]; `origin`; [`gallery`]; [`realtime`], pictures of a loop; [`measured`], loops from a table;
 //! [`steady`], the picture of a motion that repeats itself; [`branch`], that of many such motions; [`curve`], those of a machine; [`sensitivity`], what
-//! matters to it.
+//! matters to it; [`map`], a result over two numbers.
 
 pub mod branch;
 pub mod comparison;
 pub mod curve;
 pub mod gallery;
 pub mod look;
+pub mod map;
 pub mod measured;
 mod origin;
 pub mod overlay;

@@ -2,7 +2,7 @@
 
 use crate::figure::{Arrangement, Figure};
 use crate::panel::{Axis, Mosaic, Panel, Reference, Series};
-use crate::theme::{Colour, Dash, Ink, Style};
+use crate::theme::{Dash, Ink, RAMP, Style};
 use crate::{Label, scale::quantity};
 
 /// Friction work per area by place, so far, at some moments.
@@ -21,21 +21,9 @@ pub struct FrictionWork<'a> {
 }
 
 /// Classes of the map.
-const CLASSES: usize = 9;
+const CLASSES: usize = RAMP.len();
 /// Curves over r at most.
 const MOST_CURVES: usize = 6;
-/// From next to nothing to the most: the middle of the ramp viridis (Smith, van der Walt 2015), told apart in grey.
-const RAMP: [Colour; CLASSES] = [
-    Colour(0x44, 0x01, 0x54),
-    Colour(0x47, 0x2D, 0x7B),
-    Colour(0x3B, 0x52, 0x8B),
-    Colour(0x2C, 0x72, 0x8E),
-    Colour(0x21, 0x91, 0x8C),
-    Colour(0x28, 0xAE, 0x80),
-    Colour(0x5E, 0xC9, 0x62),
-    Colour(0xAD, 0xDC, 0x30),
-    Colour(0xFD, 0xE7, 0x25),
-];
 
 /// Above, work per area over place and moment as a map; below, over place at the moments that are marked, the last darkest.
 pub fn friction_figure<'a>(title: &str, work: &FrictionWork<'a>) -> Figure<'a> {

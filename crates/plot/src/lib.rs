@@ -13,7 +13,7 @@
 //!   [`memory`] (the curve a contact remembers by), [`anchors`] (the same over the springs' places), [`fields`] (stress and
 //!   displacement under a contact), [`substitute`] (its springs), [`profile`] (f and g), [`friction`] (where it does its work), [`scene`] (what there is, to scale), [`compare`] (two runs and their
 //!   difference), [`zoom`] (a part enlarged beside the whole), [`over`] (several results in one), [`work_precision`] (what an error costs), [`growth`] (what more of something costs), [`orbit`] (a motion that repeats itself),
-//!   [`curve`] (what a machine does over something that is varied), [`branch`] (steady motions over such a thing), [`tornado`] (what matters most);
+//!   [`curve`] (what a machine does over something that is varied), [`branch`] (steady motions over such a thing), [`map`] (a result over two numbers), [`tornado`] (what matters most);
 //! * `range`, `scale` – what an axis shows: range, prefix, offset, ticks;
 //! * `legend`, `lanes`, `layout`, `place`, `notes` – where everything goes;
 //! * `thin`, `dash`, `mosaic` – what is drawn of much data, and in what pieces;
@@ -48,6 +48,7 @@ pub mod label;
 mod lanes;
 mod layout;
 mod legend;
+pub mod map;
 pub mod memory;
 mod mosaic;
 mod notes;
@@ -92,6 +93,7 @@ pub use friction::{FrictionWork, friction_figure, friction_figures};
 pub use growth::{GrowthCurve, growth_figure};
 pub use hysteresis::{HysteresisLoop, loop_figure, marked_loop_figure};
 pub use label::Label;
+pub use map::{MapContent, ResultMap, map_figure};
 pub use memory::{MemoryMoment, memory_figure};
 pub use orbit::{OrbitCourse, orbit_figure};
 pub use over::overlaid;

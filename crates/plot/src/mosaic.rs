@@ -1,7 +1,7 @@
 //! Mosaics in pixels: cells of few classes, mixed by area where a pixel holds several.
 
 use crate::palette::{Word, word};
-use crate::panel::Mosaic;
+use crate::panel::{Axis, Mosaic};
 use crate::scale::Scale;
 use crate::theme::{Colour, Theme};
 
@@ -25,27 +25,27 @@ impl Image {
 type Light = [f64; 4];
 
 impl Mosaic<'_> {
-    /// Ends of the columns, one more than columns.
-    pub(crate) fn column_edges(&self) -> Vec<f64> {
-        edges(&self.xs, 0.0)
+    /// Ends of the columns as laid off along their axis, one more than columns.
+    pub(crate) fn column_edges(&self, axis: &Axis) -> Vec<f64> {
+        edges(&laid_off(&self.xs, axis), 0.0)
     }
 
-    /// Ends of the rows, one more than rows.
-    pub(crate) fn row_edges(&self) -> Vec<f64> {
-        edges(&self.ys, 0.5)
+    /// Ends of the rows as laid off along their axis, one more than rows.
+    pub(crate) fn row_edges(&self, axis: &Axis) -> Vec<f64> {
+        edges(&laid_off(&self.ys, axis), 0.5)
     }
 
     /// The mosaic as it shows through a frame. Of a pixel that several cells share, each colours its part of the
     /// area: neither a majority that hides a short slip nor a sample that falls in step with the motion.
     pub(crate) fn image(
         &self,
-        (x, y): (&Scale, &Scale),
+        [(across, x), (upwards, y)]: [(&Axis, &Scale); 2],
         (width, height): (usize, usize),
         theme: &Theme,
     ) -> Image {
         let (w, h) = (width as f64, height as f64);
-        let columns = parts(&pixels(&self.column_edges(), |edge| w * x.place(edge), w), width);
-        let rows = parts(&pixels(&self.row_edges(), |edge| h * (1.0 - y.place(edge)), h), height);
+        let columns = parts(&pixels(&self.column_edges(across), |edge| w * x.place(edge), w), width);
+        let rows = parts(&pixels(&self.row_edges(upwards), |edge| h * (1.0 - y.place(edge)), h), height);
         let lights: Vec<Light> = self.classes.iter().map(|(_, ink)| light(theme.colour(*ink))).collect();
         let (behind, code) = (light(theme.background), Code::new());
         let mut rgb = vec![0; 3 * width * height];
@@ -70,6 +70,11 @@ impl Mosaic<'_> {
         }
         Image { width, height, rgb }
     }
+}
+
+/// Places as laid off along an axis.
+fn laid_off(places: &[f64], axis: &Axis) -> Vec<f64> {
+    places.iter().map(|place| axis.measure(*place)).collect()
 }
 
 /// Middles between places, and beyond the first and the last a share of the way to their neighbours.
@@ -137,7 +142,7 @@ impl Code {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{Axis, Ink, Label};
+    use crate::{Ink, Label};
     use proptest::prelude::*;
 
     fn mosaic(columns: usize, rows: usize, cells: Vec<u8>) -> Mosaic<'static> {
@@ -152,7 +157,9 @@ mod tests {
             let ends = edges.first().copied().zip(edges.last().copied());
             Scale::new(&Axis::default(), ends.map(|(a, b)| if a < b { (a, b) } else { (a - 1.0, b + 1.0) }))
         };
-        mosaic.image((&scale(mosaic.column_edges()), &scale(mosaic.row_edges())), size, &Theme::light())
+        let (axis, [x, y]) =
+            (Axis::default(), [mosaic.column_edges(&Axis::default()), mosaic.row_edges(&Axis::default())]);
+        mosaic.image([(&axis, &scale(x)), (&axis, &scale(y))], size, &Theme::light())
     }
 
     fn pixels(image: &Image, shade: usize) -> usize {

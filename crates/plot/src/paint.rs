@@ -47,7 +47,10 @@ pub(crate) fn mosaics<'l>(
     layout.panels.iter().filter_map(move |place| {
         let size = (place.frame.width as usize * density, place.frame.height as usize * density);
         let mosaic = place.panel.mosaic.as_ref().filter(|_| !place.empty)?;
-        Some((place.frame, mosaic.image((&place.x, &place.y), size, theme)))
+        Some((
+            place.frame,
+            mosaic.image([(&place.panel.x, &place.x), (&place.panel.y, &place.y)], size, theme),
+        ))
     })
 }
 

@@ -57,7 +57,7 @@ pub struct Axis {
     /// Neither ticks nor numbers, for what is not to scale.
     pub unnumbered: bool,
     /// Decades are as far apart everywhere; values not above 0 are gaps. Series, bands, lanes and reference lines
-    /// alone may stand on such an axis.
+    /// alone may stand on such an axis, and mosaics at places above 0.
     pub logarithmic: bool,
 }
 

@@ -63,8 +63,8 @@ pub(crate) fn extents(panel: &Panel<'_>) -> (Extent, Extent) {
         y.include(high);
     }
     if let Some(mosaic) = &panel.mosaic {
-        mosaic.column_edges().into_iter().for_each(|edge| x.include(edge));
-        mosaic.row_edges().into_iter().for_each(|edge| y.include(edge));
+        mosaic.column_edges(&panel.x).into_iter().for_each(|edge| x.include(edge));
+        mosaic.row_edges(&panel.y).into_iter().for_each(|edge| y.include(edge));
     }
     for mark in panel.lanes.iter().flat_map(|lane| &lane.marks) {
         let ends = [mark.from, mark.to].map(|end| panel.x.measure(end));

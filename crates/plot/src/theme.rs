@@ -17,6 +17,8 @@ pub enum Ink {
     Foreground,
     /// The theme's muted ink, for what stands behind.
     Muted,
+    /// A share of a ramp from the least (0) to the most (255), pale enough for texts upon it, for areas.
+    Ramp(u8),
     /// A colour of one's own.
     Colour(Colour),
 }
@@ -89,6 +91,21 @@ const OKABE_ITO: [Colour; 6] = [
     Colour(0xE6, 0x9F, 0x00),
     Colour(0x56, 0xB4, 0xE9),
 ];
+
+/// From next to nothing to the most: the middle of the ramp viridis (Smith, van der Walt 2015), told apart in grey.
+pub(crate) const RAMP: [Colour; 9] = [
+    Colour(0x44, 0x01, 0x54),
+    Colour(0x47, 0x2D, 0x7B),
+    Colour(0x3B, 0x52, 0x8B),
+    Colour(0x2C, 0x72, 0x8E),
+    Colour(0x21, 0x91, 0x8C),
+    Colour(0x28, 0xAE, 0x80),
+    Colour(0x5E, 0xC9, 0x62),
+    Colour(0xAD, 0xDC, 0x30),
+    Colour(0xFD, 0xE7, 0x25),
+];
+/// How far the ramp has gone towards the background where texts and lines lie on it.
+const WASHED: f64 = 0.45;
 
 /// The same hues for a dark background: the blue would drown there, and the yellow serves.
 const DARK: [Colour; 6] = [
@@ -173,6 +190,12 @@ impl Theme {
             Ink::Shade(place) => self.shades[place % self.shades.len()],
             Ink::Foreground => self.foreground,
             Ink::Muted => self.muted,
+            Ink::Ramp(share) => {
+                let place = f64::from(share) / 255.0 * (RAMP.len() - 1) as f64;
+                let below = (place as usize).min(RAMP.len() - 2);
+                let colour = RAMP[below].towards(RAMP[below + 1], place - below as f64);
+                colour.towards(self.background, WASHED)
+            }
             Ink::Colour(colour) => colour,
         }
     }

@@ -228,6 +228,12 @@ columns! { CURVE, "curve.csv",
     "against_x_fault": "why there is no such force: the drive does not even hold what acts without the load, or something else than friction holds any",
 }
 
+columns! { MAP, "map.csv",
+    "x": "value of the number along the horizontal axis, SI",
+    "y": "value of the number along the vertical axis, SI",
+    "result": "the result there: a number in SI, or a word; empty where there is none",
+}
+
 columns! { SENSITIVITY, "sensitivity.csv",
     "figure": "name of the figure: a number of summary.json, a channel at the end of the run, or one of steady motion",
     "figure_unit": "its SI unit; empty of a plain number",

@@ -34,6 +34,8 @@ pub const PARTIAL_CURVE: &str = "curve-partial.json";
 pub const SENSITIVITY: &str = "sensitivity.json";
 /// The same where that was interrupted: what was finished stays beside it.
 pub const PARTIAL_SENSITIVITY: &str = "sensitivity-partial.json";
+/// A result over two numbers of a scenario.
+pub const MAP: &str = "map.json";
 /// The steady motion of a drive, found without a run.
 pub const STEADY: &str = "steady.json";
 /// Where a result is largest or smallest.

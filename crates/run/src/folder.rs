@@ -12,7 +12,7 @@ pub use drafts::{draft, sweep};
 use crate::checkpoint;
 use crate::disk::{Disk, System};
 use crate::files::{
-    BRANCH, CURVE, PARTIAL_BRANCH, PARTIAL_CURVE, PARTIAL_SENSITIVITY, SENSITIVITY, STEADY, SUMMARY,
+    BRANCH, CURVE, MAP, PARTIAL_BRANCH, PARTIAL_CURVE, PARTIAL_SENSITIVITY, SENSITIVITY, STEADY, SUMMARY,
 };
 use crate::theory::CONTACT;
 use std::fs::{self, File, TryLockError};
@@ -21,8 +21,8 @@ use std::path::{Path, PathBuf};
 use tempfile::NamedTempFile;
 
 /// Files that say that all others are there: of a run, of a contact by itself, of a steady motion, and of a branch of them, a curve of a
-/// machine and derivatives, whole or not.
-const SUMMARIES: [&str; 9] = [
+/// machine, a map and derivatives, whole or not.
+const SUMMARIES: [&str; 10] = [
     SUMMARY,
     CONTACT,
     STEADY,
@@ -30,6 +30,7 @@ const SUMMARIES: [&str; 9] = [
     PARTIAL_BRANCH,
     CURVE,
     PARTIAL_CURVE,
+    MAP,
     SENSITIVITY,
     PARTIAL_SENSITIVITY,
 ];

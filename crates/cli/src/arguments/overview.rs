@@ -7,7 +7,7 @@ use std::fmt::Write;
 /// Groups of commands, those of every day first.
 const GROUPS: [(&str, &[&str]); 5] = [
     ("Every day", &["new", "check", "info", "run", "plot", "compare", "explain"]),
-    ("Design a drive", &["curve", "steady", "branch", "sensitivity", "study"]),
+    ("Design a drive", &["curve", "steady", "branch", "sensitivity", "study", "map"]),
     ("Contacts and measured data", &["contact", "measure"]),
     ("Real time", &["realtime"]),
     ("Verification and reference", &["golden", "repro", "materials", "schema", "completions"]),

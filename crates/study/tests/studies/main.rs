@@ -21,6 +21,7 @@ mod drawn_scenes;
 mod harmonic_balance;
 mod holding;
 mod landmarks;
+mod map;
 mod noisy_table;
 mod optimise;
 mod outlook;

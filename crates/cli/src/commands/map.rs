@@ -1,0 +1,132 @@
+//! `stickslip map`: a result over two parameters.
+
+use crate::arguments::MapArguments;
+use std::io;
+use std::path::{Path, PathBuf};
+use stickslip_console::answer::{complain, say, say_json, warn};
+use stickslip_console::interrupt::Interrupt;
+use stickslip_console::place::{self, Unwritable};
+use stickslip_console::progress::Progress;
+use stickslip_console::verdict::Verdict;
+use stickslip_figures::{FigureError, map as picture};
+use stickslip_run::complaint::words;
+use stickslip_run::folder::sweep;
+use stickslip_run::{Job, Real, quantity};
+use stickslip_study::map::{self, Asked, Field, Map, MapError, Overlay};
+use stickslip_study::sweep::StudyError;
+use thiserror::Error;
+
+/// Why there is no map.
+#[derive(Debug, Error)]
+enum MapFailure {
+    /// What is asked for.
+    #[error(transparent)]
+    Map(#[from] MapError),
+    /// The picture.
+    #[error(transparent)]
+    Figure(#[from] FigureError),
+    /// Where the files are to go.
+    #[error(transparent)]
+    Folder(#[from] Unwritable),
+    /// The files.
+    #[error("{}: {}", .path.display(), words(.source))]
+    Write { path: PathBuf, source: io::Error },
+}
+
+/// Computes a map and writes it.
+pub(crate) fn map(arguments: &MapArguments) -> Verdict {
+    answer(arguments).unwrap_or_else(|failure| {
+        complain(format_args!("{failure}"));
+        match failure {
+            MapFailure::Map(MapError::Interrupted) => Verdict::Interrupted,
+            MapFailure::Map(MapError::Nothing { .. }) => Verdict::Stopped,
+            MapFailure::Map(MapError::Study(error)) if !error.is_input() => match error {
+                StudyError::Interrupted => Verdict::Interrupted,
+                _ => Verdict::Stopped,
+            },
+            MapFailure::Map(_) | MapFailure::Folder(_) => Verdict::BadInput,
+            MapFailure::Figure(_) | MapFailure::Write { .. } => Verdict::Stopped,
+        }
+    })
+}
+
+fn answer(arguments: &MapArguments) -> Result<Verdict, MapFailure> {
+    let interrupt = Interrupt::install();
+    let MapArguments { file, set, x, y, of, .. } = arguments;
+    let job = Job::prepare(file, set, Path::new("")).map_err(MapError::from)?;
+    let asked = Asked {
+        x: x.clone(),
+        y: y.clone(),
+        logarithmic: [arguments.log_x, arguments.log_y],
+        of: of.clone(),
+        points: arguments.points,
+        by_runs: false,
+    };
+    let map = Map::new(job, (file, set), &asked)?;
+    let overlay = arguments.overlay.as_deref().map(|path| Overlay::load(path, &map)).transpose()?;
+    if !arguments.quiet {
+        warn(&map.job);
+    }
+    let name = &map.job.name;
+    let own = || Path::new("results").join(format!("{name}-map"));
+    let out = arguments.out.clone().unwrap_or_else(own);
+    // Before the first run.
+    let mut folder = place::ready(&out)?;
+    let progress = Progress::new(!arguments.quiet);
+    progress.tell(format_args!("{name}: map of {of}, {} points", map.cases()));
+    let bar = progress.budget(name, map.cases() as f64, &interrupt);
+    let cores = std::thread::available_parallelism().map_or(1, usize::from);
+    let field = map.compute(&out.join("parts"), arguments.threads.map_or(cores, usize::from), &bar)?;
+    drop(bar);
+    let pictures = picture::draw((&map, &field), overlay.as_ref(), &arguments.look.look())?;
+    folder.release();
+    let stale = picture::all_files();
+    // A command that was killed has left its drafts.
+    sweep(&out, &map::all_files().chain(stale.iter().cloned()).collect::<Vec<_>>());
+    let failed = |source| MapFailure::Write { path: out.clone(), source };
+    let names = map::write(folder, (&map, &field), &pictures, stale).map_err(failed)?;
+    if arguments.json {
+        say_json(&map::json(&map, &field));
+    } else if !arguments.quiet {
+        tell(&map, &field);
+        say(format_args!("{}: {}", out.display(), names.join(", ")));
+    }
+    Ok(Verdict::Done)
+}
+
+/// What stands out of a map.
+fn tell(map: &Map, field: &Field) {
+    let known = || field.values.iter().copied().filter(|value| value.is_finite());
+    match &field.words {
+        None => {
+            let (low, high) =
+                (known().fold(f64::INFINITY, f64::min), known().fold(f64::NEG_INFINITY, f64::max));
+            let shown = |value: f64| match map.unit {
+                // A prefix belongs to a unit.
+                "" => format!("{value:.4}"),
+                unit => quantity(Real(value), unit),
+            };
+            say(format_args!("{}: {} to {}", map.of, shown(low), shown(high)));
+        }
+        Some(words) => {
+            let count = |class: usize| known().filter(|value| *value == class as f64).count();
+            let counts = words.iter().enumerate().map(|(class, word)| (word, count(class)));
+            let counts =
+                counts.filter(|(_, count)| *count > 0).map(|(word, count)| format!("{word} {count}"));
+            say(format_args!("{}: points {}", map.of, counts.collect::<Vec<_>>().join(", ")));
+        }
+    }
+    for border in &field.borders {
+        let [lesser, greater] = border.between.map(map::Regime::word);
+        say(format_args!("border of {lesser} and {greater}: {} points", border.points.len()));
+    }
+    if map.is_of_regime() {
+        match field.runs {
+            0 => say(format_args!("no run was needed: waveforms prescribe the motion")),
+            runs => say(format_args!("{runs} runs")),
+        }
+    }
+    for (why, count) in &field.faults {
+        say(format_args!("{count} of {} points have no result: {why}", map.cases()));
+    }
+}

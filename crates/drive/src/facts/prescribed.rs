@@ -1,0 +1,192 @@
+//! Contacts whose path (u, d) waveforms alone prescribe: stick, partial and gross slip without a run.
+//!
+//! A spring at height h of the profile slips where its stretch reaches κ(d-h), κ = μE\*/G\*. The last spring to slip is that at h = 0. Its
+//! anchor p sticks for ever if max(u-κd) ≤ p ≤ min(u+κd) over a period; where no such p exists the whole contact slides once a period.
+
+use crate::contact::{Contact, Press};
+use crate::{Model, Piece, Waveform};
+use stickslip_stepper::{Bracket, Point, root};
+
+/// Most of the longest period that a common period is.
+const MULTIPLES: u32 = 1000;
+/// How far a multiple of a period may be from a common one, as a share of the period.
+const COMMENSURATE: f64 = 1e-9;
+/// Parts of the shortest quarter of a wave, and of a piece without waves, between which extremes are looked for.
+const PARTS: f64 = 16.0;
+/// Most pieces and parts of one period.
+const MOST_PARTS: usize = 1 << 16;
+/// Share of the largest u and κd by which a path may miss itself on its way back and still be one line.
+const SAME_LINE: f64 = 1e-9;
+
+/// The smallest time, s, after which waveforms of these periods, s, all begin again, to a billionth of each period; none without periods,
+/// or where it were more than a thousand of the longest.
+#[must_use]
+pub fn common_period(periods: &[f64]) -> Option<f64> {
+    let longest = periods.iter().copied().fold(0.0, f64::max);
+    let fits = |whole: f64| {
+        periods.iter().all(|period| (whole / period - (whole / period).round()).abs() <= COMMENSURATE)
+    };
+    (longest > 0.0)
+        .then(|| (1..=MULTIPLES).map(|n| f64::from(n) * longest).find(|whole| fits(*whole)))
+        .flatten()
+}
+
+/// The path of a contact over one period, prescribed by waveforms.
+#[derive(Debug)]
+pub struct Prescribed<'m> {
+    contact: &'m Contact,
+    waveforms: Vec<(usize, &'m Waveform)>,
+    /// Ends of smooth stretches of the period, s, ascending.
+    corners: Vec<f64>,
+}
+
+/// A moment of the path: u and d, m, and their rates, m/s. An open contact has d = 0.
+type Moment = [f64; 4];
+
+impl<'m> Prescribed<'m> {
+    /// The path of contact `c` of a model; none where a body moves freely, a block or a caller drives it, its springs are a row, or the
+    /// waveforms have no common period.
+    #[must_use]
+    pub fn of(model: &'m Model, c: usize) -> Option<Self> {
+        let contact = model.contacts.get(c)?;
+        if !contact.is_walked() || contact.engine.springs() > 0 {
+            return None;
+        }
+        let driven = contact.u.driven.iter().map(|(w, _)| *w);
+        let pressed = contact.coupling().into_iter().flat_map(|d| d.driven.iter().map(|(w, _)| *w));
+        let mut places: Vec<usize> = driven.chain(pressed).chain(contact.press.waveform()).collect();
+        places.sort_unstable();
+        places.dedup();
+        let waveforms: Vec<_> =
+            places.into_iter().map(|w| Some((w, model.waveforms.get(w)?))).collect::<Option<_>>()?;
+        let periods = waveforms.iter().map(|(_, waveform)| waveform.period()).collect::<Option<Vec<_>>>()?;
+        let period = if periods.is_empty() { 1.0 } else { common_period(&periods)? };
+        let window = |(_, waveform): &(usize, &Waveform)| waveform.window();
+        let started = waveforms.iter().map(|one| window(one).0).fold(0.0, f64::max);
+        let stopped = waveforms.iter().map(|one| window(one).1).fold(f64::INFINITY, f64::min);
+        let start = if stopped.is_finite() { stopped - period } else { started };
+        if start < started {
+            return None;
+        }
+        let corners = corners(&waveforms, [start, start + period])?;
+        Some(Self { contact, waveforms, corners })
+    }
+
+    /// max(u-κd) and min(u+κd) over the period, m: the contact slides as a whole where the first is above the second.
+    #[must_use]
+    pub fn gross(&self) -> [f64; 2] {
+        let slope = self.contact.interface.stick_slope();
+        let [low, high] = [-1.0, 1.0].map(|sign| {
+            // The largest of u-κd, and of -(u+κd).
+            self.largest(|[u, d, du, dd]| (-sign * u - slope * d, -sign * du - slope * dd))
+        });
+        [low, -high]
+    }
+
+    /// Largest indentation over the period, m; 0 of a contact that is never closed.
+    #[must_use]
+    pub fn deepest(&self) -> f64 {
+        self.largest(|[_, d, _, dd]| (d, dd))
+    }
+
+    /// By how much gross slip is reached: [max(u-κd) - min(u+κd)] as a share of the largest u and κd; at least 0 where the contact
+    /// slides as a whole.
+    #[must_use]
+    pub fn gross_margin(&self) -> f64 {
+        let [low, high] = self.gross();
+        let scale = self.contact.interface.stick_slope() * self.deepest() + low.abs().max(high.abs());
+        if scale > 0.0 { (low - high) / scale } else { 0.0 }
+    }
+
+    /// By how much slip is reached at all: the largest (|u̇|-κ|ḋ|)/(|u̇|+κ|ḋ|) of a path that returns on the line it came along, which
+    /// is below 0 where every spring sticks; 1 of a path that encloses an area.
+    #[must_use]
+    pub fn slip_margin(&self) -> f64 {
+        let slope = self.contact.interface.stick_slope();
+        let mut path = Vec::new();
+        let mut most = -1.0_f64;
+        self.each_stretch(|moments, _| {
+            path.extend(moments.iter().map(|(_, [u, d, ..])| (*d, *u)));
+            for (_, [_, d, du, dd]) in moments {
+                let (along, down) = (du.abs(), slope * dd.abs());
+                if *d > 0.0 && along + down > 0.0 {
+                    most = most.max((along - down) / (along + down));
+                }
+            }
+        });
+        path.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.total_cmp(&b.1)));
+        let largest = path.iter().fold(0.0, |most: f64, (d, u)| most.max(u.abs()).max(slope * d));
+        let steps = path.windows(2).map(|pair| (pair[1].0 - pair[0].0, (pair[1].1 - pair[0].1).abs()));
+        let opens = steps.into_iter().any(|(down, along)| along > slope * down + SAME_LINE * largest);
+        if opens && most < 0.0 { 1.0 } else { most }
+    }
+
+    fn moment(&self, pieces: &[Piece], t: f64) -> Moment {
+        let sample = |w: usize| {
+            let at = self.waveforms.iter().position(|(known, _)| *known == w);
+            at.map(|at| self.waveforms[at].1.sample(&pieces[at], t))
+        };
+        let value = |w: usize| sample(w).map_or(0.0, |sample| sample.value);
+        let rate = |w: usize| sample(w).map_or(0.0, |sample| sample.rate);
+        let none = |_: usize| 0.0;
+        let rate_of =
+            |measure: &crate::model::Measure| measure.driven.iter().map(|(w, a)| a * rate(*w)).sum::<f64>();
+        let (d, dd) = match &self.contact.press {
+            Press::Coupled(measure) => (measure.value(none, value), rate_of(measure)),
+            Press::Constant { d, .. } => (*d, 0.0),
+            Press::Force(w) | Press::Indentation(w) | Press::Radius(w) => {
+                sample(*w).map_or((0.0, 0.0), |sample| self.contact.pressed(sample, None))
+            }
+        };
+        let u = self.contact.u.value(none, value);
+        let (d, dd) = if d > 0.0 { (d, dd) } else { (0.0, 0.0) };
+        [u, d, rate_of(&self.contact.u), dd]
+    }
+
+    /// Hands over the moments of every smooth stretch in order, and what tells of any other moment of it.
+    fn each_stretch(&self, mut take: impl FnMut(&[(f64, Moment)], &dyn Fn(f64) -> Moment)) {
+        let wave =
+            self.waveforms.iter().map(|(_, waveform)| waveform.resolution()).fold(f64::INFINITY, f64::min);
+        for pair in self.corners.windows(2) {
+            let [from, to] = [pair[0], pair[1]];
+            let middle = from + 0.5 * (to - from);
+            let pieces: Vec<Piece> =
+                self.waveforms.iter().map(|(_, waveform)| waveform.piece_at(middle)).collect();
+            let parts = (PARTS * ((to - from) / wave).max(1.0)).ceil().min(MOST_PARTS as f64);
+            let at = |t: f64| self.moment(&pieces, t);
+            let times = (0..=parts as usize).map(|k| from + (to - from) * (k as f64 / parts));
+            let moments: Vec<(f64, Moment)> = times.map(|t| (t, at(t))).collect();
+            take(&moments, &at);
+        }
+    }
+
+    /// The largest value of a function of the path that is told with its rate.
+    fn largest(&self, of: impl Fn(Moment) -> (f64, f64)) -> f64 {
+        let mut largest = f64::NEG_INFINITY;
+        self.each_stretch(|moments, at| {
+            for pair in moments.windows(2) {
+                let [from, to] = [pair[0], pair[1]].map(|(t, moment)| (t, of(moment)));
+                largest = largest.max(from.1.0).max(to.1.0);
+                // It rises and falls again in between.
+                if from.1.1 > 0.0 && to.1.1 < 0.0 {
+                    let ends = [from, to].map(|(t, (_, rate))| Point { x: t, y: rate });
+                    let turn = root(|t| of(at(t)).1, Bracket { from: ends[0], to: ends[1] }, 0.0);
+                    largest = largest.max(of(at(turn)).0);
+                }
+            }
+        });
+        largest
+    }
+}
+
+/// The ends of all pieces of the waveforms in a span, and its own; none where there are too many.
+fn corners(waveforms: &[(usize, &Waveform)], [start, end]: [f64; 2]) -> Option<Vec<f64>> {
+    let mut all = vec![start, end];
+    for (_, waveform) in waveforms {
+        let pieces = waveform.pieces_from(start).take(MOST_PARTS);
+        all.extend(pieces.map(|piece| piece.end).take_while(|at| *at < end));
+    }
+    all.sort_by(f64::total_cmp);
+    all.dedup();
+    (all.len() <= MOST_PARTS).then_some(all)
+}

@@ -1,0 +1,131 @@
+//! The picture of a map: a result over two numbers, with measured points over it.
+
+use crate::look::{Look, Pen, Picture};
+use crate::pictures::FigureError;
+use stickslip_plot::{MapContent, ResultMap, map_figure};
+use stickslip_quantity::names::bare;
+use stickslip_run::provenance::{HASH, PROGRAM, SCENARIO, TITLE};
+use stickslip_study::map::{Axis, Field, Map, Overlay};
+
+/// Name of the picture.
+const NAME: &str = "map";
+/// Cells along either axis.
+const CELLS: [usize; 2] = [288, 192];
+
+/// Names of all files that any look gives to it.
+pub fn all_files() -> Vec<String> {
+    Look::all_files_of(&[NAME])
+}
+
+/// Draws it.
+///
+/// # Errors
+/// What cannot be drawn.
+pub fn draw(
+    (map, field): (&Map, &Field),
+    overlay: Option<&Overlay>,
+    look: &Look,
+) -> Result<Vec<Picture>, FigureError> {
+    let entries = [
+        (TITLE, map.job.title().to_owned()),
+        (PROGRAM, map.job.program.clone()),
+        ("Map", map.of.clone()),
+        (HASH, map.job.hash.clone()),
+        (SCENARIO, map.job.resolved.clone()),
+    ];
+    let provenance = entries.map(|(key, text)| (key.to_owned(), text)).to_vec();
+    let pen = Pen { look, provenance, kept: None };
+    let axis = |axis: &'_ Axis| (axis.path.clone(), axis.unit, axis.is_logarithmic);
+    let [x, y] = [&map.axes[0], &map.axes[1]].map(axis);
+    let content = match &field.words {
+        None => MapContent::Numbers {
+            name: (bare(&map.of), map.unit),
+            values: cells().map(|place| value(field, place)).collect(),
+            contours: &field.contours,
+        },
+        Some(words) => MapContent::Words {
+            words,
+            classes: cells().map(|place| class(map, field, place).unwrap_or(words.len()) as u8).collect(),
+            borders: field.borders.iter().map(|border| border.points.clone()).collect(),
+            names: names(map, field),
+        },
+    };
+    let places = [0, 1].map(|axis| map.axes[axis].values(CELLS[axis]));
+    let points = overlay.map_or(&[][..], |overlay| overlay.classes.as_slice());
+    let shown = ResultMap { axes: [(&x.0, x.1, x.2), (&y.0, y.1, y.2)], places, content, points };
+    let title = format!("{}: {}", map.job.title(), bare(&map.of));
+    pen.draw_as(NAME, map_figure(&title, shown)).map_err(|source| FigureError::Plot { plot: NAME, source })
+}
+
+/// Places of the cells in shares of the axes, column by column.
+fn cells() -> impl Iterator<Item = [f64; 2]> {
+    let share = |k: usize, axis: usize| k as f64 / (CELLS[axis] - 1) as f64;
+    (0..CELLS[0]).flat_map(move |i| (0..CELLS[1]).map(move |j| [share(i, 0), share(j, 1)]))
+}
+
+/// A number between those of the grid, bilinear; NaN beside a point without a result.
+fn value(field: &Field, place: [f64; 2]) -> f64 {
+    let counts = [field.xs.len(), field.ys.len()];
+    let along = [0, 1].map(|axis| place[axis] * (counts[axis] - 1) as f64);
+    let from = [0, 1].map(|axis| (along[axis] as usize).min(counts[axis] - 2));
+    let part = [0, 1].map(|axis| along[axis] - from[axis] as f64);
+    let node = |i: usize, j: usize| {
+        let weight = |step: usize, part: f64| if step == 0 { 1.0 - part } else { part };
+        let weight = weight(i, part[0]) * weight(j, part[1]);
+        // A point that does not count may have no result.
+        if weight == 0.0 { 0.0 } else { weight * field.values[(from[0] + i) * counts[1] + from[1] + j] }
+    };
+    node(0, 0) + node(0, 1) + node(1, 0) + node(1, 1)
+}
+
+/// The class at a place: that of the nearest point of the grid, and what lies beyond each border that is crossed from there.
+fn class(map: &Map, field: &Field, place: [f64; 2]) -> Option<usize> {
+    let counts = [field.xs.len(), field.ys.len()];
+    // Points on the rim may be what no area is, such as stick without an amplitude.
+    let inner = |axis: usize, k: usize| if counts[axis] > 2 { k.clamp(1, counts[axis] - 2) } else { k };
+    let nearest = [0, 1].map(|axis| inner(axis, (place[axis] * (counts[axis] - 1) as f64).round() as usize));
+    let found = *field.values.get(nearest[0] * counts[1] + nearest[1])?;
+    let node = [0, 1].map(|axis| nearest[axis] as f64 / (counts[axis] - 1) as f64);
+    let mut here = found.is_finite().then_some(found as usize)?;
+    for border in &field.borders {
+        let shares: Vec<[f64; 2]> =
+            border.points.iter().map(|point| [0, 1].map(|axis| map.axes[axis].share(point[axis]))).collect();
+        let crossings = shares.windows(2).filter(|pair| crosses([node, place], [pair[0], pair[1]])).count();
+        if crossings % 2 == 1 {
+            let [lesser, greater] = border.between.map(|regime| regime as usize);
+            here = if here == lesser { greater } else { lesser };
+        }
+    }
+    Some(here)
+}
+
+/// Whether two straight lines cross.
+fn crosses([a, b]: [[f64; 2]; 2], [c, d]: [[f64; 2]; 2]) -> bool {
+    let side = |p: [f64; 2], q: [f64; 2], r: [f64; 2]| {
+        (q[0] - p[0]) * (r[1] - p[1]) - (q[1] - p[1]) * (r[0] - p[0]) > 0.0
+    };
+    side(a, b, c) != side(a, b, d) && side(c, d, a) != side(c, d, b)
+}
+
+/// Places for the words: of each class the point of the grid that is farthest from all others and from the rim.
+fn names(map: &Map, field: &Field) -> Vec<([f64; 2], usize)> {
+    let counts = [field.xs.len(), field.ys.len()];
+    let node = |k: usize| {
+        [(k / counts[1]) as f64 / (counts[0] - 1) as f64, (k % counts[1]) as f64 / (counts[1] - 1) as f64]
+    };
+    let is = |k: usize, class: usize| field.values[k] == class as f64;
+    let distance = |a: [f64; 2], b: [f64; 2]| ((a[0] - b[0]).powi(2) + (a[1] - b[1]).powi(2)).sqrt();
+    let room = |k: usize, class: usize| {
+        let here = node(k);
+        let rim = [here[0], 1.0 - here[0], here[1], 1.0 - here[1]].into_iter().fold(1.0, f64::min);
+        let others = (0..field.values.len()).filter(|other| !is(*other, class));
+        others.map(|other| distance(here, node(other))).fold(2.0 * rim, f64::min)
+    };
+    let words = field.words.as_ref().map_or(0, Vec::len);
+    let best = |class: usize| {
+        let own = (0..field.values.len()).filter(|k| is(*k, class)).map(|k| (room(k, class), k));
+        own.max_by(|a, b| a.0.total_cmp(&b.0)).filter(|(room, _)| *room > 0.0)
+    };
+    let named = (0..words).filter_map(|class| Some((node(best(class)?.1), class)));
+    named.map(|(at, class)| ([0, 1].map(|axis| map.axes[axis].at(at[axis])), class)).collect()
+}

@@ -1,0 +1,200 @@
+//! A result over two numbers: a heat map with contours, or areas of a few classes with their borders.
+
+use crate::figure::{Arrangement, Figure};
+use crate::panel::{Axis, Mosaic, Note, Panel, Series};
+use crate::theme::{Dash, Ink, Style};
+use crate::{Label, scale::quantity};
+
+/// A result over two numbers.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ResultMap<'a> {
+    /// Horizontal and vertical axis: name, unit, and whether it is logarithmic.
+    pub axes: [(&'a str, &'a str, bool); 2],
+    /// Places of the columns and rows of cells, ascending.
+    pub places: [Vec<f64>; 2],
+    /// What the cells show.
+    pub content: MapContent<'a>,
+    /// Measured points by the names of their classes.
+    pub points: &'a [(String, Vec<[f64; 2]>)],
+}
+
+/// Lines through the frame.
+type Lines = Vec<Vec<[f64; 2]>>;
+
+/// What the cells of a map show.
+#[derive(Debug, Clone, PartialEq)]
+pub enum MapContent<'a> {
+    /// Numbers.
+    Numbers {
+        /// What they are, and their unit.
+        name: (&'a str, &'a str),
+        /// Column by column; NaN where there is none.
+        values: Vec<f64>,
+        /// Levels with their contours.
+        contours: &'a [(f64, Lines)],
+    },
+    /// Words.
+    Words {
+        /// The word of each class.
+        words: &'a [String],
+        /// The class of every cell, column by column; that after the last word where there is none.
+        classes: Vec<u8>,
+        /// Borders between areas.
+        borders: Lines,
+        /// Places in the middles of areas, with the class of each, where its word stands.
+        names: Vec<([f64; 2], usize)>,
+    },
+}
+
+/// Places in the palette of the first four classes: of regimes from open to gross slip.
+const INKS: [usize; 4] = [5, 0, 2, 1];
+/// Shades of a heat map.
+const SHADES: usize = 255;
+/// Width of the colour bar as a share of the map's.
+const BAR: f64 = 0.09;
+/// Widths of borders, contours and points, in widths of a curve.
+const BORDER: f64 = 1.3;
+const CONTOUR: f64 = 0.5;
+const POINT: f64 = 1.6;
+
+/// The map and, of numbers, a colour bar beside it.
+pub fn map_figure<'a>(title: &str, map: ResultMap<'a>) -> Figure<'a> {
+    let [x, y] = map.axes.map(|(name, unit, logarithmic)| Axis {
+        tight: true,
+        logarithmic,
+        ..Axis::new(Label::plain(name), unit)
+    });
+    let [xs, ys] = map.places;
+    let words = if let MapContent::Words { words, .. } = &map.content { *words } else { &[] };
+    let (cells, classes, series, notes, bar) = match map.content {
+        MapContent::Numbers { name, values, contours } => numbers(name, &values, contours),
+        MapContent::Words { words, classes, borders, names } => {
+            let (inks, notes) = areas(words, &classes, &names);
+            (classes, inks, curves(&borders, BORDER), notes, None)
+        }
+    };
+    let mosaic = Mosaic { xs: xs.into(), ys: ys.into(), cells: cells.into(), classes };
+    let series = series.into_iter().chain(dots(map.points, words)).collect();
+    let main = Panel { x, y, mosaic: Some(mosaic), series, notes, share: 1.0, ..Panel::default() };
+    Figure {
+        title: Label::plain(title),
+        panels: std::iter::once(main).chain(bar).collect(),
+        arrangement: Arrangement::Row,
+        ..Figure::default()
+    }
+}
+
+/// Cells, classes, lines, texts and a panel beside them.
+type Parts<'a> = (Vec<u8>, Vec<(Label, Ink)>, Vec<Series<'a>>, Vec<Note>, Option<Panel<'a>>);
+
+/// Of a heat map: shades of a ramp, contours with their levels, the colour bar.
+fn numbers<'a>((name, unit): (&str, &str), values: &[f64], contours: &[(f64, Lines)]) -> Parts<'a> {
+    let finite = || values.iter().copied().filter(|value| value.is_finite());
+    let (low, high) = (finite().fold(f64::INFINITY, f64::min), finite().fold(f64::NEG_INFINITY, f64::max));
+    let shade = |value: &f64| match (value - low) / (high - low) {
+        _ if value.is_nan() => SHADES as u8,
+        share if share.is_finite() => (share * (SHADES - 1) as f64).round() as u8,
+        _ => 0,
+    };
+    let ramp = || (0..SHADES).map(|shade| (Label::default(), Ink::Ramp(shade as u8)));
+    let none = values.iter().any(|value| value.is_nan()).then(|| (Label::plain("no result"), Ink::Muted));
+    let series = contours.iter().flat_map(|(_, lines)| curves(lines, CONTOUR)).collect();
+    let levels = contours.iter().filter_map(|(level, lines)| {
+        let longest = lines.iter().max_by_key(|line| line.len())?;
+        let at = longest.get(longest.len() / 2)?;
+        let text = quantity(*level, unit, 6);
+        Some(Note { lines: vec![Label::plain(&text)], about: [(at[0], at[1]); 2], on: None, ink: None })
+    });
+    let bar = (low < high).then(|| Panel {
+        x: Axis { unnumbered: true, tight: true, ..Axis::default() },
+        y: Axis { tight: true, ..Axis::new(Label::plain(name), unit) },
+        mosaic: Some(Mosaic {
+            xs: vec![0.0].into(),
+            ys: (0..SHADES)
+                .map(|shade| low + (high - low) * (shade as f64 / (SHADES - 1) as f64))
+                .collect::<Vec<_>>()
+                .into(),
+            cells: (0..SHADES).map(|shade| shade as u8).collect::<Vec<_>>().into(),
+            classes: ramp().collect(),
+        }),
+        share: BAR,
+        ..Panel::default()
+    });
+    (values.iter().map(shade).collect(), ramp().chain(none).collect(), series, levels.collect(), bar)
+}
+
+/// Of areas: a pale colour for each word, which stands in it; the legend names those that have no room for it, and none.
+fn areas(words: &[String], classes: &[u8], names: &[([f64; 2], usize)]) -> (Vec<(Label, Ink)>, Vec<Note>) {
+    let is_shown = |class: usize| classes.contains(&(class as u8));
+    let is_named = |class: usize| names.iter().any(|(_, named)| *named == class);
+    let legend = |class: usize, word: &str| {
+        if is_shown(class) && !is_named(class) { Label::plain(word) } else { Label::default() }
+    };
+    let mut inks: Vec<(Label, Ink)> =
+        words.iter().enumerate().map(|(class, word)| (legend(class, word), Ink::Pale(ink(class)))).collect();
+    inks.push((legend(words.len(), "no result"), Ink::Muted));
+    let note = |(at, class): &([f64; 2], usize)| Note {
+        lines: vec![Label::plain(words.get(*class).map_or("", String::as_str))],
+        about: [(at[0], at[1]); 2],
+        on: None,
+        ink: Some(Ink::Palette(ink(*class))),
+    };
+    (inks, names.iter().map(note).collect())
+}
+
+/// Place in the palette of a class.
+fn ink(class: usize) -> usize {
+    INKS.get(class).copied().unwrap_or(class)
+}
+
+/// Lines in the ink of texts.
+fn curves<'a>(lines: &[Vec<[f64; 2]>], width: f64) -> Vec<Series<'a>> {
+    let style = Style { ink: Some(Ink::Foreground), dash: Some(Dash::Solid), width };
+    let curve = |line: &Vec<[f64; 2]>| {
+        let along = |axis: usize| line.iter().map(|point| point[axis]).collect::<Vec<_>>();
+        Series { style, ..Series::new(Label::default(), along(0), along(1)) }
+    };
+    lines.iter().map(curve).collect()
+}
+
+/// Points as discs with a rim; those whose class is one of the words of the map in its colour.
+fn dots<'a>(classes: &[(String, Vec<[f64; 2]>)], words: &[String]) -> Vec<Series<'a>> {
+    let dot = |(place, (name, points)): (usize, &(String, Vec<[f64; 2]>))| {
+        // A gap after each point: no line joins them.
+        let along = |axis: usize| points.iter().flat_map(|point| [point[axis], f64::NAN]).collect::<Vec<_>>();
+        let disc = |label: &str, ink, width| Series {
+            style: Style { ink: Some(ink), dash: None, width },
+            marked: true,
+            ..Series::new(Label::plain(label), along(0), along(1))
+        };
+        let place = words.iter().position(|word| word == name).map_or(place, ink);
+        let name = if name.is_empty() { "measured".to_owned() } else { format!("measured: {name}") };
+        [disc("", Ink::Foreground, 1.5 * POINT), disc(&name, Ink::Palette(place), POINT)]
+    };
+    classes.iter().enumerate().flat_map(dot).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn maps_of_numbers_and_words_are_drawn_on_either_axis() {
+        let places = || [vec![0.1, 1.0, 10.0], vec![1.0, 2.0]];
+        let axes = [("load", "N", true), ("stroke", "m", false)];
+        let contours = [(2.0, vec![vec![[0.1, 1.5], [10.0, 1.5]]])];
+        let values = vec![0.0, 1.0, 2.0, 3.0, f64::NAN, 5.0];
+        let content = MapContent::Numbers { name: ("step", "m"), values, contours: &contours };
+        let points = [("gross".to_owned(), vec![[0.5, 1.2], [5.0, 1.8]])];
+        let figure = map_figure("Title", ResultMap { axes, places: places(), content, points: &points });
+        assert_eq!((figure.panels.len(), figure.panels[0].notes.len()), (2, 1));
+        assert!(crate::draw_png(&figure).is_ok() && crate::draw_svg(&figure).is_ok());
+        let words = ["partial", "gross"].map(str::to_owned);
+        let names = vec![([0.1, 1.0], 0), ([10.0, 2.0], 1)];
+        let (classes, borders) = (vec![0, 0, 1, 1, 1, 2], vec![vec![[0.3, 1.0], [0.3, 2.0]]]);
+        let content = MapContent::Words { words: &words, classes, borders, names };
+        let figure = map_figure("Title", ResultMap { axes, places: places(), content, points: &[] });
+        let svg = crate::draw_svg(&figure).unwrap();
+        assert!(["partial", "gross", "no result", "load"].iter().all(|word| svg.contains(word)));
+    }
+}

@@ -1,0 +1,194 @@
+//! Borders between regimes, traced: crossings of the edges of a coarse grid, and points between them until a line has enough.
+
+use super::regime::{Looks, Regime, Seen, Unseen};
+use super::squares::{self, Edge};
+use super::{Border, Field, Map, MapError, count};
+use crate::each::each;
+use stickslip_stepper::{Bracket, Point, narrow};
+
+/// Points that a border has at least: of paths that waveforms prescribe, and of runs.
+const POINTS: [usize; 2] = [40, 12];
+/// How near a point lies to its border, in shares of the axes: the same two.
+const NEAR: [f64; 2] = [1e-13, 8e-5];
+/// How far off a chord a border is looked for at first, as a share of the chord; half of it, and at last the whole.
+const ASIDE: [f64; 3] = [0.05, 0.25, 1.0];
+/// Rounds in which lines are given more points.
+const ROUNDS: usize = 8;
+
+/// A point of a border, in shares of the axes, and what lies on its sides.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Crossing {
+    place: [f64; 2],
+    between: [Regime; 2],
+}
+
+/// Two places, in shares of the axes, and what they have shown.
+type Ends = [([f64; 2], Seen); 2];
+
+/// The regimes of a grid and the borders between them.
+pub(super) fn trace(map: &Map, looks: &Looks<'_>, threads: usize) -> Result<Field, MapError> {
+    let [columns, rows] = map.points;
+    let share = |k: usize, count: usize| k as f64 / (count - 1) as f64;
+    let node = |i: usize, j: usize| [share(i, columns), share(j, rows)];
+    let sights = each(columns * rows, threads, |k| looks.look(node(k / rows, k % rows)));
+    let mut faults = Vec::new();
+    for sight in &sights {
+        match sight {
+            Err(Unseen::Interrupted) => return Err(MapError::Interrupted),
+            Err(Unseen::Failed(why)) => count(&mut faults, why.clone()),
+            Ok(_) => {}
+        }
+    }
+    let exact = usize::from(looks.runs() > 0);
+    let seen = |i: usize, j: usize| sights.get(i * rows + j).and_then(|sight| sight.as_ref().ok()).copied();
+    let mut borders = Vec::new();
+    for least in [Regime::Stick, Regime::Partial, Regime::Gross] {
+        let inside = |i: usize, j: usize| seen(i, j).map(|seen| seen.regime >= least);
+        for line in squares::lines(map.points, &inside) {
+            let ends = |&(i, j, way): &Edge| {
+                let (k, l) = if way == 0 { (i + 1, j) } else { (i, j + 1) };
+                Some([(node(i, j), seen(i, j)?), (node(k, l), seen(k, l)?)])
+            };
+            let line: Vec<Ends> = line.iter().filter_map(ends).collect();
+            if is_rim(looks, &line, (least, NEAR[exact])) {
+                continue;
+            }
+            for piece in crossings(looks, &line, (least, exact, threads))? {
+                let points = dense(looks, piece, (least, exact, threads))?;
+                borders.push(border(map, &points));
+            }
+        }
+    }
+    let values =
+        sights.iter().map(|sight| sight.as_ref().map_or(f64::NAN, |seen| f64::from(seen.regime as u8)));
+    let [xs, ys] = [0, 1].map(|axis| map.axes[axis].values(map.points[axis]));
+    let words = Regime::ALL.map(|regime| regime.word().to_owned()).to_vec();
+    faults.sort_by_key(|(_, count)| std::cmp::Reverse(*count));
+    Ok(Field {
+        xs,
+        ys,
+        values: values.collect(),
+        words: Some(words),
+        borders,
+        contours: Vec::new(),
+        runs: looks.runs(),
+        faults,
+    })
+}
+
+/// Where a regime is reached on the edges of a line, in pieces: where it is reached from more than one regime below, the border is that of
+/// a larger one.
+fn crossings(
+    looks: &Looks<'_>,
+    line: &[Ends],
+    (least, exact, threads): (Regime, usize, usize),
+) -> Result<Vec<Vec<Crossing>>, MapError> {
+    let found = each(line.len(), threads, |k| cross(looks, line[k], least, NEAR[exact]));
+    let found = found.into_iter().collect::<Result<Vec<_>, Unseen>>().map_err(|_| MapError::Interrupted)?;
+    let pieces = found.split(|crossing| crossing.between[1] != least).filter(|piece| piece.len() > 1);
+    Ok(pieces.map(<[Crossing]>::to_vec).collect())
+}
+
+/// Where a regime is reached between two places of which one has it.
+fn cross(looks: &Looks<'_>, [from, to]: Ends, least: Regime, near: f64) -> Result<Crossing, Unseen> {
+    let margin = |seen: &Seen| seen.margins[least as usize - 1];
+    let at = |part: f64| [0, 1].map(|axis| from.0[axis] + part * (to.0[axis] - from.0[axis]));
+    let length = distance(from.0, to.0);
+    // The regimes seen last on either side.
+    let mut between = [from.1, to.1].map(|seen| seen.regime);
+    between.sort_unstable();
+    let mut fault = None;
+    let value = |part: f64| match looks.look(at(part)) {
+        Ok(seen) => {
+            between[usize::from(seen.regime >= least)] = seen.regime;
+            margin(&seen)
+        }
+        Err(why) => {
+            fault = Some(why);
+            f64::NAN
+        }
+    };
+    let [start, end] = [(0.0, &from.1), (1.0, &to.1)].map(|(x, seen)| Point { x, y: margin(seen) });
+    let (left, right) = narrow(value, Bracket { from: start, to: end }, near / length.max(near));
+    match fault {
+        Some(Unseen::Interrupted) => Err(Unseen::Interrupted),
+        // The border of what can be computed.
+        _ => Ok(Crossing { place: at(0.5 * (left + right)), between }),
+    }
+}
+
+/// Distance of two places, in shares of the axes.
+fn distance(a: [f64; 2], b: [f64; 2]) -> f64 {
+    ((a[0] - b[0]).powi(2) + (a[1] - b[1]).powi(2)).sqrt()
+}
+
+/// The line with as many points as a border has: its longest chords get one in their middle.
+fn dense(
+    looks: &Looks<'_>,
+    mut line: Vec<Crossing>,
+    (least, exact, threads): (Regime, usize, usize),
+) -> Result<Vec<Crossing>, MapError> {
+    for _ in 0..ROUNDS {
+        let missing = POINTS[exact].saturating_sub(line.len());
+        let mut chords: Vec<usize> = (0..line.len() - 1).collect();
+        let length = |k: &usize| distance(line[*k].place, line[k + 1].place);
+        chords.sort_by(|a, b| length(b).total_cmp(&length(a)).then(a.cmp(b)));
+        chords.truncate(missing);
+        if chords.is_empty() {
+            break;
+        }
+        let found = each(chords.len(), threads, |k| {
+            let chord = chords[k];
+            let ends = [line[chord].place, line[chord + 1].place];
+            Ok((chord, beside(looks, ends, least, NEAR[exact])?))
+        });
+        let mut found =
+            found.into_iter().collect::<Result<Vec<_>, Unseen>>().map_err(|_| MapError::Interrupted)?;
+        found.sort_by_key(|(chord, _)| std::cmp::Reverse(*chord));
+        for (chord, crossing) in found {
+            line.splice(chord + 1..chord + 1, crossing);
+        }
+    }
+    Ok(line)
+}
+
+/// The point of a border on the perpendicular through the middle of a chord; none where it is not found nearby.
+fn beside(
+    looks: &Looks<'_>,
+    [a, b]: [[f64; 2]; 2],
+    least: Regime,
+    near: f64,
+) -> Result<Option<Crossing>, Unseen> {
+    let across = [a[1] - b[1], b[0] - a[0]];
+    let at = |part: f64| [0, 1].map(|axis| (0.5 * (a[axis] + b[axis]) + part * across[axis]).clamp(0.0, 1.0));
+    for aside in ASIDE {
+        let [from, to] = [at(-aside), at(aside)];
+        let (Ok(low), Ok(high)) = (looks.look(from), looks.look(to)) else { return Ok(None) };
+        if (low.regime >= least) != (high.regime >= least) {
+            let crossing = cross(looks, [(from, low), (to, high)], least, near)?;
+            return Ok(Some(crossing).filter(|crossing| crossing.between[1] == least));
+        }
+    }
+    Ok(None)
+}
+
+/// Whether a regime begins right at the rim of the map, as slip where an amplitude begins at 0: nothing is beyond that border.
+fn is_rim(looks: &Looks<'_>, line: &[Ends], (least, near): (Regime, f64)) -> bool {
+    let on = |axis: usize, end: f64| line.iter().all(|ends| ends.iter().any(|(place, _)| place[axis] == end));
+    let rims = [(0, 0.0), (0, 1.0), (1, 0.0), (1, 1.0)];
+    let Some((axis, end)) = rims.into_iter().find(|(axis, end)| on(*axis, *end)) else { return false };
+    line.iter().all(|ends| {
+        let (outer, inner) = if ends[0].0[axis] == end { (ends[0], ends[1]) } else { (ends[1], ends[0]) };
+        let mut place = outer.0;
+        place[axis] = (end - 10.0 * near).abs();
+        looks.look(place).is_ok_and(|seen| (seen.regime >= least) == (inner.1.regime >= least))
+    })
+}
+
+/// A line in SI, by what most of its points lie between.
+fn border(map: &Map, line: &[Crossing]) -> Border {
+    let frequency = |between: [Regime; 2]| line.iter().filter(|one| one.between == between).count();
+    let between = line.iter().map(|one| one.between).max_by_key(|between| frequency(*between));
+    let points = line.iter().map(|one| [0, 1].map(|axis| map.axes[axis].at(one.place[axis])));
+    Border { between: between.unwrap_or([Regime::Partial, Regime::Gross]), points: points.collect() }
+}
