@@ -19,6 +19,7 @@ mod info;
 mod info_tables;
 mod insides;
 mod library;
+mod map;
 mod measured_loops;
 mod new;
 mod optimise;

@@ -49,7 +49,7 @@ pub const TERMS: &[Term] = &[
     },
     Term {
         names: &["running-condition map", "fretting map", "fretting regime"],
-        text: "slip regimes over amplitude and load; each run gives one point: contacts.CONTACT.fretting.regime",
+        text: "slip regimes over amplitude and load: stickslip map fretting.json --of contacts.CONTACT.regime; each run gives one point, contacts.CONTACT.fretting.regime",
         page: "figures.md",
     },
     Term {

@@ -16,6 +16,9 @@ use stickslip_study::map::{self, Asked, Field, Map, MapError, Overlay};
 use stickslip_study::sweep::StudyError;
 use thiserror::Error;
 
+/// Most reasons that are printed.
+const REASONS: usize = 3;
+
 /// Why there is no map.
 #[derive(Debug, Error)]
 enum MapFailure {
@@ -126,7 +129,11 @@ fn tell(map: &Map, field: &Field) {
             runs => say(format_args!("{runs} runs")),
         }
     }
-    for (why, count) in &field.faults {
-        say(format_args!("{count} of {} points have no result: {why}", map.cases()));
+    let failed = field.values.iter().filter(|value| value.is_nan()).count();
+    if failed > 0 {
+        say(format_args!("{failed} of {} points have no result", map.cases()));
+    }
+    for (why, count) in field.faults.iter().take(REASONS) {
+        say(format_args!("  {count}: {why}"));
     }
 }

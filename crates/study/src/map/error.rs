@@ -56,6 +56,6 @@ pub enum MapError {
         why: String,
     },
     /// Somebody interrupted it.
-    #[error("interrupted: finished parts stay, and the same command continues")]
+    #[error("interrupted: finished runs of a grid stay, and the same command continues")]
     Interrupted,
 }

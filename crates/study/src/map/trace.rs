@@ -50,12 +50,10 @@ pub(super) fn trace(map: &Map, looks: &Looks<'_>, threads: usize) -> Result<Fiel
                 Some([(node(i, j), seen(i, j)?), (node(k, l), seen(k, l)?)])
             };
             let line: Vec<Ends> = line.iter().filter_map(ends).collect();
-            if is_rim(looks, &line, (least, NEAR[exact])) {
-                continue;
-            }
             for piece in crossings(looks, &line, (least, exact, threads))? {
+                let between = piece[0].between;
                 let points = dense(looks, piece, (least, exact, threads))?;
-                borders.push(border(map, &points));
+                borders.push(border(map, (between, &points)));
             }
         }
     }
@@ -76,17 +74,24 @@ pub(super) fn trace(map: &Map, looks: &Looks<'_>, threads: usize) -> Result<Fiel
     })
 }
 
-/// Where a regime is reached on the edges of a line, in pieces: where it is reached from more than one regime below, the border is that of
-/// a larger one.
+/// Where a regime is reached on the edges of a line, in pieces that have the same regimes on their sides. Where it is reached from more
+/// than one regime below, the border is that of a larger one; where it begins right at the rim of the map, there is none.
 fn crossings(
     looks: &Looks<'_>,
     line: &[Ends],
     (least, exact, threads): (Regime, usize, usize),
 ) -> Result<Vec<Vec<Crossing>>, MapError> {
-    let found = each(line.len(), threads, |k| cross(looks, line[k], least, NEAR[exact]));
+    let found = each(line.len(), threads, |k| match is_at_rim(looks, line[k], (least, NEAR[exact])) {
+        true => Ok(None),
+        false => cross(looks, line[k], least, NEAR[exact]).map(Some),
+    });
     let found = found.into_iter().collect::<Result<Vec<_>, Unseen>>().map_err(|_| MapError::Interrupted)?;
-    let pieces = found.split(|crossing| crossing.between[1] != least).filter(|piece| piece.len() > 1);
-    Ok(pieces.map(<[Crossing]>::to_vec).collect())
+    let found: Vec<_> = found.into_iter().map(|one| one.filter(|one| one.between[1] == least)).collect();
+    let pieces = found.chunk_by(|a, b| a.map(|a| a.between) == b.map(|b| b.between));
+    Ok(pieces
+        .map(|piece| piece.iter().copied().flatten().collect::<Vec<_>>())
+        .filter(|piece| piece.len() > 1)
+        .collect())
 }
 
 /// Where a regime is reached between two places of which one has it.
@@ -172,23 +177,21 @@ fn beside(
     Ok(None)
 }
 
-/// Whether a regime begins right at the rim of the map, as slip where an amplitude begins at 0: nothing is beyond that border.
-fn is_rim(looks: &Looks<'_>, line: &[Ends], (least, near): (Regime, f64)) -> bool {
-    let on = |axis: usize, end: f64| line.iter().all(|ends| ends.iter().any(|(place, _)| place[axis] == end));
-    let rims = [(0, 0.0), (0, 1.0), (1, 0.0), (1, 1.0)];
-    let Some((axis, end)) = rims.into_iter().find(|(axis, end)| on(*axis, *end)) else { return false };
-    line.iter().all(|ends| {
-        let (outer, inner) = if ends[0].0[axis] == end { (ends[0], ends[1]) } else { (ends[1], ends[0]) };
-        let mut place = outer.0;
-        place[axis] = (end - 10.0 * near).abs();
-        looks.look(place).is_ok_and(|seen| (seen.regime >= least) == (inner.1.regime >= least))
-    })
+/// Whether a regime begins right at an end that lies on the rim of the map, as slip where an amplitude begins at 0.
+fn is_at_rim(looks: &Looks<'_>, [a, b]: Ends, (least, near): (Regime, f64)) -> bool {
+    let axis = usize::from(a.0[0] == b.0[0]);
+    let Some((outer, inner)) =
+        [(a, b), (b, a)].into_iter().find(|(outer, _)| [0.0, 1.0].contains(&outer.0[axis]))
+    else {
+        return false;
+    };
+    let mut place = outer.0;
+    place[axis] = (place[axis] - 10.0 * near).abs();
+    looks.look(place).is_ok_and(|seen| (seen.regime >= least) == (inner.1.regime >= least))
 }
 
-/// A line in SI, by what most of its points lie between.
-fn border(map: &Map, line: &[Crossing]) -> Border {
-    let frequency = |between: [Regime; 2]| line.iter().filter(|one| one.between == between).count();
-    let between = line.iter().map(|one| one.between).max_by_key(|between| frequency(*between));
+/// A line in SI.
+fn border(map: &Map, (between, line): ([Regime; 2], &[Crossing])) -> Border {
     let points = line.iter().map(|one| [0, 1].map(|axis| map.axes[axis].at(one.place[axis])));
-    Border { between: between.unwrap_or([Regime::Partial, Regime::Gross]), points: points.collect() }
+    Border { between, points: points.collect() }
 }

@@ -134,6 +134,15 @@ fn in_phase_a_contact_sticks_as_a_whole_up_to_the_slope_of_the_limit() {
     let stick =
         found.borders.iter().find(|border| border.between == [Regime::Stick, Regime::Partial]).unwrap();
     assert!(stick.points.iter().all(|[press, amplitude]| (amplitude / (KAPPA * press) - 1.0).abs() < 1e-9));
+    // Beyond d₀ the contact opens, and what touches anew in too steep a path slides as a whole.
+    let wide = Asked { x: (asked.x.0.clone(), "0.1um..1.5um".to_owned()), ..asked.clone() };
+    let between: Vec<[Regime; 2]> =
+        field(&map(&scenario, &wide).unwrap()).borders.iter().map(|one| one.between).collect();
+    for wanted in
+        [[Regime::Stick, Regime::Partial], [Regime::Partial, Regime::Gross], [Regime::Stick, Regime::Gross]]
+    {
+        assert!(between.contains(&wanted), "{between:?}");
+    }
     // A little out of phase something slips.
     let scenario = ball(
         sine(4e-7, 0.01, 0.0),
