@@ -12,7 +12,7 @@ use stickslip_study::map::{Asked, Field, Map, MapError, Overlay, Regime};
 const KAPPA: f64 = 0.6 * (2.0 - 0.3) / (2.0 * (1.0 - 0.3));
 
 /// A ball shaken along x by one waveform and pressed by another.
-fn ball(shake: Value, normal: Value, press: Option<Value>) -> Value {
+fn ball(shake: &Value, normal: &Value, press: Option<Value>) -> Value {
     let mut waveforms = json!({ "shake": shake });
     if let Some(press) = press {
         waveforms["press"] = press;
@@ -61,7 +61,7 @@ const AMPLITUDE: &str = "waveforms.shake.sine.amplitude";
 
 #[test]
 fn the_border_of_a_ball_goes_with_the_force_to_two_thirds() {
-    let scenario = ball(sine(4e-7, 0.0, 0.0), json!({ "force": "10 N" }), None);
+    let scenario = ball(&sine(4e-7, 0.0, 0.0), &json!({ "force": "10 N" }), None);
     for by_runs in [false, true] {
         let asked = asked(("contacts.ball.normal.force", "0.5N..20N"), (AMPLITUDE, "0..1.5um"), by_runs);
         let map = map(&scenario, &asked).unwrap();
@@ -72,7 +72,6 @@ fn the_border_of_a_ball_goes_with_the_force_to_two_thirds() {
         let depth = |force: f64| (9.0 * force * force / (16.0 * modulus * modulus * 5e-3)).cbrt();
         let off = points.iter().map(|[force, amplitude]| (amplitude / (KAPPA * depth(*force)) - 1.0).abs());
         let off = off.fold(0.0, f64::max);
-        println!("ball by runs {by_runs}: {} points, {} runs, off by {off:.1e}", points.len(), found.runs);
         if by_runs {
             // In shares of the ranges.
             let near = |[force, amplitude]: &[f64; 2]| {
@@ -95,8 +94,8 @@ fn a_harmonic_press_and_shake_have_an_ellipse() {
     for phase in [0.0, 0.3, 0.25 * TAU, 2.0, 0.5 * TAU] {
         for profile in ["paraboloid", "cone"] {
             let mut scenario = ball(
-                sine(4e-7, phase, 0.0),
-                json!({ "indentation": { "follows": "press" } }),
+                &sine(4e-7, phase, 0.0),
+                &json!({ "indentation": { "follows": "press" } }),
                 Some(sine(1e-7, 0.0, d0)),
             );
             if profile == "cone" {
@@ -118,15 +117,14 @@ fn a_harmonic_press_and_shake_have_an_ellipse() {
             }
         }
     }
-    println!("ellipse: off by {worst:.1e}");
     assert!(worst < 1e-9, "{worst:e}");
 }
 
 #[test]
 fn in_phase_a_contact_sticks_as_a_whole_up_to_the_slope_of_the_limit() {
     let scenario = ball(
-        sine(4e-7, 0.0, 0.0),
-        json!({ "indentation": { "follows": "press" } }),
+        &sine(4e-7, 0.0, 0.0),
+        &json!({ "indentation": { "follows": "press" } }),
         Some(sine(1e-7, 0.0, 1e-6)),
     );
     let asked = asked(("waveforms.press.sine.amplitude", "0.1um..0.9um"), (AMPLITUDE, "0.01um..1um"), false);
@@ -145,8 +143,8 @@ fn in_phase_a_contact_sticks_as_a_whole_up_to_the_slope_of_the_limit() {
     }
     // A little out of phase something slips.
     let scenario = ball(
-        sine(4e-7, 0.01, 0.0),
-        json!({ "indentation": { "follows": "press" } }),
+        &sine(4e-7, 0.01, 0.0),
+        &json!({ "indentation": { "follows": "press" } }),
         Some(sine(1e-7, 0.0, 1e-6)),
     );
     let found = field(&map(&scenario, &asked).unwrap());
@@ -157,7 +155,7 @@ fn in_phase_a_contact_sticks_as_a_whole_up_to_the_slope_of_the_limit() {
 fn triangles() -> Value {
     let shake = json!({ "triangle": { "stroke": 8e-7, "period": 3.0, "phase": 0.7 } });
     let mut scenario =
-        ball(shake, json!("coupled"), Some(json!({ "triangle": { "stroke": 4e-7, "period": 2.0 } })));
+        ball(&shake, &json!("coupled"), Some(json!({ "triangle": { "stroke": 4e-7, "period": 2.0 } })));
     scenario["bodies"]["rig"] = json!({ "x": { "follows": "shake" }, "z": { "follows": "press" } });
     scenario["contacts"]["ball"]["gap"] = json!(-1e-6);
     scenario["run"]["duration"] = json!("12 s");
@@ -205,11 +203,6 @@ fn two_periods_of_a_press_on_three_of_a_shake_have_the_border_of_a_dense_evaluat
         let points = gross(&found);
         assert!(points.len() >= 12);
         let off = points.iter().map(|[press, stroke]| (stroke - border(*press)).abs()).fold(0.0, f64::max);
-        println!(
-            "triangles by runs {by_runs}: {} points, {} runs, off by {off:.1e} m",
-            points.len(),
-            found.runs
-        );
         let allowed = if by_runs { 1e-4 * 2.5e-6 * 1.5 } else { 1e-9 * 1e-6 };
         assert!(off < allowed && found.runs <= if by_runs { 109 } else { 0 }, "{off:e}, {} runs", found.runs);
     }
@@ -217,7 +210,7 @@ fn two_periods_of_a_press_on_three_of_a_shake_have_the_border_of_a_dense_evaluat
 
 #[test]
 fn a_grid_is_that_of_a_study_and_its_parts_are_kept() {
-    let scenario = ball(sine(4e-7, 0.0, 0.0), json!({ "force": "10 N" }), None);
+    let scenario = ball(&sine(4e-7, 0.0, 0.0), &json!({ "force": "10 N" }), None);
     let folder = tempfile::tempdir().unwrap();
     let file = folder.path().join("ball.json");
     fs::write(&file, scenario.to_string()).unwrap();
@@ -242,7 +235,7 @@ fn a_grid_is_that_of_a_study_and_its_parts_are_kept() {
 
 #[test]
 fn what_is_wrong_with_a_map_is_told() {
-    let scenario = ball(sine(4e-7, 0.0, 0.0), json!({ "force": "10 N" }), None);
+    let scenario = ball(&sine(4e-7, 0.0, 0.0), &json!({ "force": "10 N" }), None);
     let force = ("contacts.ball.normal.force", "1N..2N");
     let told = |asked: Asked| map(&scenario, &asked).err().unwrap().to_string();
     assert!(
