@@ -44,7 +44,6 @@ pub(crate) struct SectionForm {
     pub(crate) dwell: Option<Time>,
 }
 
-#[expect(clippy::trivially_copy_pass_by_ref, reason = "serde asks so")]
 pub(super) fn is_false(value: &bool) -> bool {
     !value
 }
@@ -133,7 +132,6 @@ pub(super) fn no_value() -> AnyQuantity {
     AnyQuantity { si: 0.0, kind: None }
 }
 
-#[expect(clippy::trivially_copy_pass_by_ref, reason = "serde asks so")]
 pub(super) fn is_no_value(value: &AnyQuantity) -> bool {
     value.si == 0.0
 }
