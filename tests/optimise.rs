@@ -142,7 +142,7 @@ fn bad_input_is_refused() {
     let other = folder.path().join("other.json");
     let text = fs::read_to_string(&file).unwrap();
     for (from, to, message) in [
-        ("slider.x_m", "slidr.x_m", "did you mean \"slider.x_m\"?"),
+        ("slider.x_m", "steady_motion.sped_m_s", "did you mean \"steady_motion.speed_m_s\"?"),
         ("[0.1,0.2]", "[0.2,0.1]", "must be below"),
         ("contacts.ball.friction", "contacts.bal.friction", "did you mean \"ball\"?"),
         ("\"maximise\"", "\"maximize\"", "maximise"),
