@@ -109,7 +109,12 @@ fn bad_input_is_refused() {
         (2, "did you mean \"contacts.ball.peak_fx_N\"?", [&x, &y, "contacts.ball.peak_fx_n"], &[]),
         (2, "line 2, column y: expected a number", [&x, &y, of], &overlay),
         (3, "no point of the map has the result", [&x, "contacts.ball.friction=-2..-1", of], &[]),
-        (3, "no point of the map has the result", [&x, &y, "steps.last_m"], &["--points", "2"]),
+        (
+            3,
+            "no point of the map has the result",
+            [&x, &y, "contacts.ball.normal.open_share"],
+            &["--points", "2"],
+        ),
     ];
     for (wanted, words, asked, more) in cases {
         let said = output(&file, &out, asked, more);

@@ -11,6 +11,8 @@ use stickslip_study::map::{Axis, Field, Map, Overlay};
 const NAME: &str = "map";
 /// Cells along either axis.
 const CELLS: [usize; 2] = [288, 192];
+/// Places along either axis at which the words of areas may stand.
+const SAMPLES: [usize; 2] = [30, 20];
 
 /// Names of all files that any look gives to it.
 pub fn all_files() -> Vec<String> {
@@ -107,25 +109,25 @@ fn crosses([a, b]: [[f64; 2]; 2], [c, d]: [[f64; 2]; 2]) -> bool {
     side(a, b, c) != side(a, b, d) && side(c, d, a) != side(c, d, b)
 }
 
-/// Places for the words: of each class the point of the grid that is farthest from all others and from the rim.
+/// Places for the words: of each class the sample that is farthest from all others and from the rim.
 fn names(map: &Map, field: &Field) -> Vec<([f64; 2], usize)> {
-    let counts = [field.xs.len(), field.ys.len()];
-    let node = |k: usize| {
-        [(k / counts[1]) as f64 / (counts[0] - 1) as f64, (k % counts[1]) as f64 / (counts[1] - 1) as f64]
+    let place = |k: usize| {
+        let [i, j] = [k / SAMPLES[1], k % SAMPLES[1]];
+        [(i as f64 + 0.5) / SAMPLES[0] as f64, (j as f64 + 0.5) / SAMPLES[1] as f64]
     };
-    let is = |k: usize, class: usize| field.values[k] == class as f64;
-    let distance = |a: [f64; 2], b: [f64; 2]| ((a[0] - b[0]).powi(2) + (a[1] - b[1]).powi(2)).sqrt();
-    let room = |k: usize, class: usize| {
-        let here = node(k);
+    let samples: Vec<_> =
+        (0..SAMPLES[0] * SAMPLES[1]).map(|k| (place(k), class(map, field, place(k)))).collect();
+    let room = |here: [f64; 2], own: usize| {
         let rim = [here[0], 1.0 - here[0], here[1], 1.0 - here[1]].into_iter().fold(1.0, f64::min);
-        let others = (0..field.values.len()).filter(|other| !is(*other, class));
-        others.map(|other| distance(here, node(other))).fold(2.0 * rim, f64::min)
+        let others = samples.iter().filter(|(_, class)| *class != Some(own));
+        let distance = |a: &[f64; 2]| ((a[0] - here[0]).powi(2) + (a[1] - here[1]).powi(2)).sqrt();
+        others.map(|(other, _)| distance(other)).fold(2.0 * rim, f64::min)
+    };
+    let best = |own: usize| {
+        let places = samples.iter().filter(|(_, class)| *class == Some(own)).map(|(place, _)| *place);
+        places.max_by(|a, b| room(*a, own).total_cmp(&room(*b, own)))
     };
     let words = field.words.as_ref().map_or(0, Vec::len);
-    let best = |class: usize| {
-        let own = (0..field.values.len()).filter(|k| is(*k, class)).map(|k| (room(k, class), k));
-        own.max_by(|a, b| a.0.total_cmp(&b.0)).filter(|(room, _)| *room > 0.0)
-    };
-    let named = (0..words).filter_map(|class| Some((node(best(class)?.1), class)));
+    let named = (0..words).filter_map(|class| Some((best(class)?, class)));
     named.map(|(at, class)| ([0, 1].map(|axis| map.axes[axis].at(at[axis])), class)).collect()
 }
