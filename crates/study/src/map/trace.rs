@@ -12,6 +12,9 @@ const POINTS: [usize; 2] = [40, 12];
 const NEAR: [f64; 2] = [1e-13, 8e-5];
 /// How far off a chord a border is looked for at first, as a share of the chord; half of it, and at last the whole.
 const ASIDE: [f64; 3] = [0.05, 0.25, 1.0];
+/// Shortest step beyond the end of a border, in shares of the axes, and most steps.
+const SHORTEST: f64 = 5e-4;
+const MOST_STEPS: usize = 40;
 /// Rounds in which lines are given more points.
 const ROUNDS: usize = 8;
 
@@ -52,6 +55,7 @@ pub(super) fn trace(map: &Map, looks: &Looks<'_>, threads: usize) -> Result<Fiel
             let line: Vec<Ends> = line.iter().filter_map(ends).collect();
             for piece in crossings(looks, &line, (least, exact, threads))? {
                 let between = piece[0].between;
+                let piece = if exact == 0 { extended(looks, piece, least)? } else { piece };
                 let points = dense(looks, piece, (least, exact, threads))?;
                 borders.push(border(map, (between, &points)));
             }
@@ -125,6 +129,42 @@ fn cross(looks: &Looks<'_>, [from, to]: Ends, least: Regime, near: f64) -> Resul
 /// Distance of two places, in shares of the axes.
 fn distance(a: [f64; 2], b: [f64; 2]) -> f64 {
     ((a[0] - b[0]).powi(2) + (a[1] - b[1]).powi(2)).sqrt()
+}
+
+/// The line continued at both ends beyond the last edges that it crosses, to the rim of the map or to where another border meets it: the
+/// next point lies beside the continued last chord, whose part is halved where there is none.
+fn extended(looks: &Looks<'_>, mut line: Vec<Crossing>, least: Regime) -> Result<Vec<Crossing>, MapError> {
+    if line[0].place == line[line.len() - 1].place {
+        return Ok(line);
+    }
+    for _ in 0..2 {
+        line.reverse();
+        let mut part = 1.0;
+        for _ in 0..MOST_STEPS {
+            let [before, last] = [line[line.len() - 2], line[line.len() - 1]];
+            let step = [0, 1].map(|axis| part * (last.place[axis] - before.place[axis]));
+            let reach = distance(step, [0.0; 2]);
+            let room = |axis: usize| match step[axis] {
+                step if step > 0.0 => (1.0 - last.place[axis]) / step,
+                step if step < 0.0 => -last.place[axis] / step,
+                _ => 1.0,
+            };
+            let within = room(0).min(room(1)).clamp(0.0, 1.0);
+            if reach * within < SHORTEST {
+                break;
+            }
+            let beyond = [0, 1].map(|axis| last.place[axis] + 2.0 * within * step[axis]);
+            let found =
+                beside(looks, [last.place, beyond], least, NEAR[0]).map_err(|_| MapError::Interrupted)?;
+            match found
+                .filter(|one| one.between == last.between && distance(one.place, last.place) < 2.0 * reach)
+            {
+                Some(next) => line.push(next),
+                _ => part *= 0.5,
+            }
+        }
+    }
+    Ok(line)
 }
 
 /// The line with as many points as a border has: its longest chords get one in their middle.
