@@ -42,7 +42,7 @@ fn an_optimum_is_found_told_and_written() {
     assert_eq!(code(&told), 0, "{}", stderr(&told));
     let text = stdout(&told);
     for said in
-        ["maximum of slider.x_m", "within 1 %", "contacts.ball.friction", "limit: ", "run it with --set "]
+        ["maximum of slider.x_m", "within 1 %", "contacts.ball.friction", "limit: ", "take it with --set "]
     {
         assert!(text.contains(said), "{said}\n{text}");
     }

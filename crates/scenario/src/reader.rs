@@ -18,6 +18,11 @@ fn unfit<T>(wanted: Wanted) -> Result<T, Misfit> {
     Err(Misfit::Unfit(wanted))
 }
 
+/// Whether that is what derived readers call a list of a fixed length.
+fn is_plain(called: &str) -> bool {
+    ["an array of length", "a tuple of size"].iter().any(|plain| called.starts_with(plain))
+}
+
 /// What a visitor calls what it wants.
 fn called<'de>(visitor: &impl Visitor<'de>) -> String {
     (visitor as &dyn Expected).to_string()
@@ -107,8 +112,12 @@ impl<'de> Deserializer<'de> for Reader<'de> {
         }
     }
 
-    fn deserialize_tuple<V: Visitor<'de>>(self, _: usize, visitor: V) -> Result<V::Value, Misfit> {
+    fn deserialize_tuple<V: Visitor<'de>>(self, length: usize, visitor: V) -> Result<V::Value, Misfit> {
         match self.0 {
+            // Derived readers of lists of a fixed length stop at their last entry; others say themselves what they want.
+            Value::Array(entries) if entries.len() > length && is_plain(&called(&visitor)) => {
+                Err(Misfit::Length { wanted: format!("{length} entries"), got: entries.len() })
+            }
             Value::Array(entries) => list(entries, visitor),
             _ => unfit(Wanted::Shape(called(&visitor))),
         }

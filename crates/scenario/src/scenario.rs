@@ -315,6 +315,10 @@ fn check_version(document: &Document) -> Result<(), Fault> {
     let Some(entries) = document.value.as_object() else {
         return Err(root.fault("a scenario is a JSON object { … }").mend(Mend::Nothing));
     };
+    if entries.contains_key("stickslip_study") && !entries.contains_key("stickslip") {
+        let fault = root.key("stickslip_study").fault("this is a study, not a scenario").on_key();
+        return Err(fault.help("`stickslip study run FILE` runs it").mend(Mend::Nothing));
+    }
     let at = root.key("stickslip");
     match entries.get("stickslip") {
         Some(version) if version.as_f64() == Some(VERSION as f64) => Ok(()),

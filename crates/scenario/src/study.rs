@@ -91,6 +91,12 @@ impl StudyFile {
         if let Some(fault) = faults.into_iter().next() {
             return Err(document.report(fault).into());
         }
+        let is_there = |name: &str| document.value.get(name).is_some();
+        if is_there("stickslip") && !is_there("stickslip_study") {
+            let help = "a study file names it: { \"stickslip_study\": 1, \"scenario\": \"drive.json\", … }; `stickslip schema study` has all keys";
+            let fault = Fault::new(key("stickslip"), "this is a scenario, not a study").on_key();
+            return Err(document.report(fault.help(help)).into());
+        }
         let found = |error| ScenarioError::from(document.report(refusal::fault(&document, &error)));
         let form: StudyForm = serde_path_to_error::deserialize(Reader(&document.value)).map_err(found)?;
         let at = |fault: Fault| ScenarioError::from(document.report(fault));
@@ -104,6 +110,10 @@ impl StudyFile {
         }
         if form.results.is_empty() && !form.is_of_optimum() {
             return Err(at(Fault::new(key("results"), "expected at least one result")));
+        }
+        if let Some(path) = form.set.names().find(|path| form.vary.names().any(|varied| varied == *path)) {
+            let place = KeyPath(vec![Step::Key("set".to_owned()), Step::Key(path.to_owned())]);
+            return Err(at(Fault::new(place, format!("{path} varies: it has no value of its own")).on_key()));
         }
         let (scenario, name) = form.subject((file, stem), base, &at)?;
         let vary: Result<Vec<_>, Fault> =

@@ -28,6 +28,8 @@ use stickslip_scenario::{Goal, ScenarioError, StudyFile};
 
 /// Factors of the period by which an optimum is judged: ± 1 %.
 const STRETCHES: [f64; 3] = [0.99, 1.0, 1.01];
+/// Most further searches from better points that the sections through the best one come upon.
+const ROUNDS: usize = 8;
 /// Evaluations of a local search, times the number of coordinates and one.
 const EVALUATIONS: usize = 40;
 
@@ -147,15 +149,27 @@ impl Optimum {
         let judge = |point: &[f64]| bench.judge(point);
         let locals = search::search(&self.space.present(&self.job), effort, &judge);
         bench.check()?;
-        let Some(locals) = locals else { return Err(StudyError::AllFailed(bench.journal().reason())) };
+        let Some(mut locals) = locals else { return Err(StudyError::AllFailed(bench.journal().reason())) };
         // The first of equal ones; there is one at least.
         let better = |best: Option<(Vec<f64>, f64)>, local: &Local| match best {
             Some(best) if best.1 >= local.to.1 => Some(best),
             _ => Some(local.to.clone()),
         };
-        let (point, _) = locals.iter().fold(None, better).unwrap_or_default();
-        let sections = flatness::sections(&self.space, &point, threads, &judge);
-        bench.check()?;
+        let (mut point, mut value) = locals.iter().fold(None, better).unwrap_or_default();
+        let mut rounds = 0;
+        let sections = loop {
+            let (sections, beside) = flatness::sections(&self.space, &point, threads, &judge);
+            bench.check()?;
+            // What lies beside the best point may be better: across a fold of the result no simplex gets.
+            let Some(found) = beside.filter(|found| found.1 > value && rounds < ROUNDS) else {
+                break sections;
+            };
+            let local = search::again((&found.0, found.1), self.evaluations(), &judge);
+            bench.check()?;
+            (point, value) = local.to.clone();
+            locals.push(local);
+            rounds += 1;
+        };
         let sections = sections.into_iter().map(|section| section.signed(self.sign())).collect();
         let values = bench.found(&point).unwrap_or_default();
         let journal = bench.journal();

@@ -60,7 +60,7 @@ pub(crate) enum StudyCommand {
     Merge(MergeStudyArguments),
     /// Find the maximum or minimum of a result over numbers or over the shape of a waveform
     ///
-    /// The study file has "maximise" or "minimise" and "over" or "waveform" instead of "vary" and "results". Local searches (COBYLA)
+    /// The study file has "maximise" or "minimise" and "over" or "waveform" instead of "vary" and "results". Local searches (Nelder-Mead)
     /// begin at several points. Each point is judged by the worst result at the period and at 0.99 and 1.01 times the period. The same
     /// command resumes an interrupted search. Writes optimum.json, optimum.png and, for a waveform, waveform.csv and waveform.json.
     /// Exit codes: 0 done; 2 bad input, or the folder holds another search; 3 all cases failed, or a file cannot be written;

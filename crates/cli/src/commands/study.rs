@@ -42,6 +42,7 @@ pub(crate) fn study(command: &StudyCommand) -> Verdict {
 
 fn check(arguments: &CheckStudyArguments) -> Result<Verdict, StudyError> {
     let study = Study::load(&arguments.place.file)?;
+    study.status(&folder(&arguments.place, &study))?;
     if !arguments.quiet {
         warn(&study.job);
         say(format_args!(
@@ -56,6 +57,7 @@ fn check(arguments: &CheckStudyArguments) -> Result<Verdict, StudyError> {
 
 fn plan(arguments: &PlanStudyArguments) -> Result<Verdict, StudyError> {
     let (study, interrupt) = (Study::load(&arguments.place.file)?, Interrupt::install());
+    study.status(&folder(&arguments.place, &study))?;
     let progress = Progress::new(!arguments.json);
     let forecast =
         study.forecast(threads(arguments.threads), &progress.count(&study.job.name, "", &interrupt))?;
@@ -145,7 +147,8 @@ fn status(arguments: &StatusStudyArguments) -> Result<Verdict, StudyError> {
         json(&json!({ "parts": parts, "of": of, "missing": missing, "damaged": damaged }));
         return Ok(Verdict::Done);
     }
-    say(format_args!("{}: {parts} of {of} parts", out.display()));
+    let none = if out.exists() { "" } else { ", there is no such folder yet" };
+    say(format_args!("{}: {parts} of {of} parts{none}", out.display()));
     for (what, parts) in [("missing", &missing), ("not whole, to be computed again", &damaged)] {
         if !parts.is_empty() {
             say(format_args!("{what}: {}", ranges(parts)));
@@ -205,15 +208,26 @@ fn tell(study: &Study, statistics: &Statistics) {
     let (words, numbers): (Vec<_>, Vec<_>) = all.partition(|(result, _)| study.codes(*result).is_some());
     if !numbers.is_empty() {
         let mut quantiles = table::plain([
-            "result", "cases", "mean", "least", "5 %", "25 %", "median", "75 %", "95 %", "largest",
+            "result",
+            "cases",
+            "mean",
+            "std. dev.",
+            "least",
+            "5 %",
+            "25 %",
+            "median",
+            "75 %",
+            "95 %",
+            "largest",
         ]);
         for (_, one) in numbers {
             let unit = names::unit(&one.result);
-            let cells = std::iter::once(&one.mean).chain(&one.quantiles).map(|value| shown(*value, unit));
+            let numbers = [one.mean, one.standard_deviation].into_iter().chain(one.quantiles);
+            let cells = numbers.map(|value| shown(value, unit));
             let head = [one.result.clone(), one.count.to_string()];
             quantiles.add_row(head.into_iter().chain(cells));
         }
-        table::to_the_right(&mut quantiles, 1..=9);
+        table::to_the_right(&mut quantiles, 1..=10);
         say(format_args!("{quantiles}"));
     }
     for (_, one) in words {

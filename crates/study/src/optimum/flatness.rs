@@ -66,19 +66,27 @@ pub(super) fn most(dimensions: usize) -> usize {
     2 * DISTANCES.len() * dimensions
 }
 
-/// The sections through a point.
-pub(super) fn sections(space: &Space, point: &[f64], threads: usize, judge: &Judge<'_>) -> Vec<Section> {
+/// The sections through a point, and the best point on them with its result; none where none has one.
+pub(super) fn sections(
+    space: &Space,
+    point: &[f64],
+    threads: usize,
+    judge: &Judge<'_>,
+) -> (Vec<Section>, Option<(Vec<f64>, f64)>) {
     let places: Vec<Vec<f64>> = point.iter().map(|share| places(*share)).collect();
     let all: Vec<(usize, f64)> = places
         .iter()
         .enumerate()
         .flat_map(|(i, places)| places.iter().map(move |place| (i, *place)))
         .collect();
-    let values = each(all.len(), threads, |k| {
+    let moved = |k: usize| {
         let mut moved = point.to_vec();
         moved[all[k].0] = all[k].1;
-        judge(&moved)
-    });
+        moved
+    };
+    let values = each(all.len(), threads, |k| judge(&moved(k)));
+    let known = (0..all.len()).filter(|k| !values[*k].is_nan());
+    let best = known.max_by(|a, b| values[*a].total_cmp(&values[*b])).map(|k| (moved(k), values[k]));
     let numbers = space.numbers();
     let section = |(i, name): (usize, String)| Section {
         name,
@@ -93,7 +101,7 @@ pub(super) fn sections(space: &Space, point: &[f64], threads: usize, judge: &Jud
         bounds: numbers.get(i).map_or([0.0, 1.0], |(.., range)| *range),
         at_bound: [point[i] <= 0.0, point[i] >= 1.0],
     };
-    space.names().into_iter().enumerate().map(section).collect()
+    (space.names().into_iter().enumerate().map(section).collect(), best)
 }
 
 /// Where a section is evaluated, in ascending order; a bound ends it.

@@ -26,6 +26,9 @@ const FLAT: f64 = 1e-4;
 /// Share of that spread by which a simplex must better the result for another one with its edges.
 const GAIN: f64 = 1e-7;
 
+/// Spread of the results where it is not known, as a share of the best.
+const LEAST_SPREAD: f64 = 0.1;
+
 /// What is known of a point: the higher, the better; NaN where it has no result.
 pub(crate) type Judge<'a> = dyn Fn(&[f64]) -> f64 + Sync + 'a;
 
@@ -64,6 +67,12 @@ pub(crate) fn search(present: &[f64], effort: Effort, judge: &Judge<'_>) -> Opti
     let scale = Scale { worst, spread: if best > middle { best - middle } else { 1.0 } };
     let local = |i: usize| local((&points[chosen[i]], values[chosen[i]]), effort.evaluations, (scale, judge));
     Some(each(chosen.len(), effort.threads, local))
+}
+
+/// One more local search, from a point that turned out to be better than where others have ended.
+pub(crate) fn again((point, value): (&[f64], f64), evaluations: usize, judge: &Judge<'_>) -> Local {
+    let spread = (LEAST_SPREAD * value.abs()).max(f64::MIN_POSITIVE);
+    local((point, value), evaluations, (Scale { worst: value - value.abs(), spread }, judge))
 }
 
 /// The present point and Sobol points.

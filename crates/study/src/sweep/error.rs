@@ -13,7 +13,7 @@ pub enum StudyError {
     #[error(transparent)]
     Scenario(#[from] ScenarioError),
     /// A folder with parts of something else.
-    #[error("{}: this part belongs to another study: {why}\n   help: choose another folder with --out, or remove its parts", .path.display())]
+    #[error("{}: this belongs to another study: {why}\n   help: choose another folder with --out, or remove what is in it", .path.display())]
     Foreign {
         /// The part.
         path: PathBuf,

@@ -42,8 +42,10 @@ pub struct Quantiles {
     pub count: u64,
     /// arithmetic mean
     pub mean: Real,
-    /// smallest value, the quantiles of 5, 25, 50, 75 and 95 %, and the largest value: order statistics, the value of rank
-    /// round(p (n - 1)) among n
+    /// standard deviation of the sample
+    pub standard_deviation: Real,
+    /// smallest value, the quantiles of 5, 25, 50, 75 and 95 %, and the largest value: linear between the values of the ranks next to
+    /// p (n - 1)
     pub quantiles: [Real; 7],
     /// how often each word occurs, of a result that is a word
     #[serde(skip_serializing_if = "Vec::is_empty")]
@@ -101,19 +103,23 @@ impl Study {
 
     fn quantiles(&self, folder: &Path, result: usize) -> Result<Quantiles, StudyError> {
         let wanted = &self.wanted[result];
-        let (mut count, mut sum) = (0_u64, Sum::default());
+        let (mut count, mut sum, mut squares) = (0_u64, Sum::default(), Sum::default());
         let mut words = vec![0_u64; wanted.codes.as_ref().map_or(0, Vec::len)];
-        let mut search = [Search::default(); PROBABILITIES.len()];
+        // For each probability the ranks on both sides of it.
+        let mut search = [Search::default(); 2 * PROBABILITIES.len()];
         // The digits of all wanted values are found one after the other, from the highest on: a histogram for each prefix.
         for reading in 0..if wanted.codes.is_some() { 1 } else { READINGS } {
             let mut prefixes: Vec<u64> = search.iter().map(|search| search.prefix).collect();
             prefixes.dedup();
+            let mean = sum.total() / count.max(1) as f64;
             let mut histograms = vec![vec![0_u64; 1 << BITS]; prefixes.len()];
             self.each_part(folder, |_, open| {
                 for value in open.result(self, result)?.into_iter().filter(|value| value.is_finite()) {
                     if reading == 0 {
                         (count, _) = (count + 1, sum.add(value));
                         words.get_mut(value as usize).into_iter().for_each(|word| *word += 1);
+                    } else if reading == 1 {
+                        squares.add((value - mean) * (value - mean));
                     }
                     let (prefix, digit) = split(ordered(value), reading);
                     if let Ok(place) = prefixes.binary_search(&prefix) {
@@ -122,22 +128,31 @@ impl Study {
                 }
                 Ok(())
             })?;
-            for (search, probability) in search.iter_mut().zip(PROBABILITIES) {
+            for (place, search) in search.iter_mut().enumerate() {
                 if reading == 0 {
-                    search.rank = (probability * count.saturating_sub(1) as f64).round() as u64;
+                    let rank = PROBABILITIES[place / 2] * count.saturating_sub(1) as f64;
+                    search.rank = if place % 2 == 0 { rank.floor() } else { rank.ceil() } as u64;
                 }
                 if let Ok(place) = prefixes.binary_search(&search.prefix) {
                     search.descend(&histograms[place]);
                 }
             }
         }
-        let found = |search: Search| Real(if count == 0 { f64::NAN } else { value(search.prefix) });
+        let found = |place: usize| {
+            let [low, high] = [2 * place, 2 * place + 1].map(|place| value(search[place].prefix));
+            let part = (PROBABILITIES[place] * count.saturating_sub(1) as f64).fract();
+            Real(if count == 0 { f64::NAN } else { low + (high - low) * part })
+        };
+        let is_number = wanted.codes.is_none() && count > 0;
+        let deviation =
+            if is_number && count > 1 { (squares.total() / (count - 1) as f64).sqrt() } else { f64::NAN };
         let names = wanted.codes.iter().flatten().cloned().zip(words).filter(|(_, count)| *count > 0);
         Ok(Quantiles {
             result: wanted.name.clone(),
             count,
-            mean: Real(if wanted.codes.is_some() { f64::NAN } else { sum.total() / count as f64 }),
-            quantiles: if wanted.codes.is_some() { [Real(f64::NAN); 7] } else { search.map(found) },
+            mean: Real(if is_number { sum.total() / count as f64 } else { f64::NAN }),
+            standard_deviation: Real(deviation),
+            quantiles: if is_number { std::array::from_fn(found) } else { [Real(f64::NAN); 7] },
             words: names.collect(),
         })
     }

@@ -396,6 +396,11 @@ fn what_is_wrong_with_a_study_is_said_with_its_place() {
         ),
         (vary("bodies.slider.mass", json!({ "uniform": ["1 N", "2 N"] })), "N is the unit of a force"),
         (vary("contacts.ball.count", uniform.clone()), "counts whole things"),
+        (
+            vary("contacts.ball.friction", json!({ "uniform": [0.1, 0.2, 0.3] })),
+            "expected 2 entries, got 3 entries",
+        ),
+        (vary("run.cycles", json!({ "list": [3] })), "run.cycles varies"),
         (wrong("vary", json!({})), "no number varies"),
         (wrong("results", json!([])), "at least one result"),
         (wrong("results", json!(["slider.x", "slider.x"])), "named twice"),

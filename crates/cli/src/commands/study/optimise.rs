@@ -94,6 +94,9 @@ fn write(
     Ok(files.into_iter().map(|(name, _)| name).collect())
 }
 
+/// Share of the optimum by which local searches may differ before that is told.
+const DISAGREE: f64 = 0.01;
+
 fn tell(report: &Report) {
     let unit = names::unit(&report.result);
     let Report { goal, result, best, .. } = report;
@@ -126,5 +129,17 @@ fn tell(report: &Report) {
     let numbers = best.set.len() - usize::from(report.waveform.is_some());
     let mut set: Vec<String> = best.set.iter().take(numbers).map(|set| format!("--set {set}")).collect();
     set.extend(report.waveform.as_ref().map(|_| format!("the waveform of {WAVEFORM}")));
-    say(format_args!("run it with {}", set.join(" ")));
+    say(format_args!("`stickslip steady` and `run` take it with {}", set.join(" ")));
+    let (low, high) = (fold(report, f64::min), fold(report, f64::max));
+    if high - low > DISAGREE * high.abs().max(low.abs()) {
+        say(format_args!(
+            "the local searches disagree by {:.0} %: more \"starts\" may find a better optimum",
+            100.0 * (high - low) / high.abs().max(low.abs())
+        ));
+    }
+}
+
+/// The least or the largest of what local searches have ended at.
+fn fold(report: &Report, of: impl Fn(f64, f64) -> f64) -> f64 {
+    report.starts.iter().map(|start| start.to.0).reduce(of).unwrap_or(f64::NAN)
 }
