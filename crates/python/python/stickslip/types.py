@@ -478,6 +478,8 @@ class Harmonics(TypedDict):
 
     terms: list["Harmonic"]
     """Sine terms of the sum, at least one; at most 1000 in all waveforms together."""
+    offset: NotRequired["Quantity"]
+    """Mean value, in the unit of the driven quantity; 0 by default."""
     period: NotRequired["Time"]
     """Period, s, above 0; give either this or `frequency`; typical 1 us to 1 s."""
     frequency: NotRequired["Frequency"]
