@@ -15,6 +15,7 @@ pub(crate) mod run;
 pub(crate) mod sensitivity;
 pub(crate) mod steady;
 pub(crate) mod study;
+mod threads;
 
 use crate::commands::{new, schema};
 use clap::builder::PossibleValuesParser;

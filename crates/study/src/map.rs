@@ -35,6 +35,9 @@ const PROBE: [f64; 2] = [0.37, 0.61];
 /// Contours of a map, about.
 const CONTOURS: f64 = 7.0;
 
+/// Digits of a study's hash that name the folder of its parts.
+const HASH: usize = 12;
+
 /// A map that is asked for.
 pub struct Map {
     /// The scenario.
@@ -171,7 +174,8 @@ impl Map {
         watcher: &(dyn Watcher + Sync),
     ) -> Result<Field, MapError> {
         let field = match &self.kind {
-            Kind::Result(study) => self.grid(study, parts, (threads, watcher))?,
+            // Maps of other results or ranges have parts of their own.
+            Kind::Result(study) => self.grid(study, &parts.join(&study.hash[..HASH]), (threads, watcher))?,
             Kind::Regime(c, by_runs) => {
                 trace::trace(self, &Looks::new(self, *c, *by_runs, watcher), threads)?
             }
@@ -248,8 +252,17 @@ fn study(
         format!("{}:{}", json!(axis.path), json!({ kind: [axis.range[0], axis.range[1], count] }))
     });
     let vary = vary.collect::<Vec<_>>().join(",");
-    // In the order in which they were given: a later value may belong to what an earlier one has set.
-    let set = set.iter().map(|(path, value)| format!("{}:{}", json!(path), json!(value)));
+    // In the order in which they were given: a later value may belong to what an earlier one has set. The last of a path counts, and none
+    // of what varies.
+    let counts = |(place, (path, _)): &(usize, &(String, String))| {
+        set[place + 1..].iter().all(|(later, _)| later != path) && axes.iter().all(|axis| axis.path != *path)
+    };
+    let set = set
+        .iter()
+        .enumerate()
+        .filter(counts)
+        .map(|(_, one)| one)
+        .map(|(path, value)| format!("{}:{}", json!(path), json!(value)));
     let text = format!(
         "{{\"stickslip_study\":1,\"scenario\":{},\"set\":{{{}}},\"vary\":{{{vary}}},\"results\":[{}],\"chunk\":{}}}",
         json!(file),

@@ -150,6 +150,11 @@ impl Number {
     }
 }
 
+/// A number as an override of the scenario has it: as short as it can be, and read back to the same bits.
+pub(crate) fn text(value: f64) -> String {
+    format!("{value:?}").trim_end_matches(".0").to_owned()
+}
+
 fn constant(value: Varying) -> Option<f64> {
     match value {
         Varying::Constant(value) => Some(value),

@@ -41,6 +41,9 @@ use stickslip_run::{Job, program};
 use stickslip_scenario::{ScenarioError, StudyFile};
 use wanted::Wanted;
 
+/// Most parts of a study: files of one folder.
+const MOST_PARTS: u64 = 1 << 22;
+
 /// A study, read and checked.
 pub struct Study {
     /// The scenario that is run.
@@ -78,6 +81,12 @@ impl Study {
         }
         let job = Job::new(file.scenario.clone(), file.name.clone(), PathBuf::new())?;
         let design = Design::new(&file)?;
+        if design.cases.div_ceil(file.chunk) > MOST_PARTS {
+            let message = format!("{} cases make more than {MOST_PARTS} parts", design.cases);
+            let help = "raise \"chunk\", the number of cases in a part".to_owned();
+            let key = if design.spreads > 0 { "cases" } else { "vary" };
+            return Err(file.refusal(key, None, &message, Some(help)));
+        }
         let wanted = file
             .results
             .iter()
@@ -144,6 +153,7 @@ impl Study {
     /// # Errors
     /// Parts that are missing or cannot be read.
     pub fn column(&self, folder: &Path, result: usize) -> Result<Vec<f64>, StudyError> {
+        self.check_complete(folder)?;
         let mut all = Vec::new();
         self.each_part(folder, |_, open| {
             all.extend(open.result(self, result)?);
@@ -157,6 +167,7 @@ impl Study {
     /// # Errors
     /// Parts that are missing or cannot be read.
     pub fn errors(&self, folder: &Path) -> Result<Vec<Option<String>>, StudyError> {
+        self.check_complete(folder)?;
         let mut all = Vec::new();
         self.each_part(folder, |_, open| {
             all.extend(open.errors(self)?);

@@ -1,6 +1,6 @@
 //! The command line of the curves of a machine.
 
-use crate::arguments::{assignment, course, look::LookArguments};
+use crate::arguments::{assignment, course, look::LookArguments, threads::Threads};
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{ArgGroup, Args};
 use std::path::PathBuf;
@@ -75,9 +75,8 @@ pub(crate) struct CurveArguments {
     /// Set a value of the scenario for all points, such as contacts.ball.friction=0.3
     #[arg(long, value_name = "PATH=VALUE", value_parser = assignment)]
     pub(crate) set: Vec<(String, String)>,
-    /// Number of threads that compute points in parallel [default: number of processor cores]
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
-    pub(crate) threads: Option<u16>,
+    #[command(flatten)]
+    pub(crate) threads: Threads,
     /// Folder for the output files [default: results/NAME-CURVE]
     #[arg(long, value_name = "DIR")]
     pub(crate) out: Option<PathBuf>,

@@ -1,6 +1,7 @@
 //! The command line of maps.
 
 use super::look::LookArguments;
+use super::threads::Threads;
 use super::{assignment, course};
 use clap::Args;
 use std::path::PathBuf;
@@ -17,9 +18,9 @@ regimes are traced: each point of a border is computed by itself and does not de
 the contact, no run is needed: gross slip begins where the maximum of u-κd equals the minimum of u+κd over a period, with κ = μE*/G*. \
 Otherwise, regimes are taken from runs, and borders are exact to 1e-4 of the ranges.
 
-Writes map.csv (x, y, result), map.json with the borders, and the plot map.png. Runs of a grid are kept in the folder DIR/parts; after an \
-interruption, the same command computes what is missing. Exit codes: 0 done; 2 bad input; 3 no point has a result, or a file cannot \
-be written; 130 interrupted.";
+Writes map.csv (x, y, result), map.json with the borders, and the plot map.png. Runs of a grid are kept in DIR/parts, in a folder of \
+their own for each map; after an interruption, the same command computes what is missing. Exit codes: 0 done; 2 bad input; 3 no point \
+has a result, or a file cannot be written; 130 interrupted.";
 
 pub(crate) const EXAMPLES: &str = "\
 Examples:
@@ -56,9 +57,8 @@ pub(crate) struct MapArguments {
     /// Set a value of the scenario, such as contacts.ball.friction=0.3
     #[arg(long, value_name = "PATH=VALUE", value_parser = assignment)]
     pub(crate) set: Vec<(String, String)>,
-    /// Number of cases run in parallel [default: number of processor cores]
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
-    pub(crate) threads: Option<u16>,
+    #[command(flatten)]
+    pub(crate) threads: Threads,
     /// Folder for the output files [default: results/NAME-map]
     #[arg(long, value_name = "DIR")]
     pub(crate) out: Option<PathBuf>,

@@ -1,6 +1,7 @@
 //! The command line of derivatives.
 
 use super::look::LookArguments;
+use super::threads::Threads;
 use super::{assignment, shooting};
 use clap::Args;
 use std::path::PathBuf;
@@ -55,9 +56,8 @@ pub(crate) struct SensitivityArguments {
     /// Local error per time step, relative to the natural scales of the contacts, 1e-13 to 1e-6; replaces the tolerance of the scenario
     #[arg(long, value_name = "SHARE", default_value = "1e-12", value_parser = shooting)]
     pub(crate) tolerance: f64,
-    /// Number of runs computed in parallel [default: number of processor cores]
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
-    pub(crate) threads: Option<u16>,
+    #[command(flatten)]
+    pub(crate) threads: Threads,
     /// Folder for the output files [default: results/NAME-sensitivity]
     #[arg(long, value_name = "DIR")]
     pub(crate) out: Option<PathBuf>,

@@ -1,6 +1,7 @@
 //! The command line of studies.
 
 use super::look::LookArguments;
+use super::threads::Threads;
 use clap::{Args, Subcommand};
 use std::path::PathBuf;
 
@@ -82,9 +83,8 @@ pub(crate) struct OptimiseStudyArguments {
     /// Folder of the results [default: results/NAME-optimum]
     #[arg(long, value_name = "DIR")]
     pub(crate) out: Option<PathBuf>,
-    /// Number of cases run in parallel [default: number of processor cores]
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
-    pub(crate) threads: Option<u16>,
+    #[command(flatten)]
+    pub(crate) threads: Threads,
     /// Begin anew instead of resuming an interrupted search
     #[arg(long)]
     pub(crate) fresh: bool,
@@ -128,9 +128,8 @@ pub(crate) struct CheckStudyArguments {
 pub(crate) struct PlanStudyArguments {
     #[command(flatten)]
     pub(crate) place: PlaceArguments,
-    /// Number of cases run in parallel [default: number of processor cores]
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
-    pub(crate) threads: Option<u16>,
+    #[command(flatten)]
+    pub(crate) threads: Threads,
     /// Print one line of JSON
     #[arg(long)]
     pub(crate) json: bool,
@@ -140,9 +139,8 @@ pub(crate) struct PlanStudyArguments {
 pub(crate) struct RunStudyArguments {
     #[command(flatten)]
     pub(crate) place: PlaceArguments,
-    /// Number of cases run in parallel [default: number of processor cores]
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
-    pub(crate) threads: Option<u16>,
+    #[command(flatten)]
+    pub(crate) threads: Threads,
     /// Compute every n-th part only, beginning with part i, i from 1 to n; auto reads both from the environment of an array job
     #[arg(long, value_name = "i/n|auto")]
     pub(crate) shard: Option<String>,
@@ -179,9 +177,8 @@ pub(crate) struct MergeStudyArguments {
 pub(crate) struct IndicesStudyArguments {
     #[command(flatten)]
     pub(crate) place: PlaceArguments,
-    /// Number of cases run in parallel [default: number of processor cores]
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
-    pub(crate) threads: Option<u16>,
+    #[command(flatten)]
+    pub(crate) threads: Threads,
     /// Print one line of JSON instead of a table
     #[arg(long)]
     pub(crate) json: bool,

@@ -164,10 +164,10 @@ fn followed(
 ) -> Result<Traced, CurveFailure> {
     let sense = curve.sense.map_or(String::new(), |sense| format!(" {}", sense.name()));
     let bar = progress.budget(&format!("{}{sense}", curve.kind.name()), values.len() as f64, interrupt);
-    let mut traced = curve.trace(values, cores(arguments), &bar);
+    let mut traced = curve.trace(values, arguments.threads.count(), &bar);
     drop(bar);
     let bar = progress.budget(&format!("stall, S\u{2080} and best points{sense}"), 1.0, interrupt);
-    curve.mark(&mut traced, arguments.tolerance, cores(arguments), &bar)?;
+    curve.mark(&mut traced, arguments.tolerance, arguments.threads.count(), &bar)?;
     Ok(traced)
 }
 
@@ -227,12 +227,6 @@ fn place(arguments: &CurveArguments, job: &Job, curve: &str) -> Result<(PathBuf,
     let out = arguments.out.clone().unwrap_or_else(own);
     let folder = console::place::ready(&out)?;
     Ok((out, folder))
-}
-
-/// Points at a time.
-fn cores(arguments: &CurveArguments) -> usize {
-    let all = || std::thread::available_parallelism().map_or(1, usize::from);
-    arguments.threads.map_or_else(all, usize::from)
 }
 
 fn write(

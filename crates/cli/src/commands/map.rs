@@ -78,8 +78,7 @@ fn answer(arguments: &MapArguments) -> Result<Verdict, MapFailure> {
     let progress = Progress::new(!arguments.quiet);
     progress.tell(format_args!("{name}: map of {of}, {} points", map.cases()));
     let bar = progress.budget(name, map.cases() as f64, &interrupt);
-    let cores = std::thread::available_parallelism().map_or(1, usize::from);
-    let field = map.compute(&out.join("parts"), arguments.threads.map_or(cores, usize::from), &bar)?;
+    let field = map.compute(&out.join("parts"), arguments.threads.count(), &bar)?;
     drop(bar);
     let pictures = picture::draw((&map, &field), overlay.as_ref(), &arguments.look.look())?;
     folder.release();

@@ -72,8 +72,7 @@ fn answer(arguments: &SensitivityArguments) -> Result<Verdict, SensitivityFailur
     let progress = Progress::new(!arguments.quiet);
     progress.tell(format_args!("{name}: derivatives, {runs} runs"));
     let bar = progress.budget(name, runs as f64, &interrupt);
-    let cores = std::thread::available_parallelism().map_or(1, usize::from);
-    let taken = asked.take(arguments.threads.map_or(cores, usize::from), &bar);
+    let taken = asked.take(arguments.threads.count(), &bar);
     drop(bar);
     let all = asked.figures.len() * asked.quantities.len();
     progress.tell(format_args!("{name}: {} of {all} derivatives are known", all - taken.faults()));

@@ -60,7 +60,7 @@ fn plan(arguments: &PlanStudyArguments) -> Result<Verdict, StudyError> {
     study.status(&folder(&arguments.place, &study))?;
     let progress = Progress::new(!arguments.json);
     let forecast =
-        study.forecast(threads(arguments.threads), &progress.count(&study.job.name, "", &interrupt))?;
+        study.forecast(arguments.threads.count(), &progress.count(&study.job.name, "", &interrupt))?;
     if arguments.json {
         json(&forecast);
         return Ok(Verdict::Done);
@@ -95,7 +95,7 @@ fn run(arguments: &RunStudyArguments) -> Result<Verdict, StudyError> {
     if arguments.fresh {
         study.remove(&out)?;
     }
-    let Some(ran) = compute(&study, &out, (shard, threads(arguments.threads)), (!quiet, &interrupt))? else {
+    let Some(ran) = compute(&study, &out, (shard, arguments.threads.count()), (!quiet, &interrupt))? else {
         return Err(StudyError::Interrupted);
     };
     let status = study.status(&out)?;
@@ -169,7 +169,7 @@ fn indices(arguments: &IndicesStudyArguments) -> Result<Verdict, StudyError> {
     let out = folder(&arguments.place, &asked);
     asked.status(&out)?;
     let (study, out) = asked.for_indices(&out)?;
-    let threads = threads(arguments.threads);
+    let threads = arguments.threads.count();
     if compute(&study, &out, (Shard::WHOLE, threads), (!arguments.quiet, &interrupt))?.is_none() {
         return Err(StudyError::Interrupted);
     }
@@ -181,11 +181,6 @@ fn indices(arguments: &IndicesStudyArguments) -> Result<Verdict, StudyError> {
         say(format_args!("{}: {} cases", out.display(), study.cases()));
     }
     Ok(Verdict::Done)
-}
-
-fn threads(asked: Option<u16>) -> usize {
-    let cores = std::thread::available_parallelism().map_or(1, usize::from);
-    asked.map_or(cores, usize::from)
 }
 
 /// Prints a line of JSON.

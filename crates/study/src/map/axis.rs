@@ -2,6 +2,7 @@
 
 use super::MapError;
 use crate::curve::Range;
+use crate::number::text;
 use stickslip_run::Job;
 
 /// A number and its range.
@@ -75,7 +76,6 @@ impl Axis {
 
     /// A value as an override of the scenario.
     pub(super) fn set(&self, value: f64) -> (String, String) {
-        // As short as it can be, and read back to the same bits.
-        (self.path.clone(), format!("{value:?}").trim_end_matches(".0").to_owned())
+        (self.path.clone(), text(value))
     }
 }

@@ -3,7 +3,7 @@
 use super::{Axis, Map};
 use std::sync::atomic::{AtomicUsize, Ordering};
 use stickslip_drive::facts::{Prescribed, common_period};
-use stickslip_drive::{Event, EventKind, Plan, Record, RunError, Source};
+use stickslip_drive::{Event, EventKind, Limits, Plan, Record, RunError, Source};
 use stickslip_run::{Job, Watcher};
 
 /// Moments of the last period of a run at which a contact is looked at, besides all events.
@@ -168,7 +168,8 @@ fn run(job: &Job, contact: usize, watcher: &dyn Watcher) -> Result<Seen, Unseen>
         reach: [f64::NEG_INFINITY, f64::INFINITY, 0.0],
         watcher,
     };
-    let plan = Plan { every: None, ..job.scenario.plan };
+    let limits = Limits { wall: None, ..job.scenario.plan.limits };
+    let plan = Plan { every: None, limits, ..job.scenario.plan };
     let mut end = job.start.clone();
     match stickslip_drive::run(&job.model, &plan, &mut end, &mut record) {
         Ok(_) => {}

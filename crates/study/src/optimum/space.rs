@@ -1,6 +1,7 @@
 //! What a point of the unit cube means: numbers of the scenario, and a waveform.
 
 use super::shape::{self, Drawing};
+use crate::number::text;
 use stickslip_run::Job;
 use stickslip_scenario::{Goal, Parameter, Shaped};
 
@@ -109,9 +110,4 @@ impl Space {
 /// A value of a range by its share, exact at both ends.
 fn between([low, high]: [f64; 2], share: f64) -> f64 {
     if share >= 1.0 { high } else { low + (high - low) * share }
-}
-
-/// As short as it can be, and read back to the same bits.
-fn text(value: f64) -> String {
-    format!("{value:?}").trim_end_matches(".0").to_owned()
 }

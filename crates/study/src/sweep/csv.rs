@@ -14,6 +14,7 @@ impl Study {
     /// # Errors
     /// Parts that are missing or cannot be read, and a file that cannot be written; then none is left.
     pub fn write_csv(&self, parts: &Path, path: &Path) -> Result<(), StudyError> {
+        self.check_complete(parts)?;
         let failed = |source: io::Error| StudyError::Disk { path: path.to_owned(), source };
         let place = path.parent().filter(|parent| !parent.as_os_str().is_empty()).unwrap_or(Path::new("."));
         let name = path.file_name().unwrap_or_default().to_string_lossy();

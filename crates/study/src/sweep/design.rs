@@ -2,6 +2,7 @@
 
 use super::points::{Points, Sampling as Drawn};
 use super::spread::Spread;
+use crate::number::text;
 use serde_json::{Value, json};
 use stickslip_scenario::{Parameter, Sampling, ScenarioError, StudyFile, Variation};
 
@@ -15,7 +16,6 @@ pub(crate) struct Axis {
     pub(crate) path: String,
     /// Its SI unit; empty for a plain number.
     pub(crate) unit: &'static str,
-    is_whole: bool,
     pub(crate) source: Source,
 }
 
@@ -158,12 +158,7 @@ impl Design {
 
     /// Numbers as overrides of the scenario.
     pub(crate) fn overrides(&self, numbers: &[f64]) -> Vec<(String, String)> {
-        let text = |(axis, number): (&Axis, &f64)| match axis.is_whole {
-            true => format!("{number:.0}"),
-            // As short as it can be, and read back to the same bits.
-            false => format!("{number:?}").trim_end_matches(".0").to_owned(),
-        };
-        self.axes.iter().zip(numbers).map(|pair| (pair.0.path.clone(), text(pair))).collect()
+        self.axes.iter().zip(numbers).map(|(axis, number)| (axis.path.clone(), text(*number))).collect()
     }
 
     /// What the numbers of a case depend on.
@@ -201,5 +196,5 @@ fn axis(file: &StudyFile, (parameter, variation): &(Parameter, Variation)) -> Re
     {
         return Err(file.refusal("vary", Some(&parameter.path), &fault, None));
     }
-    Ok(Axis { path: parameter.path.clone(), unit: parameter.unit, is_whole: parameter.is_whole, source })
+    Ok(Axis { path: parameter.path.clone(), unit: parameter.unit, source })
 }

@@ -93,16 +93,24 @@ impl Study {
         Ok(())
     }
 
-    /// Does something with every part, in order.
+    /// That all parts are in a folder.
+    ///
+    /// # Errors
+    /// Parts that are missing; those of [`Self::status`].
+    pub(crate) fn check_complete(&self, folder: &Path) -> Result<(), StudyError> {
+        let Status { missing, of, .. } = self.status(folder)?;
+        match missing.len() as u64 {
+            0 => Ok(()),
+            missing => Err(StudyError::Incomplete { missing, of }),
+        }
+    }
+
+    /// Does something with every part, in order, of a folder that has them all.
     pub(crate) fn each_part(
         &self,
         folder: &Path,
         mut act: impl FnMut(u64, &Open) -> Result<(), ParquetError>,
     ) -> Result<(), StudyError> {
-        let status = self.status(folder)?;
-        if !status.missing.is_empty() {
-            return Err(StudyError::Incomplete { missing: status.missing.len() as u64, of: status.of });
-        }
         for number in 0..self.parts() {
             let path = folder.join(part::name(number));
             let done = Open::new(self, &path).and_then(|open| act(number, &open));

@@ -63,6 +63,7 @@ impl Study {
     /// # Errors
     /// Parts that are missing or cannot be read.
     pub fn indices(&self, folder: &Path) -> Result<Indices, StudyError> {
+        self.check_complete(folder)?;
         let k = self.design.spreads;
         let (mut left_out, mut all) = (Vec::new(), Vec::new());
         for (result, wanted) in self.wanted.iter().enumerate().filter(|(_, wanted)| wanted.codes.is_none()) {

@@ -6,7 +6,7 @@ use super::wanted::{Place, Wanted};
 use crate::figure::{Figure, Placed, Reading};
 use crate::number::Number;
 use crate::sketch::Sketch;
-use stickslip_drive::{Plan, Scene, Variants};
+use stickslip_drive::{Limits, Plan, Scene, Variants};
 use stickslip_run::Watcher;
 
 /// What a study's results are where a run need not be recorded for them.
@@ -29,7 +29,8 @@ impl Shortcut {
         let figures = figures.collect::<Option<_>>()?;
         let numbers = study.design.axes.iter().map(|axis| Number::named(&scene, &axis.path).ok());
         let numbers = numbers.collect::<Option<_>>()?;
-        let plan = Plan { every: None, ..scenario.plan };
+        let limits = Limits { wall: None, ..scenario.plan.limits };
+        let plan = Plan { every: None, limits, ..scenario.plan };
         plan.until_steady.is_none().then_some(Self { numbers, figures, scene, plan })
     }
 }

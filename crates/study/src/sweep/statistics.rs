@@ -69,6 +69,7 @@ impl Study {
     /// # Errors
     /// Parts that are missing or cannot be read.
     pub fn statistics(&self, folder: &Path) -> Result<Statistics, StudyError> {
+        self.check_complete(folder)?;
         let (mut failed, mut reasons) = (0, BTreeMap::new());
         let first = self.wanted.iter().position(|wanted| wanted.codes.is_none());
         let mut ends = Ends::default();

@@ -409,6 +409,7 @@ fn what_is_wrong_with_a_study_is_said_with_its_place() {
         (wrong("results", json!(["title"])), "a text"),
         (wrong("results", json!(["steps"])), "several results"),
         (wrong("chunk", json!(0)), "chunk"),
+        (wrong("cases", json!(4_000_000_000_u64)), "raise \"chunk\""),
         (wrong("cases", json!(0)), "from 1"),
         (wrong("scenario", json!("p2.json")), "there is no file"),
         (wrong("scenario", json!(3)), "path of a scenario file"),

@@ -1,6 +1,6 @@
 //! `stickslip curve --curve holding-force`: what the drive holds at rest.
 
-use super::{CurveFailure, complain_of_warnings, cores, ends, of, place, prepared, said, shown, shows_rows};
+use super::{CurveFailure, complain_of_warnings, ends, of, place, prepared, said, shown, shows_rows};
 use crate::arguments::CurveArguments;
 use stickslip_console::answer::{complain, say, say_json, warn};
 use stickslip_console::interrupt::Interrupt;
@@ -30,7 +30,7 @@ pub(super) fn trace(arguments: &CurveArguments) -> Result<Verdict, CurveFailure>
     let name = &holding.job.name;
     progress.tell(format_args!("{name}: {NAME}, {} points", values.len()));
     let bar = progress.budget(NAME, values.len() as f64, &interrupt);
-    let points = holding.trace(&values, arguments.tolerance, cores(arguments), &bar)?;
+    let points = holding.trace(&values, arguments.tolerance, arguments.threads.count(), &bar)?;
     drop(bar);
     let (done, all) = (points.iter().filter(|point| point.is_done()).count(), points.len());
     progress.tell(format_args!("{name}: {NAME}, {done} of {all} points done"));

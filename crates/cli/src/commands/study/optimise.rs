@@ -1,6 +1,6 @@
 //! `stickslip study optimise`: where a result is largest or smallest.
 
-use super::{json, shown, threads};
+use super::{json, shown};
 use crate::arguments::study::OptimiseStudyArguments;
 use std::fs;
 use std::io;
@@ -45,7 +45,7 @@ pub(super) fn optimise(arguments: &OptimiseStudyArguments) -> Result<Verdict, St
         optimum.most_evaluations()
     ));
     let bar = progress.budget(&optimum.job.name, optimum.most_evaluations() as f64, &interrupt);
-    let best = optimum.run(&out, (threads(arguments.threads), *fresh), &bar)?;
+    let best = optimum.run(&out, (arguments.threads.count(), *fresh), &bar)?;
     drop(bar);
     let report = optimum.report(&best);
     let files = write(&out, (&optimum, &best, &report), (rate, *gain), &arguments.look.look())?;
