@@ -34,6 +34,7 @@ mod refusals;
 mod repro;
 mod reproducibility;
 mod results;
+mod resumed;
 mod scenarios;
 mod sensitivity;
 mod steady;

@@ -108,3 +108,9 @@ impl Table {
         self.rows.iter().map(|row| row[place].as_str()).collect()
     }
 }
+
+/// Hashes of all files of a folder, in the order of their names.
+pub(crate) fn bytes(folder: &Path) -> String {
+    let files = listing(folder).into_iter().map(|name| sha256(&std::fs::read(folder.join(name)).unwrap()));
+    files.collect::<Vec<_>>().join(" ")
+}

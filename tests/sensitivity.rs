@@ -17,7 +17,7 @@ fn an_elasticity_is_what_a_per_cent_changes() {
     let out = root.path().join("out");
     let asked = ["--of", "energy.friction_J", "--to", "contacts.ball.friction", "bodies.slider.mass"];
     let output = sensitivity("p1", &out, &asked);
-    let said = "p1: derivatives, 4 runs\np1: 2 of 2 derivatives are known\n";
+    let said = "p1: derivatives, 8 runs\np1: 2 of 2 derivatives are known\n";
     assert_eq!((code(&output), stderr(&output).as_str()), (0, said));
     assert_eq!(listing(&out), ["sensitivity.csv", "sensitivity.json", "sensitivity.png"]);
     let table = Table::read(&out.join("sensitivity.csv"));

@@ -1,11 +1,12 @@
 //! `stickslip study`: many runs of one scenario, killed and resumed.
 
-use crate::program::{code, listing, scenario, sha256, stderr, stdout, stickslip};
+use crate::program::{bytes, code, listing, scenario, stderr, stdout, stickslip};
+#[cfg(unix)]
+use crate::resumed::killed;
 use serde_json::{Value, json};
 use std::fs;
 use std::path::{Path, PathBuf};
-use std::process::{Command, Output, Stdio};
-use std::time::{Duration, Instant};
+use std::process::{Command, Output};
 
 /// A study of P1 in a folder.
 fn file(folder: &Path, cases: u64, chunk: u64) -> PathBuf {
@@ -33,11 +34,6 @@ fn output(command: &str, file: &Path, out: &Path, more: &[&str]) -> Output {
 fn json_of(output: &Output) -> Value {
     assert_eq!(code(output), 0, "{}", stderr(output));
     serde_json::from_str(&stdout(output)).unwrap()
-}
-
-fn bytes(folder: &Path) -> String {
-    let files = listing(folder).into_iter().map(|name| sha256(&fs::read(folder.join(name)).unwrap()));
-    files.collect::<Vec<_>>().join(" ")
 }
 
 #[test]
@@ -90,27 +86,15 @@ fn a_study_is_planned_run_told_and_merged() {
 #[test]
 fn a_killed_study_goes_on_to_the_same_bytes() {
     let folder = tempfile::tempdir().unwrap();
-    let (file, whole, parts) =
-        (file(folder.path(), 6000, 100), folder.path().join("whole"), folder.path().join("parts"));
-    let begun = Instant::now();
-    assert_eq!(code(&output("run", &file, &whole, &["--quiet"])), 0);
-    let wall = begun.elapsed().as_secs_f64();
-    let kills = std::env::var("STICKSLIP_KILLS").map_or(8, |kills| kills.parse().unwrap());
+    let file = file(folder.path(), 6000, 100);
     let mut before = 0;
-    for k in 0..kills {
-        let share = (0.618_033_988_749_894_9 * f64::from(k + 1)).fract() / f64::from(kills.min(12));
-        let mut child = study("run", &file, &parts, &["--quiet"]).stdout(Stdio::null()).spawn().unwrap();
-        std::thread::sleep(Duration::from_secs_f64(2.0 * wall * share));
-        child.kill().unwrap();
-        child.wait().unwrap();
-        let there = json_of(&output("status", &file, &parts, &["--json"]));
+    let each = |parts: &Path| {
+        let there = json_of(&output("status", &file, parts, &["--json"]));
         assert_eq!(there["damaged"], json!([]));
         assert!(there["parts"].as_u64().unwrap() >= before);
         before = there["parts"].as_u64().unwrap();
-    }
-    assert_eq!(code(&output("run", &file, &parts, &["--quiet"])), 0);
-    assert_eq!(listing(&parts), listing(&whole));
-    assert_eq!(bytes(&parts), bytes(&whole));
+    };
+    killed(|out| study("run", &file, out, &["--quiet"]), (8, each));
 }
 
 #[test]

@@ -13,6 +13,7 @@ pub(crate) mod map;
 pub(crate) mod materials;
 pub(crate) mod measure;
 pub(crate) mod new;
+mod output;
 pub(crate) mod plot;
 pub(crate) mod realtime;
 pub(crate) mod repro;

@@ -191,14 +191,6 @@ impl Contact {
         power > 1.0 && power < 2.0
     }
 
-    /// The n of which its stiffness is the n-th root of a small height: that of r^n. 1 where the stiffness is smooth there.
-    pub(crate) fn root(&self) -> f64 {
-        match self.interface.profile().first_power() - 1.0 {
-            share if share > 0.0 && share < 1.0 => share.recip(),
-            _ => 1.0,
-        }
-    }
-
     /// Whether an even step to its end is as good as a graded one, which it is for a power of d of 2 and more; of damping, for one
     /// more. Stages beyond the end feel no force: of a graded step they weigh nothing, of an even one as much as the law would
     /// have there.

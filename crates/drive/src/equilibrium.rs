@@ -14,7 +14,7 @@ mod statics;
 
 use crate::contact::Contact;
 use crate::equations::Equations;
-use crate::model::{Free, Link, Model};
+use crate::model::{Free, Model};
 use crate::record;
 use crate::scene::Axis;
 use crate::state::State;
@@ -69,30 +69,6 @@ impl Model {
         }
         self.check_step(plan.stepper)?;
         self.begin(state, row)
-    }
-
-    /// Whether the equilibrium at t = 0 is that of another model of the same form: masses and dampers do not matter at rest, nor where
-    /// waveforms go.
-    pub(crate) fn rests_as(&self, other: &Self) -> bool {
-        let contact = |(own, other): (&Contact, &Contact)| {
-            own.u == other.u
-                && own.press == other.press
-                && own.interface == other.interface
-                && (own.count, own.start) == (other.count, other.start)
-        };
-        let free = |(own, other): (&Free, &Free)| own.force == other.force && own.start.0 == other.start.0;
-        let link = |(own, other): (&Link, &Link)| {
-            own.elongation == other.elongation
-                && (own.stiffness, own.preload, own.stroke) == (other.stiffness, other.preload, other.stroke)
-        };
-        let first = |(own, other): (&Waveform, &Waveform)| own.first().value == other.first().value;
-        self.equilibrium
-            && other.equilibrium
-            && self.loads == other.loads
-            && self.contacts.iter().zip(&other.contacts).all(contact)
-            && self.free.iter().zip(&other.free).all(free)
-            && self.links.iter().zip(&other.links).all(link)
-            && self.waveforms.iter().zip(&other.waveforms).all(first)
     }
 
     /// The state at t = 0 where nothing is wrong with a plan.

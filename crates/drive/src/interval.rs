@@ -22,7 +22,7 @@ use closed::closed_form;
 pub(crate) use followed::Followed;
 pub(crate) use kernel::Kernel;
 pub(crate) use slider::{Pull, Slider};
-pub(crate) use swing::{PhasePoint, Rates, Stretch, Swing, rates};
+pub(crate) use swing::{PhasePoint, Swing};
 
 use crate::method::{IntervalTraits, SceneTraits, Tally, Treatment, is_undamped, treatment};
 use crate::model::{Free, Model};

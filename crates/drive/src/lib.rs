@@ -7,7 +7,7 @@
 //!
 //! In reading order: [`Scene`], [`Waveform`], [`Plan`]; [`Model`] and its small motions, [`Linearised`]; [`State`]; the
 //! equations of motion; guards and events; the runs, event-aware, at fixed step and by the plain reference; what is written down;
-//! the [`Variation`] of a run, its derivatives; [`facts`], which are told before anything runs.
+//! [`facts`], which are told before anything runs.
 //!
 //! Coordinates are x, z and the small pitch of each body, displacements from the position drawn, in SI: free, fixed or
 //! following a waveform. Where no force depends on a velocity the runs take a Runge–Kutta–Nyström method, elsewhere,
@@ -33,7 +33,6 @@ mod schedule;
 pub mod section;
 mod sine;
 mod state;
-mod variation;
 mod wall;
 mod watcher;
 mod waveform;
@@ -44,12 +43,11 @@ pub use linearised::{Indentations, LinearInput, Linearised, NormalMode};
 pub use method::{Expected, Method, Tally, Treatment, Why};
 pub use model::{Model, NaturalScale, Pressing, Spared};
 pub use plan::{Accuracy, Limits, Plan, Stepper, UntilSteady};
-pub use record::{Channel, Extent, Record, Stride, Trace, state_name};
+pub use record::{Channel, Extent, Record, Trace, state_name};
 pub use run::{Run, VariantError, Variants, WALK_TOLERANCE, run};
 pub use scene::Scene;
 pub use schedule::{Moments, Schedule};
 pub use state::{BytesError, CommandError, Counts, Generated, InputError, State};
-pub use variation::{EnergyRates, Parameter, Variation, VariationError};
 pub use wall::Wall;
 pub use watcher::{Unrecorded, Watcher};
 pub use waveform::{

@@ -11,7 +11,6 @@ use crate::component::Component;
 use crate::contact::{Contact, Mode};
 use crate::equations::{Components, Equations};
 use crate::event::{Event, Source};
-use crate::interval::Stretch;
 use crate::model::{Binding, Body, Link};
 use crate::scene::Axis;
 use crate::state::State;
@@ -97,16 +96,6 @@ pub trait Record {
         let _ = state;
     }
 
-    /// Whether the record reads every step between two located events; asked where a run begins.
-    fn strides(&self) -> bool {
-        false
-    }
-
-    /// A step, before memories move, or a whole interval whose motion has a closed form.
-    fn stride(&mut self, stride: &mut dyn Stride) {
-        let _ = stride;
-    }
-
     /// Whether events are wanted; their rows cost an evaluation each.
     fn wants_events(&self) -> bool {
         true
@@ -116,21 +105,6 @@ pub trait Record {
     fn wants_event_rows(&self) -> bool {
         true
     }
-}
-
-/// A stretch of a motion on the laws of one interval, its parts counted from 0 to 1: evenly in whatever the motion is smooth in.
-pub trait Stride {
-    /// The time at a part of it, s, and how fast time goes there, s per part. Places and velocities of the free coordinates go to the
-    /// beginning of `y`.
-    fn at(&mut self, part: f64, y: &mut [f64]) -> [f64; 2];
-
-    /// The arc of a swing that it is, if it is one.
-    fn arc(&self) -> Option<&Stretch<'_>> {
-        None
-    }
-
-    /// Parts of it at which the path of a growing contact, by its place in the scene, has a knot, in order for each of them.
-    fn knots(&self) -> &[(usize, f64)];
 }
 
 /// Keeps nothing.

@@ -55,17 +55,6 @@ impl Model {
     pub fn tells_turns(&self, asked: Stepper, index: usize) -> bool {
         self.effective(asked).locates_events() && self.contacts.get(index).is_some_and(Contact::turns_unseen)
     }
-
-    /// The tolerance of a run between located events.
-    pub(crate) fn tolerance(&self, asked: Stepper) -> f64 {
-        match self.effective(asked) {
-            Stepper::Event { tolerance } => tolerance,
-            Stepper::Verlet { .. }
-            | Stepper::Rk4 { .. }
-            | Stepper::Frames { .. }
-            | Stepper::Dopri5 { .. } => WALK_TOLERANCE,
-        }
-    }
 }
 
 /// Tolerance of a quasi-static walk where its scenario names a stepper without one.

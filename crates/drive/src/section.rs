@@ -7,10 +7,7 @@
 
 mod adoption;
 mod drift;
-mod gradient;
 mod legs;
-
-pub use gradient::Gradient;
 
 use crate::equations::Equations;
 use crate::model::Binding;

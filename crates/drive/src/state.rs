@@ -182,25 +182,6 @@ fn refill<T: Clone>(list: &mut Vec<T>, count: usize, value: T) {
 }
 
 impl State {
-    /// Becomes the copy of another state of the same model, in the room there is.
-    pub(crate) fn copy(&mut self, from: &Self) {
-        (self.t, self.step, self.stuck_step) = (from.t, from.step, from.stuck_step);
-        (self.jumps, self.lost, self.origin) = (from.jumps, from.lost, from.origin);
-        self.y.clone_from(&from.y);
-        self.shifts.clone_from(&from.shifts);
-        self.memories.iter_mut().zip(&from.memories).for_each(|(own, from)| own.copy(from));
-        self.modes.clone_from(&from.modes);
-        self.grew.clone_from(&from.grew);
-        self.blocks.clone_from(&from.blocks);
-        self.pieces.clone_from(&from.pieces);
-        self.friction.clone_from(&from.friction);
-        Underway::copy(&mut self.underway, &from.underway);
-        self.supplied.clone_from(&from.supplied);
-        self.generators.clone_from(&from.generators);
-        self.counts = from.counts;
-        self.tally.clone_from(&from.tally);
-    }
-
     /// Of no model yet.
     pub(crate) fn blank() -> Self {
         Self {

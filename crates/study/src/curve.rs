@@ -34,8 +34,10 @@ pub use table::{Way, all_files, csv, json, write};
 pub use variation::Variation;
 
 use crate::each::each;
+use crate::journal::Journal;
 use std::convert::Infallible;
 use std::path::PathBuf;
+use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use stickslip_run::{Job, Warning, Watcher};
 use stickslip_scenario::ScenarioError;
@@ -67,6 +69,8 @@ pub struct Curve {
     pub variation: Variation,
     /// The scenario without it.
     pub job: Job,
+    /// Where motions are looked up and written down.
+    pub journal: Arc<Journal>,
 }
 
 /// The points of a curve.
@@ -89,7 +93,8 @@ impl Curve {
     /// A scenario that has no such curve.
     pub fn new(job: Job, kind: Kind) -> Result<Self, CurveError> {
         let variation = Variation::of(&kind, &job)?;
-        Ok(Self { reversal: Vec::new(), sense: None, kind, variation, job })
+        let journal = Arc::default();
+        Ok(Self { reversal: Vec::new(), sense: None, kind, variation, job, journal })
     }
 
     /// The curves of a scenario in both senses: forward, as it is, and backward, the waveforms of the steps' period reversed in time.
@@ -108,7 +113,7 @@ impl Curve {
     #[must_use]
     pub fn range(&self, watcher: &dyn Watcher) -> Option<[f64; 2]> {
         let [from, most] = self.variation.range?;
-        let unloaded = if self.kind.is_of_load() { Motion::of(&self.job, watcher).ok() } else { None };
+        let unloaded = if self.kind.is_of_load() { self.unloaded(watcher).ok() } else { None };
         let Some(unloaded) = unloaded else {
             return Some(self.within_data_sheets([from, most]).map(|end| self.allowed(end, 1.0)));
         };
@@ -186,7 +191,7 @@ impl Curve {
     /// The points at some values, on so many cores; the same for any number. The watcher is told how many are done; where it wants
     /// an end, those not yet done are [`Motionless::NotRun`].
     pub fn trace(&self, values: &[f64], cores: usize, watcher: &(dyn Watcher + Sync)) -> Traced {
-        let unloaded = self.kind.is_of_load().then(|| Motion::of(&self.job, watcher));
+        let unloaded = self.kind.is_of_load().then(|| self.unloaded(watcher));
         let is_known = unloaded.as_ref().is_none_or(Result::is_ok);
         let direction = unloaded.and_then(Result::ok).map_or(1.0, |motion| motion.sense());
         let done = AtomicUsize::new(0);
@@ -217,7 +222,14 @@ impl Curve {
         if !watcher.goes_on() {
             return Err(Motionless::NotRun);
         }
-        Motion::of(&self.variant(set)?, watcher)
+        let compute = || Motion::of(&self.variant(set)?, watcher);
+        self.journal.found(&set, compute, Motionless::is_no_end)
+    }
+
+    /// The motion of the scenario as it stands.
+    fn unloaded(&self, watcher: &dyn Watcher) -> Result<Motion, Motionless> {
+        let compute = || Motion::of(&self.job, watcher);
+        self.journal.found(&("unloaded", &self.reversal), compute, Motionless::is_no_end)
     }
 
     /// The scenario with something set, as a run would have it, without what a run would write.

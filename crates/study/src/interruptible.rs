@@ -1,6 +1,6 @@
 //! A record whose run may be given up.
 
-use stickslip_drive::{Event, Record, State, Stride};
+use stickslip_drive::{Event, Record, State};
 
 /// Passes on what a run between located events tells, and whether its caller has had enough.
 pub(crate) struct Interruptible<'a> {
@@ -26,12 +26,6 @@ impl Record for Interruptible<'_> {
     }
     fn enters(&mut self, state: &State) {
         self.record.enters(state);
-    }
-    fn strides(&self) -> bool {
-        self.record.strides()
-    }
-    fn stride(&mut self, stride: &mut dyn Stride) {
-        self.record.stride(stride);
     }
     fn goes_on(&mut self, _: f64) -> bool {
         (self.goes_on)()

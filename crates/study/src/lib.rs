@@ -16,6 +16,7 @@ mod figure;
 mod grip;
 mod info;
 mod interruptible;
+mod journal;
 pub mod map;
 mod number;
 pub mod optimum;
@@ -27,6 +28,7 @@ pub mod steady;
 pub mod sweep;
 
 pub use info::Info;
+pub use journal::Journal;
 pub use report::summary;
 
 use std::collections::HashSet;

@@ -20,6 +20,7 @@ pub use table::{FieldReport, all_files, json, write};
 
 pub(crate) use table::definitions;
 
+use crate::journal::Journal;
 use crate::sweep::{Shard, Study};
 use regime::Looks;
 use serde_json::json;
@@ -50,6 +51,8 @@ pub struct Map {
     pub unit: &'static str,
     /// Points of either axis.
     pub points: [usize; 2],
+    /// Where runs that look for borders of regimes are looked up and written down.
+    pub journal: Journal,
     kind: Kind,
 }
 
@@ -126,13 +129,14 @@ impl Map {
             Some(name) => {
                 let c = contact(&job, name)?;
                 let kind = Kind::Regime(c, asked.by_runs);
-                Self { job, axes, of, unit: "", points: [POINTS; 2], kind }
+                Self { job, axes, of, unit: "", points: [POINTS; 2], journal: Journal::default(), kind }
             }
             None => {
                 let points = asked.points.unwrap_or([POINTS; 2]);
                 let study = Box::new(study(file, set, (&axes, points), &asked.of)?);
                 let unit = stickslip_quantity::names::unit(&asked.of);
-                Self { job, axes, of, unit, points, kind: Kind::Result(study) }
+                let journal = Journal::default();
+                Self { job, axes, of, unit, points, journal, kind: Kind::Result(study) }
             }
         };
         if map.needs_runs() {
@@ -160,6 +164,17 @@ impl Map {
     #[must_use]
     pub fn cases(&self) -> usize {
         self.points[0] * self.points[1]
+    }
+
+    /// Removes what an earlier command has computed of a grid of runs.
+    ///
+    /// # Errors
+    /// What cannot be removed.
+    pub fn remove(&self, parts: &Path) -> Result<(), MapError> {
+        match &self.kind {
+            Kind::Result(study) => Ok(study.remove(&parts.join(&study.hash[..HASH]))?),
+            Kind::Regime(..) => Ok(()),
+        }
     }
 
     /// Computes the map on so many threads; the watcher is told how many cases are done. Finished parts of a grid of runs stay in the

@@ -1,11 +1,10 @@
 //! An optimum: the maximum or minimum of a result over some numbers of a scenario, or over the shape of a waveform.
 //!
 //! In reading order: `space` (what a point of the unit cube means) with `shape` (waveforms within the limits of a driver), `search`
-//! (local searches from many points), `journal` (every evaluation on disk), `flatness` (how fast the result falls beside the optimum), `report` (what
+//! (local searches from many points; every evaluation is in the journal), `flatness` (how fast the result falls beside the optimum), `report` (what
 //! is written of all that).
 
 mod flatness;
-mod journal;
 mod report;
 mod search;
 mod shape;
@@ -14,17 +13,23 @@ mod space;
 pub use flatness::Section;
 pub use report::Report;
 
+use crate::journal::{Held, Journal};
 use crate::sweep::StudyError;
 use crate::sweep::wanted::Wanted;
 use crate::sweep::worker::{Fault, record, refused, without_output};
-use journal::{Found, Journal};
 use search::{Effort, Local, SCREENED};
 use space::Space;
+use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicU64, Ordering};
-use std::sync::{Mutex, MutexGuard, PoisonError};
 use stickslip_run::{Job, Watcher, program};
 use stickslip_scenario::{Goal, ScenarioError, StudyFile};
+
+/// Name of the journal in the folder of the results.
+const JOURNAL: &str = "evaluations.txt";
+
+/// Results of a point, none of what is not finite, or why it has none.
+type Written = Result<Vec<Option<f64>>, String>;
 
 /// Factors of the period by which an optimum is judged: ± 1 %.
 const STRETCHES: [f64; 3] = [0.99, 1.0, 1.01];
@@ -142,14 +147,21 @@ impl Optimum {
         (threads, is_fresh): (usize, bool),
         watcher: &(dyn Watcher + Sync),
     ) -> Result<Best, StudyError> {
-        let journal = Mutex::new(Journal::open(out, &self.hash, is_fresh)?);
-        let bench = Bench { optimum: self, journal, watcher, done: AtomicU64::new(0) };
+        let path = out.join(JOURNAL);
+        let failed = |source| StudyError::Disk { path: path.clone(), source };
+        fs::create_dir_all(out).map_err(failed)?;
+        let (journal, held) = Journal::held(path.clone(), &self.hash, is_fresh).map_err(failed)?;
+        if held == Held::Foreign {
+            let why = "its scenario, ranges or goal were others, or another version of the program wrote it";
+            return Err(StudyError::Foreign { path, why: why.to_owned() });
+        }
+        let bench = Bench { optimum: self, journal, path: &path, watcher, done: AtomicU64::new(0) };
         let effort =
             Effort { starts: self.goal.starts, evaluations: self.evaluations(), seed: self.seed, threads };
         let judge = |point: &[f64]| bench.judge(point);
         let locals = search::search(&self.space.present(&self.job), effort, &judge);
         bench.check()?;
-        let Some(mut locals) = locals else { return Err(StudyError::AllFailed(bench.journal().reason())) };
+        let Some(mut locals) = locals else { return Err(StudyError::AllFailed(bench.reason())) };
         // The first of equal ones; there is one at least.
         let better = |best: Option<(Vec<f64>, f64)>, local: &Local| match best {
             Some(best) if best.1 >= local.to.1 => Some(best),
@@ -172,9 +184,8 @@ impl Optimum {
         };
         let sections = sections.into_iter().map(|section| section.signed(self.sign())).collect();
         let values = bench.found(&point).unwrap_or_default();
-        let journal = bench.journal();
-        journal.sort()?;
-        Ok(Best { point, values, locals, sections, counts: journal.counts() })
+        bench.journal.sort().map_err(failed)?;
+        Ok(Best { point, values, locals, sections, counts: bench.counts() })
     }
 
     /// The higher, the better, after this factor.
@@ -186,23 +197,34 @@ impl Optimum {
 /// Where points are evaluated.
 struct Bench<'o> {
     optimum: &'o Optimum,
-    journal: Mutex<Journal>,
+    journal: Journal,
+    path: &'o Path,
     watcher: &'o (dyn Watcher + Sync),
     done: AtomicU64,
 }
 
 impl Bench<'_> {
-    fn journal(&self) -> MutexGuard<'_, Journal> {
-        self.journal.lock().unwrap_or_else(PoisonError::into_inner)
-    }
-
     /// Whether the search was interrupted, or could not be written down.
     fn check(&self) -> Result<(), StudyError> {
-        match self.journal().fault.take() {
-            Some(fault) => Err(fault),
+        match self.journal.fault() {
+            Some(source) => Err(StudyError::Disk { path: self.path.to_owned(), source }),
             None if self.watcher.goes_on() => Ok(()),
             None => Err(StudyError::Interrupted),
         }
+    }
+
+    /// Number of evaluations, and of those without a result.
+    fn counts(&self) -> (usize, usize) {
+        let all = self.journal.all::<Written>();
+        let has_none =
+            |found: &&Written| !found.as_ref().is_ok_and(|values| values.iter().all(Option::is_some));
+        (all.len(), all.iter().filter(has_none).count())
+    }
+
+    /// Why the first point without a result has none.
+    fn reason(&self) -> String {
+        let reasons = self.journal.all::<Written>().into_iter().find_map(Result::err);
+        reasons.unwrap_or_else(|| "the result has no value".to_owned())
     }
 
     /// The worst of a point's results, the higher the better; NaN where one of them is missing.
@@ -218,21 +240,23 @@ impl Bench<'_> {
         }
     }
 
-    /// The results of a point at each factor of the period.
-    fn found(&self, point: &[f64]) -> Found {
-        // Not in the condition of a match, whose lock would last as long as its arms.
-        let known = self.journal().get(point);
-        if let Some(known) = known {
-            return known;
-        }
-        let found = match self.evaluate(point) {
-            Ok(values) => Ok(values),
-            Err(Fault::Failed(why)) => Err(why),
-            Err(Fault::Interrupted) => return Err(String::new()),
+    /// The results of a point at each factor of the period, or why it has none.
+    fn found(&self, point: &[f64]) -> Result<Vec<f64>, String> {
+        let compute = || {
+            let found = match self.evaluate(point) {
+                Ok(values) => {
+                    Ok(values.into_iter().map(|value| value.is_finite().then_some(value)).collect())
+                }
+                Err(Fault::Failed(why)) => Err(why),
+                Err(Fault::Interrupted) => Err(String::new()),
+            };
+            self.watcher.reached((self.done.fetch_add(1, Ordering::Relaxed) + 1) as f64);
+            found
         };
-        self.journal().add(point, found.clone());
-        self.watcher.reached((self.done.fetch_add(1, Ordering::Relaxed) + 1) as f64);
-        found
+        // Without a reason somebody wanted an end.
+        let is_kept = |found: &Written| !found.as_ref().is_err_and(String::is_empty);
+        let found = self.journal.found(&point, compute, is_kept)?;
+        Ok(found.into_iter().map(|value| value.unwrap_or(f64::NAN)).collect())
     }
 
     fn evaluate(&self, point: &[f64]) -> Result<Vec<f64>, Fault> {

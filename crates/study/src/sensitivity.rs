@@ -3,7 +3,7 @@
 //! A [`Sensitivity`] is of a scenario, some [`Figure`]s and some [`Quantity`]s; [`Sensitivity::take`] tells the [`Derivative`] of
 //! each figure with respect to each quantity, with how far it may be off. Where no number is true it tells why, and both sides.
 //!
-//! In reading order: `figure` and `quantity`, what is asked; `led`, slopes that variations of the scenario's own run tell; `sample`, what a
+//! In reading order: `figure` and `quantity`, what is asked; `sample`, what a
 //! variant comes to; `ladder`, which variants are run; `bench`, where; `stencil`, slopes from their values; `derivative`, what these mean; `table`, what
 //! is told of them.
 
@@ -11,14 +11,14 @@ mod bench;
 mod derivative;
 mod error;
 mod figure;
+mod five;
 mod ladder;
-mod led;
 mod quantity;
 mod sample;
 mod stencil;
 mod table;
 
-pub use derivative::{Derivative, Slope, Source, Split};
+pub use derivative::{Derivative, Slope, Split};
 pub use error::SensitivityError;
 pub use figure::Figure;
 pub use quantity::Quantity;
@@ -26,9 +26,11 @@ pub use sample::Missing;
 pub(crate) use table::definitions;
 pub use table::{all_files, csv, json, write};
 
+use crate::journal::Journal;
 use bench::{Bench, Silent};
 use derivative::Near;
 use figure::Reading;
+use five::Five;
 use ladder::Tried;
 use sample::{Happened, Ran, Sample};
 use std::sync::atomic::AtomicUsize;
@@ -63,6 +65,8 @@ pub struct Sensitivity {
     pub quantities: Vec<Quantity>,
     /// Local error per step of the runs.
     pub tolerance: f64,
+    /// Where runs are looked up and written down.
+    pub journal: Journal,
     happened: Happened,
 }
 
@@ -88,9 +92,13 @@ const DECADES: f64 = 100.0;
 const FINEST: f64 = 1e-13;
 /// Part of what slopes by differences differ by that is missed, where the other tolerance is finer and where it is coarser.
 const MISSED: [f64; 2] = [2.0, 0.1];
-/// Share of what the slopes on both sides differ by that their mean may be off by. A variation is as one of the sides has it: where there
-/// is a kink, the mean is off by half of it.
-const BEND: f64 = 1.0 / 64.0;
+/// Tolerance of the runs that are farthest, unless a larger one is asked for.
+const COARSE: f64 = 1e-9;
+/// What all runs miss alike, in tolerances of the figure per share of the quantity.
+const MISSED_ALIKE: f64 = 1e3;
+/// Relative error of a slope that is enough, and the elasticity below which it is taken as a share of that.
+const ENOUGH_OF: f64 = 1e-4;
+const ELASTICITY: f64 = 0.1;
 
 impl Sensitivity {
     /// The derivatives of a scenario. Runs it as it stands.
@@ -110,93 +118,133 @@ impl Sensitivity {
             return Err(SensitivityError::NoQuantity(job.name));
         }
         let (figures, happened) = figures(&job, asked, &Silent(watcher))?;
-        Ok(Self { job, figures, quantities, tolerance, happened })
+        Ok(Self { job, figures, quantities, tolerance, journal: Journal::default(), happened })
     }
 
-    /// How many runs it takes, about: fewer are not done, more where something happens near by, or where no variation is known.
+    /// How many runs it takes, about: fewer are not done, more where something happens near by.
     #[must_use]
     pub fn runs(&self) -> usize {
-        let is_led = led::tells(&self.job, &self.figures);
         let of = |quantity: &Quantity| match quantity.value {
-            0.0 => ladder::probes().count() + ladder::first().count(),
-            _ if is_led => ladder::beside(ladder::NEAR[0]).count(),
-            _ => ladder::first().count(),
+            0.0 => ladder::probes().count() + ladder::pairs(ladder::PAIRS[0]).count(),
+            _ => ladder::pairs(ladder::PAIRS[0]).count(),
         };
         self.quantities.iter().map(of).sum()
     }
 
     /// The derivatives, on so many cores; the same for any number. The watcher is told how many runs are done; where it wants an
     /// end, what hangs on others is [`Missing::NotRun`].
+    ///
+    /// Four runs for each quantity are enough where figures are smooth on both sides of its value, or four more near by where something
+    /// happens between them; elsewhere a ladder of distances is climbed down, and the same at another tolerance tells what the runs miss.
     pub fn take(&self, cores: usize, watcher: &(dyn Watcher + Sync)) -> Taken {
-        let has_rows = !led::tells(&self.job, &self.figures);
+        let has_rows = self.figures.iter().any(Figure::needs_rows);
         let done = AtomicUsize::new(0);
         let bench = Bench { asked: self, tolerance: self.tolerance, cores, watcher, has_rows, done: &done };
-        let goes_on = || watcher.goes_on();
-        let asked = (&self.figures[..], &self.quantities[..]);
-        let led = led::slopes(&self.job, asked, (self.tolerance, cores), &goes_on);
         let scales = bench.scales();
-        let all = |of: &dyn Fn(usize) -> Vec<(f64, bool)>| {
-            let variants =
-                (0..self.quantities.len()).flat_map(|q| of(q).into_iter().map(move |one| (q, one)));
+        let count = self.quantities.len();
+        let by = |bench: &Bench<'_>, of: &dyn Fn(usize) -> Vec<(f64, bool)>| {
+            let variants = (0..count).flat_map(|q| of(q).into_iter().map(move |one| (q, one)));
             bench.run(&scales, &variants.collect::<Vec<_>>())
         };
-        let mut tried = vec![Vec::new(); self.quantities.len()];
-        let mut agreed = vec![false; self.quantities.len()];
-        for power in ladder::NEAR {
-            let is_asked = |q: usize| led[q].is_some() && !agreed[q];
-            let more = all(&|q| if is_asked(q) { ladder::beside(power).collect() } else { Vec::new() });
-            for (q, more) in more.into_iter().enumerate() {
-                tried[q].extend(more);
-                agreed[q] = led[q].as_ref().is_some_and(|slopes| agreed[q] || self.agree(&tried[q], slopes));
+        let all = |of: &dyn Fn(usize) -> Vec<(f64, bool)>| by(&bench, of);
+        // Far out noise is divided by a large distance: cheaper runs serve as well.
+        let coarse = Bench { tolerance: self.tolerance.max(COARSE), ..bench };
+        // Of looser runs nothing is known but what the ladder tells.
+        let pairs = |place: usize| ladder::pairs(ladder::PAIRS[place]).collect::<Vec<_>>();
+        let is_asked = self.tolerance <= COARSE;
+        let four = by(&coarse, &|_| if is_asked { pairs(0) } else { Vec::new() });
+        let mut near = self.smooth(&four, (&coarse.own(), coarse.tolerance));
+        let open: Vec<bool> = (0..count).map(|q| self.is_open(&near, q)).collect();
+        let mut tried = all(&|q| if is_asked && open[q] { pairs(1) } else { Vec::new() });
+        let own: Vec<Option<f64>> = self.figures.iter().map(|figure| Some(figure.value)).collect();
+        let found = self.smooth(&tried, (&own, self.tolerance));
+        for (slopes, found) in near.iter_mut().zip(found) {
+            for q in (0..count).filter(|q| open[*q]) {
+                slopes[q] = agreed(slopes[q], found[q]);
             }
         }
+        let is_open = |q: usize| near.iter().any(|slopes| slopes[q].is_none());
         let further = |q: usize| ladder::further(&tried[q]).collect();
-        let more = all(&|q| if agreed[q] { Vec::new() } else { further(q) });
+        let more = all(&|q| if is_open(q) { further(q) } else { Vec::new() });
         tried.iter_mut().zip(more).for_each(|(tried, more)| tried.extend(more));
-        let near = all(&|q| {
-            let is_needed = !agreed[q] && (self.needs_finer(&tried[q]) || self.bends_near_by(&tried, q));
+        let more = all(&|q| {
+            let is_needed = is_open(q) && (self.needs_finer(&tried[q]) || self.bends_near_by(&tried, q));
             if is_needed { ladder::finer().collect() } else { Vec::new() }
         });
-        tried.iter_mut().zip(near).for_each(|(tried, finer)| tried.extend(finer));
+        tried.iter_mut().zip(more).for_each(|(tried, finer)| tried.extend(finer));
         let noise = self.noises(&tried);
         let (tolerance, is_finer) = other_tolerance(self.tolerance);
         let other = Bench { tolerance, ..bench };
-        let unled = (0..self.quantities.len()).filter(|q| !agreed[*q]);
-        let variants: Vec<_> = unled.flat_map(|q| ladder::farthest().map(move |one| (q, one))).collect();
+        let open = (0..self.quantities.len()).filter(|q| is_open(*q));
+        let variants: Vec<_> = open.flat_map(|q| ladder::farthest().map(move |one| (q, one))).collect();
         let others = other.run(&scales, &variants);
-        let by_differences = |f: usize, q: usize| {
-            let missed = MISSED[usize::from(!is_finer)] * missed(&tried[q], &others[q], f);
-            self.near(&tried[q], f, noise[f]).derivative().less_sure(missed)
-        };
-        let derivative = |f: usize, q: usize| match &led[q] {
-            Some(slopes) if agreed[q] => Derivative::led(slopes[f]),
-            Some(slopes) => by_differences(f, q).or_led(slopes[f]),
-            None => by_differences(f, q),
+        let derivative = |f: usize, q: usize| match near[f][q] {
+            Some(slope) => Derivative::Known(slope),
+            None => {
+                let missed = MISSED[usize::from(!is_finer)] * missed(&tried[q], &others[q], f);
+                self.near(&tried[q], f, noise[f]).derivative().less_sure(missed)
+            }
         };
         let of = |f: usize| (0..self.quantities.len()).map(|q| derivative(f, q)).collect();
         let derivatives = (0..self.figures.len()).map(of).collect();
         Taken { derivatives, noise, runs: done.into_inner() }
     }
 
+    /// Whether a slope by a quantity is not known, or not well enough.
+    fn is_open(&self, near: &[Vec<Option<Slope>>], q: usize) -> bool {
+        let quantity = self.quantities[q].value;
+        near.iter().zip(&self.figures).any(|(slopes, figure)| {
+            let large = (ELASTICITY * figure.value / quantity).abs();
+            slopes[q].is_none_or(|slope| slope.error > ENOUGH_OF * slope.value.abs().max(large))
+        })
+    }
+
+    /// Slopes of each figure by each quantity from four runs, where the figure is smooth between them.
+    fn smooth(
+        &self,
+        tried: &[Vec<Tried>],
+        (own, tolerance): (&[Option<f64>], f64),
+    ) -> Vec<Vec<Option<Slope>>> {
+        let of = |f: usize| {
+            let of_run = |tried: &Vec<Tried>| self.five((f, own.get(f).copied().flatten()?), tried);
+            let stencils: Vec<Option<Five>> = tried.iter().map(of_run).collect();
+            let mut noises: Vec<f64> = stencils.iter().flatten().map(Five::noise).collect();
+            noises.sort_by(f64::total_cmp);
+            // The middle of what the runs beside each quantity tell, and no less than what rounding leaves.
+            let noise = noises.get(noises.len() / 2).copied().unwrap_or(0.0);
+            let noise = noise.max(f64::EPSILON * self.figures[f].value.abs());
+            let slope = |(stencil, quantity): (&Option<Five>, &Quantity)| {
+                let stencil = stencil.as_ref()?;
+                // What is rough beside one quantity alone is no noise of the figure, and no less an error.
+                let slope = stencil.slope(noise.max(stencil.noise()))?;
+                // All runs miss alike by their tolerance.
+                let missed = MISSED_ALIKE * tolerance * (self.figures[f].value / quantity.value).abs();
+                Some(Slope { error: slope.error + if quantity.value == 0.0 { 0.0 } else { missed }, ..slope })
+            };
+            stencils.iter().zip(&self.quantities).map(slope).collect()
+        };
+        (0..self.figures.len()).map(of).collect()
+    }
+
+    /// A figure at the four nearest values of a quantity and at its own; none where something else happens on one side than on the other.
+    fn five(&self, (f, own): (usize, f64), tried: &[Tried]) -> Option<Five> {
+        let [below, above, near_below, near_above] = tried else { return None };
+        let all = [below, above, near_below, near_above].map(|tried| tried.figure(f).ok());
+        let [below, above, near_below, near_above] = all;
+        let (below, above, near_below, near_above) = (below?, above?, near_below?, near_above?);
+        // Loops that are too small for the tolerance close or do not, however near: what such events matter is seen in the figure.
+        let is_settled = below.2 == near_below.2 && above.2 == near_above.2;
+        if self.figures[f].reading.is_of_run() && is_settled && below.2 != above.2 {
+            return None;
+        }
+        let point = |(offset, value, _): (f64, f64, &Happened)| (offset, value);
+        Some(Five::new([(0.0, own), point(below), point(above), point(near_below), point(near_above)]))
+    }
+
     /// Whether a figure still bends where the nearest variants of a quantity are.
     fn bends_near_by(&self, tried: &[Vec<Tried>], q: usize) -> bool {
         let noise = self.noises(tried);
         (0..self.figures.len()).any(|f| self.near(&tried[q], f, noise[f]).bends_near_by())
-    }
-
-    /// Whether the nearest runs on both sides of a quantity's value say of all figures what a variation does, its errors beside its slopes.
-    fn agree(&self, tried: &[Tried], slopes: &[(f64, f64)]) -> bool {
-        let beside = |sense: f64, f: usize| {
-            let (offset, value, _) = ladder::levels(tried, sense).last()?.figure(f).ok()?;
-            Some((offset.abs(), (value - self.figures[f].value) / offset))
-        };
-        self.figures.iter().zip(slopes).enumerate().all(|(f, (figure, (slope, error)))| {
-            let (Some((distance, below)), Some((_, above))) = (beside(-1.0, f), beside(1.0, f)) else {
-                return false;
-            };
-            let noise = UNMEASURED * self.tolerance * figure.value.abs() / distance;
-            (0.5 * (below + above) - slope).abs() <= BEND * (above - below).abs() + noise + error
-        })
     }
 
     /// Whether something else happens on a side of a quantity before there are enough levels.
@@ -287,6 +335,14 @@ impl Taken {
             Derivative::Unknown(missing) => *missing == Missing::NotRun,
         })
     }
+}
+
+/// The better one of two slopes, from farther and from nearer runs; none where they contradict each other, or where the nearer ones have
+/// none.
+fn agreed(far: Option<Slope>, near: Option<Slope>) -> Option<Slope> {
+    let (Some(far), Some(near)) = (far, near) else { return near };
+    let agree = (far.value - near.value).abs() <= far.error + near.error;
+    agree.then_some(if near.error < far.error { near } else { far })
 }
 
 /// The tolerance by which it is told what slopes by another one miss, and whether it is the finer one.

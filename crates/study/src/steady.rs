@@ -7,8 +7,7 @@
 //!
 //! In reading order: `endless`, the drive without an end to its waveforms and its period; `moment`, at which moment of the
 //! period the map is taken; `tally`, what happens in it; `map`, the map and its gradient by differences; `newton`, its fixed
-//! point; `multiplier`, what the gradient means; `bound`, how far the step may be off; `slope`, how it changes with numbers of the
-//! scenario; `orbit`, the motion from the beginning of a period on, from which a run goes on; `aftermath`, what a run ends on that
+//! point; `multiplier`, what the gradient means; `bound`, how far the step may be off; `orbit`, the motion from the beginning of a period on, from which a run goes on; `aftermath`, what a run ends on that
 //! leaves it; `report`, what is told of it; `outlook`, the same at a glance, for whoever is about to run the drive;
 //! [`continuation`], steady motions one after another, as a number of the scenario changes.
 
@@ -24,7 +23,6 @@ mod newton;
 mod orbit;
 mod outlook;
 mod report;
-mod slope;
 mod tally;
 
 pub use aftermath::{Aftermath, Ending};

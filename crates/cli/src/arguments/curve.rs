@@ -1,6 +1,6 @@
 //! The command line of the curves of a machine.
 
-use crate::arguments::{assignment, course, look::LookArguments, threads::Threads};
+use crate::arguments::{assignment, course, look::LookArguments, threads::Work};
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{ArgGroup, Args};
 use std::path::PathBuf;
@@ -32,16 +32,15 @@ output tables of the scenario have no effect.
 
 Writes curve.csv, curve.json and the plot curve.png. If a point has no result, its row gives the reason. The results do not depend \
 on the number of threads. Exit codes: 0 done; 2 bad input; 3 no point has a result, or a file cannot be written; 130 interrupted. An \
-interrupted command writes finished points to curve-partial.csv, .json and .png and keeps earlier results.";
+interrupted command writes finished points to curve-partial.csv, .json and .png and keeps earlier results. The same command then \
+resumes, also after a kill.";
 
 pub(crate) const EXAMPLES: &str = "\
 Examples:
   stickslip curve drive.json --curve step-amplitude
   stickslip curve drive.json --curve speed-frequency --range \"10 Hz..5 kHz\" --log
-  stickslip curve drive.json --curve force-speed --points 101 --out here
   stickslip curve drive.json --vary contacts.ball.friction=0.1..0.6
   stickslip curve drive.json --curve force-speed --both
-  stickslip curve drive.json --curve holding-force
   stickslip curve drive.json --curve holding-force --vary contacts.ball.friction=0.1..0.6
   stickslip curve drive.json --vary bodies.slider.mass=\"1 g..100 g\" --log --json";
 
@@ -76,7 +75,7 @@ pub(crate) struct CurveArguments {
     #[arg(long, value_name = "PATH=VALUE", value_parser = assignment)]
     pub(crate) set: Vec<(String, String)>,
     #[command(flatten)]
-    pub(crate) threads: Threads,
+    pub(crate) work: Work,
     /// Folder for the output files [default: results/NAME-CURVE]
     #[arg(long, value_name = "DIR")]
     pub(crate) out: Option<PathBuf>,

@@ -1,7 +1,7 @@
 //! The command line of maps.
 
 use super::look::LookArguments;
-use super::threads::Threads;
+use super::threads::Work;
 use super::{assignment, course};
 use clap::Args;
 use std::path::PathBuf;
@@ -19,7 +19,8 @@ the contact, no run is needed: gross slip begins where the maximum of u-κd equa
 Otherwise, regimes are taken from runs, and borders are exact to 1e-4 of the ranges.
 
 Writes map.csv (x, y, result), map.json with the borders, and the plot map.png. Runs of a grid are kept in DIR/parts, in a folder of \
-their own for each map; after an interruption, the same command computes what is missing. Exit codes: 0 done; 2 bad input; 3 no point \
+their own for each map, those of traced borders in map.journal until the map is complete; after an interruption, the same command \
+computes what is missing. Exit codes: 0 done; 2 bad input; 3 no point \
 has a result, or a file cannot be written; 130 interrupted.";
 
 pub(crate) const EXAMPLES: &str = "\
@@ -58,7 +59,7 @@ pub(crate) struct MapArguments {
     #[arg(long, value_name = "PATH=VALUE", value_parser = assignment)]
     pub(crate) set: Vec<(String, String)>,
     #[command(flatten)]
-    pub(crate) threads: Threads,
+    pub(crate) work: Work,
     /// Folder for the output files [default: results/NAME-map]
     #[arg(long, value_name = "DIR")]
     pub(crate) out: Option<PathBuf>,

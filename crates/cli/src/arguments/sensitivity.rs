@@ -1,7 +1,7 @@
 //! The command line of derivatives.
 
 use super::look::LookArguments;
-use super::threads::Threads;
+use super::threads::Work;
 use super::{assignment, shooting};
 use clap::Args;
 use std::path::PathBuf;
@@ -12,8 +12,8 @@ Compute the sensitivity of results to every parameter, with error estimates
 
 The command computes the derivative of each result with respect to each parameter. Each derivative is given in units and as an \
 elasticity. The elasticity is the change of the result in per cent for a change of the parameter by one per cent. Derivatives are \
-extrapolated from runs with parameters changed by 0.8 % to 0.0002 % to both sides. The error estimate covers curvature and \
-numerical noise.
+extrapolated from four runs or more with the parameter changed by 0.8 % to 0.0002 % to both sides. The error estimate covers \
+curvature and numerical noise.
 
 A derivative does not exist if the slopes on the two sides of the parameter value differ, if the result jumps, if an event appears \
 or disappears, or if the parameter value on one side is refused. The command then reports each side separately, with the reason.
@@ -25,7 +25,8 @@ or the parameters given by --to.
 Writes sensitivity.csv, sensitivity.json and the plot sensitivity.png. The results do not depend on the number of threads. \
 Exit codes: 0 done; 2 bad input; 3 the run of the scenario stops early, a periodic motion or all derivatives are missing, or a \
 file cannot be written; 130 interrupted. An interrupted command writes finished derivatives to sensitivity-partial.csv, .json and \
-.png and keeps earlier results.";
+.png and keeps earlier results. The same command then resumes where it was interrupted or killed: finished runs are in \
+sensitivity.journal until all derivatives are known.";
 
 pub(crate) const EXAMPLES: &str = "\
 Examples:
@@ -57,7 +58,7 @@ pub(crate) struct SensitivityArguments {
     #[arg(long, value_name = "SHARE", default_value = "1e-12", value_parser = shooting)]
     pub(crate) tolerance: f64,
     #[command(flatten)]
-    pub(crate) threads: Threads,
+    pub(crate) work: Work,
     /// Folder for the output files [default: results/NAME-sensitivity]
     #[arg(long, value_name = "DIR")]
     pub(crate) out: Option<PathBuf>,

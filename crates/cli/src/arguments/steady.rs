@@ -40,7 +40,8 @@ appears or disappears. If the branch ends within the range, for example because 
 branch.csv, branch.json and the plot branch.png. In the plot, lines are solid for stable motions and dashed for unstable motions.
 
 Exit codes: 0 done; 2 bad input, or no periodic motion can exist; 3 no periodic motion was found, or a file cannot be written; 130 \
-interrupted. An interrupted command writes the motions found so far to branch-partial.csv, .json and .png and keeps earlier results.";
+interrupted. An interrupted command writes the motions found so far to branch-partial.csv, .json and .png and keeps earlier results. \
+The same command then resumes where it was interrupted or killed: finished steps are in branch.journal until the branch is complete.";
 
 pub(crate) const BRANCH_EXAMPLES: &str = "\
 Examples:
@@ -69,6 +70,9 @@ pub(crate) struct BranchArguments {
     /// Maximum number of periodic motions computed on each side of the start
     #[arg(long, value_name = "N", default_value_t = 1000, value_parser = motions)]
     pub(crate) points: usize,
+    /// Begin anew instead of resuming an interrupted command
+    #[arg(long)]
+    pub(crate) fresh: bool,
     /// Folder for the output files [default: results/NAME-branch]
     #[arg(long, value_name = "DIR")]
     pub(crate) out: Option<PathBuf>,

@@ -1,7 +1,7 @@
 //! The command line of studies.
 
 use super::look::LookArguments;
-use super::threads::Threads;
+use super::threads::{Threads, Work};
 use clap::{Args, Subcommand};
 use std::path::PathBuf;
 
@@ -84,10 +84,7 @@ pub(crate) struct OptimiseStudyArguments {
     #[arg(long, value_name = "DIR")]
     pub(crate) out: Option<PathBuf>,
     #[command(flatten)]
-    pub(crate) threads: Threads,
-    /// Begin anew instead of resuming an interrupted search
-    #[arg(long)]
-    pub(crate) fresh: bool,
+    pub(crate) work: Work,
     /// Sample rate of waveform.csv, such as "1 MHz", adjusted to a whole number of samples per period [default: 1000 samples]
     #[arg(long, value_name = "RATE", allow_hyphen_values = true)]
     pub(crate) rate: Option<String>,

@@ -9,6 +9,16 @@ pub(crate) struct Threads {
     threads: Option<u16>,
 }
 
+/// How much of a study is computed at a time, and whether what an interrupted command has computed counts.
+#[derive(Debug, Args)]
+pub(crate) struct Work {
+    #[command(flatten)]
+    pub(crate) threads: Threads,
+    /// Begin anew instead of resuming an interrupted command
+    #[arg(long)]
+    pub(crate) fresh: bool,
+}
+
 impl Threads {
     pub(crate) fn count(&self) -> usize {
         let cores = || std::thread::available_parallelism().map_or(1, usize::from);

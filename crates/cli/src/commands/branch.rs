@@ -1,18 +1,15 @@
 //! `stickslip branch`: steady motions one after another, as a number of the scenario changes.
 
+use super::output::{Output, OutputFailure};
 use super::steady::verdict;
 use crate::arguments::BranchArguments;
-use std::io;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use stickslip_console::answer::{complain, say, say_json, warn};
 use stickslip_console::interrupt::Interrupt;
-use stickslip_console::place::{self, Unwritable};
 use stickslip_console::progress::Progress;
 use stickslip_console::table;
 use stickslip_console::verdict::Verdict;
-use stickslip_figures::{FigureError, branch as picture};
-use stickslip_run::complaint::words;
-use stickslip_run::folder::{Folder, sweep};
+use stickslip_figures::branch as picture;
 use stickslip_run::{Job, Real, Refusal, Watcher, quantity};
 use stickslip_study::curve::Range;
 use stickslip_study::steady::Options;
@@ -33,15 +30,9 @@ enum BranchFailure {
     /// A range that is none.
     #[error("--vary  {0}")]
     Range(String),
-    /// The picture.
-    #[error(transparent)]
-    Figure(#[from] FigureError),
-    /// Where the files are to go.
-    #[error(transparent)]
-    Folder(#[from] Unwritable),
     /// The files.
-    #[error("{}: cannot be written: {}", .path.display(), words(.source))]
-    Write { path: PathBuf, source: io::Error },
+    #[error(transparent)]
+    Output(#[from] OutputFailure),
 }
 
 /// Follows a branch and writes it.
@@ -56,14 +47,17 @@ fn answer(arguments: &BranchArguments) -> Result<Verdict, BranchFailure> {
     let (path, range) = &arguments.vary;
     let job = Job::prepare(&arguments.search.file, &arguments.search.set, Path::new(""))?;
     let unit = job.scenario.parameter(path).map_err(ContinuationError::Path)?.unit;
-    let of = Continuation::new(job, path, Range::ends(range, unit).map_err(BranchFailure::Range)?)?;
+    let mut of = Continuation::new(job, path, Range::ends(range, unit).map_err(BranchFailure::Range)?)?;
     if !arguments.search.quiet {
         warn(&of.job);
     }
     let interrupt = Interrupt::install();
     // Before the first motion, which may take long.
-    let out = folder(arguments, &of);
-    let folder = place::ready(&out)?;
+    let output = Output::ready(arguments.out.as_deref(), &format!("{}-branch", of.job.name))?;
+    let out = output.path.clone();
+    let BranchArguments { accuracy, points, search, fresh, .. } = arguments;
+    let asked = (&of.job.hash, &of.path, of.range, [search.tolerance, *accuracy], search.periods, points);
+    of.journal = output.journal("branch", &asked, *fresh)?;
     let progress = Progress::new(!arguments.search.quiet);
     let line = progress.count(&of.path, "motions", &interrupt);
     let course = Course {
@@ -80,36 +74,30 @@ fn answer(arguments: &BranchArguments) -> Result<Verdict, BranchFailure> {
     let branch = of.follow(&course)?;
     drop(line);
     let accuracy = [arguments.search.tolerance, arguments.accuracy];
-    let names = write(arguments, folder, (&of, &branch), accuracy)?;
+    let names = write(arguments, output, (&of, &branch), accuracy)?;
     if arguments.search.json {
         say_json(&continuation::json(&of, &branch, accuracy));
     } else if !arguments.search.quiet {
         tell(&of, &branch);
         say(format_args!("\n{}: {}", out.display(), names.join(", ")));
     }
-    Ok(if branch.is_cut() { Verdict::Interrupted } else { Verdict::Done })
-}
-
-/// Where the files go.
-fn folder(arguments: &BranchArguments, of: &Continuation) -> PathBuf {
-    let own = || Path::new("results").join(format!("{}-branch", of.job.name));
-    arguments.out.clone().unwrap_or_else(own)
+    if branch.is_cut() {
+        return Ok(Verdict::Interrupted);
+    }
+    of.journal.remove();
+    Ok(Verdict::Done)
 }
 
 fn write(
     arguments: &BranchArguments,
-    mut folder: Folder,
+    output: Output,
     (of, branch): (&Continuation, &Branch),
     accuracy: [f64; 2],
-) -> Result<Vec<String>, BranchFailure> {
+) -> Result<Vec<String>, OutputFailure> {
     let pictures = picture::draw(of, branch, &arguments.search.look.look())?;
-    let out = self::folder(arguments, of);
-    folder.release();
-    // A command that was killed has left its drafts.
-    let stale = picture::all_files(branch.is_cut());
-    sweep(&out, &continuation::all_files().chain(stale.iter().cloned()).collect::<Vec<_>>());
-    continuation::write(folder, (of, branch), accuracy, (&pictures, stale))
-        .map_err(|source| BranchFailure::Write { path: out, source })
+    output.write(continuation::all_files(), picture::all_files(branch.is_cut()), |folder, stale| {
+        continuation::write(folder, (of, branch), accuracy, (&pictures, stale))
+    })
 }
 
 /// The branch by its ends and what lies between them, in its order.
@@ -163,7 +151,7 @@ impl BranchFailure {
                 Verdict::Stopped
             }
             Self::Branch(_) => Verdict::BadInput,
-            Self::Folder(_) | Self::Figure(_) | Self::Write { .. } => Verdict::Stopped,
+            Self::Output(failure) => failure.verdict(),
         }
     }
 }

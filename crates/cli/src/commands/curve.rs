@@ -2,20 +2,17 @@
 
 mod holding;
 
+use super::output::{Output, OutputFailure};
 use crate::arguments::CurveArguments;
 use crate::arguments::curve::CurveName;
-use std::io;
-use std::path::{Path, PathBuf};
-use stickslip_console as console;
+use std::path::Path;
+use std::sync::Arc;
 use stickslip_console::answer::{complain, say, say_json, warn};
 use stickslip_console::interrupt::{Interrupt, Interrupted};
-use stickslip_console::place::Unwritable;
 use stickslip_console::progress::Progress;
 use stickslip_console::table;
 use stickslip_console::verdict::Verdict;
-use stickslip_figures::{FigureError, curve as picture};
-use stickslip_run::complaint::words;
-use stickslip_run::folder::{Folder, sweep};
+use stickslip_figures::curve as picture;
 use stickslip_run::{Job, Real, Warning, quantity};
 use stickslip_study::curve::{self, Curve, CurveError, Kind, Point, Range, Traced, Way};
 use thiserror::Error;
@@ -42,15 +39,9 @@ enum CurveFailure {
         "--both  cannot be used with --curve holding-force, which has both ways by itself: nothing is driven"
     )]
     HeldBothWays,
-    /// The picture.
-    #[error(transparent)]
-    Figure(#[from] FigureError),
-    /// Where the files are to go.
-    #[error(transparent)]
-    Folder(#[from] Unwritable),
     /// The files.
-    #[error("{}: {}", .path.display(), words(.source))]
-    Write { path: PathBuf, source: io::Error },
+    #[error(transparent)]
+    Output(#[from] OutputFailure),
 }
 
 /// Traces a curve and writes it.
@@ -61,9 +52,8 @@ pub(crate) fn curve(arguments: &CurveArguments) -> Verdict {
             CurveFailure::Curve(_)
             | CurveFailure::Range { .. }
             | CurveFailure::VariesItself(_)
-            | CurveFailure::HeldBothWays
-            | CurveFailure::Folder(_) => Verdict::BadInput,
-            CurveFailure::Figure(_) | CurveFailure::Write { .. } => Verdict::Stopped,
+            | CurveFailure::HeldBothWays => Verdict::BadInput,
+            CurveFailure::Output(failure) => failure.verdict(),
         }
     })
 }
@@ -83,7 +73,7 @@ fn answer(arguments: &CurveArguments) -> Result<Verdict, CurveFailure> {
 /// Traces a curve of motions, in one sense or both, and writes it.
 fn trace(arguments: &CurveArguments, kind: Kind) -> Result<Verdict, CurveFailure> {
     let job = prepared(arguments)?;
-    let curves = match arguments.both {
+    let mut curves = match arguments.both {
         true => Vec::from(Curve::both(job, &kind)?),
         false => vec![Curve::new(job, kind)?],
     };
@@ -97,26 +87,19 @@ fn trace(arguments: &CurveArguments, kind: Kind) -> Result<Verdict, CurveFailure
             .for_each(|text| complain(format_args!("note: {text}")));
     }
     let asked = range(arguments, first)?;
-    let (out, folder) = place(arguments, &first.job, first.kind.name())?;
+    let output = place(arguments, &first.job, first.kind.name())?;
+    let out = output.path.clone();
+    let journal = Arc::new(output.journal("curve", &first.job.hash, arguments.work.fresh)?);
+    for curve in &mut curves {
+        curve.journal = Arc::clone(&journal);
+    }
+    let first = &curves[0];
     let (interrupt, progress) = (Interrupt::install(), Progress::new(!arguments.quiet));
     let (name, what) = (&first.job.name, first.kind.name());
     let count = arguments.points * curves.len();
     progress.tell(format_args!("{name}: {what}, {count} points"));
-    let values = match asked {
-        Some(range) => range.values()?,
-        None => {
-            progress.tell(format_args!("{name}: searching for a range"));
-            let found = wide(&curves, &interrupt);
-            // What was tried until then is no range.
-            if interrupt.is_raised() {
-                complain(format_args!("{name}: interrupted while a range was looked for; no point is done"));
-                return Ok(Verdict::Interrupted);
-            }
-            match found {
-                Some(range) => of(arguments, range).values()?,
-                None => Vec::new(),
-            }
-        }
+    let Some(values) = values(arguments, (&curves, asked), (&progress, &interrupt))? else {
+        return Ok(Verdict::Interrupted);
     };
     let mut all = Vec::new();
     for curve in &curves {
@@ -129,7 +112,7 @@ fn trace(arguments: &CurveArguments, kind: Kind) -> Result<Verdict, CurveFailure
     if done == 0 {
         return Ok(Verdict::Interrupted);
     }
-    let names = write(arguments, &ways, (&out, folder))?;
+    let names = write(arguments, &ways, output)?;
     if arguments.json {
         say_json(&curve::json(&ways));
     } else if !arguments.quiet {
@@ -137,6 +120,9 @@ fn trace(arguments: &CurveArguments, kind: Kind) -> Result<Verdict, CurveFailure
         say(format_args!("\n{}: {}", out.display(), names.join(", ")));
     }
     let verdict = verdict(&ways);
+    if verdict != Verdict::Interrupted {
+        journal.remove();
+    }
     // Why there is nothing at all is no note.
     if verdict == Verdict::Stopped && (arguments.quiet || arguments.json) {
         ways.iter().take(1).for_each(|(curve, traced)| complain_of_faults(curve, traced));
@@ -147,6 +133,26 @@ fn trace(arguments: &CurveArguments, kind: Kind) -> Result<Verdict, CurveFailure
 fn prepared(arguments: &CurveArguments) -> Result<Job, CurveFailure> {
     Job::prepare(&arguments.file, &arguments.set, Path::new(""))
         .map_err(|refusal| CurveError::from(refusal).into())
+}
+
+/// Where the points lie; none where somebody interrupted the search for a range.
+fn values(
+    arguments: &CurveArguments,
+    (curves, asked): (&[Curve], Option<Range>),
+    (progress, interrupt): (&Progress, &Interrupt),
+) -> Result<Option<Vec<f64>>, CurveFailure> {
+    if let Some(range) = asked {
+        return Ok(Some(range.values()?));
+    }
+    let name = &curves[0].job.name;
+    progress.tell(format_args!("{name}: searching for a range"));
+    let found = wide(curves, interrupt);
+    // What was tried until then is no range.
+    if interrupt.is_raised() {
+        complain(format_args!("{name}: interrupted while a range was looked for; no point is done"));
+        return Ok(None);
+    }
+    Ok(Some(found.map(|range| of(arguments, range).values()).transpose()?.unwrap_or_default()))
 }
 
 /// A range worth looking at for all of them.
@@ -164,10 +170,10 @@ fn followed(
 ) -> Result<Traced, CurveFailure> {
     let sense = curve.sense.map_or(String::new(), |sense| format!(" {}", sense.name()));
     let bar = progress.budget(&format!("{}{sense}", curve.kind.name()), values.len() as f64, interrupt);
-    let mut traced = curve.trace(values, arguments.threads.count(), &bar);
+    let mut traced = curve.trace(values, arguments.work.threads.count(), &bar);
     drop(bar);
     let bar = progress.budget(&format!("stall, S\u{2080} and best points{sense}"), 1.0, interrupt);
-    curve.mark(&mut traced, arguments.tolerance, arguments.threads.count(), &bar)?;
+    curve.mark(&mut traced, arguments.tolerance, arguments.work.threads.count(), &bar)?;
     Ok(traced)
 }
 
@@ -222,24 +228,14 @@ fn of(arguments: &CurveArguments, [from, to]: [f64; 2]) -> Range {
 }
 
 /// Where the files go, tried before the first point, which may take long.
-fn place(arguments: &CurveArguments, job: &Job, curve: &str) -> Result<(PathBuf, Folder), CurveFailure> {
-    let own = || Path::new("results").join(format!("{}-{curve}", job.name));
-    let out = arguments.out.clone().unwrap_or_else(own);
-    let folder = console::place::ready(&out)?;
-    Ok((out, folder))
+fn place(arguments: &CurveArguments, job: &Job, curve: &str) -> Result<Output, OutputFailure> {
+    Output::ready(arguments.out.as_deref(), &format!("{}-{curve}", job.name))
 }
 
-fn write(
-    arguments: &CurveArguments,
-    ways: &[Way<'_>],
-    (out, folder): (&Path, Folder),
-) -> Result<Vec<String>, CurveFailure> {
+fn write(arguments: &CurveArguments, ways: &[Way<'_>], output: Output) -> Result<Vec<String>, OutputFailure> {
     let pictures = picture::draw(ways, arguments.log, &arguments.look.look())?;
-    // A command that was killed has left its drafts.
     let stale = picture::all_files(ways.iter().any(|(_, traced)| traced.is_cut()));
-    sweep(out, &curve::all_files().chain(stale.iter().cloned()).collect::<Vec<_>>());
-    curve::write(folder, ways, &pictures, stale)
-        .map_err(|source| CurveFailure::Write { path: out.to_owned(), source })
+    output.write(curve::all_files(), stale, |folder, stale| curve::write(folder, ways, &pictures, stale))
 }
 
 /// Most points whose table is printed unasked.

@@ -1,16 +1,13 @@
 //! `stickslip map`: a result over two parameters.
 
+use super::output::{Output, OutputFailure};
 use crate::arguments::MapArguments;
-use std::io;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use stickslip_console::answer::{complain, say, say_json, warn};
 use stickslip_console::interrupt::Interrupt;
-use stickslip_console::place::{self, Unwritable};
 use stickslip_console::progress::Progress;
 use stickslip_console::verdict::Verdict;
-use stickslip_figures::{FigureError, map as picture};
-use stickslip_run::complaint::words;
-use stickslip_run::folder::sweep;
+use stickslip_figures::map as picture;
 use stickslip_run::{Job, Real, quantity};
 use stickslip_study::map::{self, Asked, Field, Map, MapError, Overlay};
 use stickslip_study::sweep::StudyError;
@@ -25,15 +22,9 @@ enum MapFailure {
     /// What is asked for.
     #[error(transparent)]
     Map(#[from] MapError),
-    /// The picture.
-    #[error(transparent)]
-    Figure(#[from] FigureError),
-    /// Where the files are to go.
-    #[error(transparent)]
-    Folder(#[from] Unwritable),
     /// The files.
-    #[error("{}: {}", .path.display(), words(.source))]
-    Write { path: PathBuf, source: io::Error },
+    #[error(transparent)]
+    Output(#[from] OutputFailure),
 }
 
 /// Computes a map and writes it.
@@ -47,8 +38,8 @@ pub(crate) fn map(arguments: &MapArguments) -> Verdict {
                 StudyError::Interrupted => Verdict::Interrupted,
                 _ => Verdict::Stopped,
             },
-            MapFailure::Map(_) | MapFailure::Folder(_) => Verdict::BadInput,
-            MapFailure::Figure(_) | MapFailure::Write { .. } => Verdict::Stopped,
+            MapFailure::Map(_) => Verdict::BadInput,
+            MapFailure::Output(failure) => failure.verdict(),
         }
     })
 }
@@ -65,34 +56,39 @@ fn answer(arguments: &MapArguments) -> Result<Verdict, MapFailure> {
         points: arguments.points,
         by_runs: false,
     };
-    let map = Map::new(job, (file, set), &asked)?;
+    let mut map = Map::new(job, (file, set), &asked)?;
     let overlay = arguments.overlay.as_deref().map(|path| Overlay::load(path, &map)).transpose()?;
     if !arguments.quiet {
         warn(&map.job);
     }
-    let name = &map.job.name;
-    let own = || Path::new("results").join(format!("{name}-map"));
-    let out = arguments.out.clone().unwrap_or_else(own);
+    let name = map.job.name.clone();
     // Before the first run.
-    let mut folder = place::ready(&out)?;
+    let output = Output::ready(arguments.out.as_deref(), &format!("{name}-map"))?;
+    let out = output.path.clone();
+    if map.is_of_regime() {
+        let axes = [&map.axes[0], &map.axes[1]].map(|axis| (&axis.path, axis.range, axis.is_logarithmic));
+        map.journal = output.journal("map", &(&map.job.hash, &map.of, axes), arguments.work.fresh)?;
+    }
     let progress = Progress::new(!arguments.quiet);
     progress.tell(format_args!("{name}: map of {of}, {} points", map.cases()));
-    let bar = progress.budget(name, map.cases() as f64, &interrupt);
-    let field = map.compute(&out.join("parts"), arguments.threads.count(), &bar)?;
+    let bar = progress.budget(&name, map.cases() as f64, &interrupt);
+    if arguments.work.fresh {
+        map.remove(&out.join("parts"))?;
+    }
+    let field = map.compute(&out.join("parts"), arguments.work.threads.count(), &bar)?;
     drop(bar);
-    let pictures = picture::draw((&map, &field), overlay.as_ref(), &arguments.look.look())?;
-    folder.release();
-    let stale = picture::all_files();
-    // A command that was killed has left its drafts.
-    sweep(&out, &map::all_files().chain(stale.iter().cloned()).collect::<Vec<_>>());
-    let failed = |source| MapFailure::Write { path: out.clone(), source };
-    let names = map::write(folder, (&map, &field), &pictures, stale).map_err(failed)?;
+    let pictures = picture::draw((&map, &field), overlay.as_ref(), &arguments.look.look())
+        .map_err(OutputFailure::from)?;
+    let names = output.write(map::all_files(), picture::all_files(), |folder, stale| {
+        map::write(folder, (&map, &field), &pictures, stale)
+    })?;
     if arguments.json {
         say_json(&map::json(&map, &field));
     } else if !arguments.quiet {
         tell(&map, &field);
         say(format_args!("{}: {}", out.display(), names.join(", ")));
     }
+    map.journal.remove();
     Ok(Verdict::Done)
 }
 

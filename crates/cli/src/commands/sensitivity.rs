@@ -1,18 +1,15 @@
 //! `stickslip sensitivity`: which numbers matter.
 
+use super::output::{Output, OutputFailure};
 use super::steady;
 use crate::arguments::SensitivityArguments;
-use std::io;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use stickslip_console::answer::{complain, say, say_json, warn};
 use stickslip_console::interrupt::{Interrupt, Interrupted};
-use stickslip_console::place::{self, Unwritable};
 use stickslip_console::progress::Progress;
 use stickslip_console::table;
 use stickslip_console::verdict::Verdict;
-use stickslip_figures::{FigureError, sensitivity as picture};
-use stickslip_run::complaint::words;
-use stickslip_run::folder::{Folder, sweep};
+use stickslip_figures::sensitivity as picture;
 use stickslip_run::{Job, Real, quantity};
 use stickslip_study::sensitivity::{self, Asked, Sensitivity, SensitivityError, Taken};
 use thiserror::Error;
@@ -23,15 +20,9 @@ enum SensitivityFailure {
     /// What is asked for.
     #[error(transparent)]
     Asked(#[from] SensitivityError),
-    /// The picture.
-    #[error(transparent)]
-    Figure(#[from] FigureError),
-    /// Where the files are to go.
-    #[error(transparent)]
-    Folder(#[from] Unwritable),
     /// The files.
-    #[error("{}: {}", .path.display(), words(.source))]
-    Write { path: PathBuf, source: io::Error },
+    #[error(transparent)]
+    Output(#[from] OutputFailure),
 }
 
 /// Takes derivatives and writes them.
@@ -40,8 +31,7 @@ pub(crate) fn sensitivity(arguments: &SensitivityArguments) -> Verdict {
         complain(format_args!("{failure}"));
         match failure {
             SensitivityFailure::Asked(error) => verdict(&error),
-            SensitivityFailure::Folder(_) => Verdict::BadInput,
-            SensitivityFailure::Figure(_) | SensitivityFailure::Write { .. } => Verdict::Stopped,
+            SensitivityFailure::Output(failure) => failure.verdict(),
         }
     })
 }
@@ -61,58 +51,54 @@ fn answer(arguments: &SensitivityArguments) -> Result<Verdict, SensitivityFailur
     let SensitivityArguments { of, to, steady, tolerance, .. } = arguments;
     let asked = Asked { of: of.clone(), to: to.clone(), steady: *steady, tolerance: *tolerance };
     let job = Job::prepare(&arguments.file, &arguments.set, Path::new("")).map_err(SensitivityError::from)?;
-    let asked = Sensitivity::new(job, &asked, &Interrupted(&interrupt))?;
+    let mut asked = Sensitivity::new(job, &asked, &Interrupted(&interrupt))?;
     if !arguments.quiet {
         warn(&asked.job);
     }
     // Before the first run.
-    let out = folder(arguments, &asked);
-    let folder = place::ready(&out)?;
-    let (name, runs) = (&asked.job.name, asked.runs());
+    let (name, runs) = (asked.job.name.clone(), asked.runs());
+    let output = Output::ready(arguments.out.as_deref(), &format!("{name}-sensitivity"))?;
+    let out = output.path.clone();
+    let figures: Vec<&str> = asked.figures.iter().map(|figure| figure.name.as_str()).collect();
+    asked.journal = output.journal("sensitivity", &(&asked.job.hash, figures), arguments.work.fresh)?;
     let progress = Progress::new(!arguments.quiet);
     progress.tell(format_args!("{name}: derivatives, {runs} runs"));
-    let bar = progress.budget(name, runs as f64, &interrupt);
-    let taken = asked.take(arguments.threads.count(), &bar);
+    let bar = progress.budget(&name, runs as f64, &interrupt);
+    let taken = asked.take(arguments.work.threads.count(), &bar);
     drop(bar);
     let all = asked.figures.len() * asked.quantities.len();
     progress.tell(format_args!("{name}: {} of {all} derivatives are known", all - taken.faults()));
-    let names = write(arguments, (&asked, &taken), folder)?;
+    let names = write(arguments, (&asked, &taken), output)?;
     if arguments.json {
         say_json(&sensitivity::json(&asked, &taken));
     } else if !arguments.quiet {
         tell(&asked, &taken);
         say(format_args!("{}: {}", out.display(), names.join(", ")));
     }
+    let faults = taken.faults();
+    if !interrupt.is_raised() {
+        asked.journal.remove();
+    }
     Ok(match () {
         () if interrupt.is_raised() => Verdict::Interrupted,
-        () if taken.faults() == all => Verdict::Stopped,
+        () if faults == all => Verdict::Stopped,
         () => Verdict::Done,
     })
-}
-
-/// Where the files go.
-fn folder(arguments: &SensitivityArguments, asked: &Sensitivity) -> PathBuf {
-    let own = || Path::new("results").join(format!("{}-sensitivity", asked.job.name));
-    arguments.out.clone().unwrap_or_else(own)
 }
 
 fn write(
     arguments: &SensitivityArguments,
     (asked, taken): (&Sensitivity, &Taken),
-    mut folder: Folder,
-) -> Result<Vec<String>, SensitivityFailure> {
-    let out = self::folder(arguments, asked);
+    output: Output,
+) -> Result<Vec<String>, OutputFailure> {
     let pictures = match picture::draw((asked, taken), &arguments.look.look()) {
         // Of what was interrupted before anything was known nothing may have room for its reasons.
         Err(_) if taken.is_cut() => Vec::new(),
         drawn => drawn?,
     };
-    let failed = |source| SensitivityFailure::Write { path: out.clone(), source };
-    folder.release();
-    // A command that was killed has left its drafts.
-    let stale = picture::all_files(taken.is_cut());
-    sweep(&out, &sensitivity::all_files().chain(stale.iter().cloned()).collect::<Vec<_>>());
-    sensitivity::write(folder, (asked, taken), &pictures, stale).map_err(failed)
+    output.write(sensitivity::all_files(), picture::all_files(taken.is_cut()), |folder, stale| {
+        sensitivity::write(folder, (asked, taken), &pictures, stale)
+    })
 }
 
 /// A table for each figure, and what is to be said of some of its rows.

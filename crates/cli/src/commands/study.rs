@@ -46,10 +46,10 @@ fn check(arguments: &CheckStudyArguments) -> Result<Verdict, StudyError> {
     if !arguments.quiet {
         warn(&study.job);
         say(format_args!(
-            "{}: ok, {} cases in {} parts",
+            "{}: ok, {} in {}",
             arguments.place.file.display(),
-            study.cases(),
-            study.parts()
+            counted(study.cases(), "case"),
+            counted(study.parts(), "part")
         ));
     }
     Ok(Verdict::Done)
@@ -66,12 +66,21 @@ fn plan(arguments: &PlanStudyArguments) -> Result<Verdict, StudyError> {
         return Ok(Verdict::Done);
     }
     let Forecast { cases, chunks, expected_s, case_s, bytes, threads, failed } = forecast;
-    say(format_args!("{cases} cases in {chunks} parts of up to {}", study.part(0).end));
-    let each = quantity(case_s, "s");
-    say(format_args!("expected time: {} on {threads} threads ({each} a case)", duration(expected_s)));
     say(format_args!(
-        "expected size: {:.1} MB in {}",
-        bytes as f64 / 1e6,
+        "{} in {} of up to {}",
+        counted(cases, "case"),
+        counted(chunks, "part"),
+        study.part(0).end
+    ));
+    let each = quantity(case_s, "s");
+    say(format_args!(
+        "expected time: {} on {} ({each} a case)",
+        duration(expected_s),
+        counted(threads as u64, "thread")
+    ));
+    say(format_args!(
+        "expected size: {} in {}",
+        quantity(Real(bytes as f64), "B"),
         folder(&arguments.place, &study).display()
     ));
     for (case, why) in failed {
@@ -112,7 +121,7 @@ fn run(arguments: &RunStudyArguments) -> Result<Verdict, StudyError> {
         json(&statistics);
     } else if !quiet {
         tell(&study, &statistics);
-        say(format_args!("{}: {} parts, {} of them computed now", out.display(), status.of, ran.computed));
+        say(format_args!("{}: {}, {} computed now", out.display(), counted(status.of, "part"), ran.computed));
     }
     if statistics.failed == statistics.cases {
         complain(format_args!("{}: all cases failed", study.job.name));
@@ -280,6 +289,11 @@ fn shown(value: Real, unit: &str) -> String {
         return "\u{2013}".to_owned();
     }
     if unit.is_empty() { format!("{:.4}", value.0) } else { quantity(value, unit) }
+}
+
+/// A number of things, one or more.
+fn counted(count: u64, thing: &str) -> String {
+    format!("{count} {thing}{}", if count == 1 { "" } else { "s" })
 }
 
 /// A time as people say it.

@@ -18,9 +18,7 @@
 //! the difference of the potential is the discrete gradient of Gonzalez, J. Nonlinear Sci. 6 (1996) 449.
 
 mod course;
-pub(crate) mod rates;
 mod slip;
-mod stretch;
 mod sway;
 mod time;
 mod turning;
@@ -29,11 +27,9 @@ use super::Interval;
 use crate::Model;
 use crate::contact::{NEARNESS, Press};
 use crate::model::Free;
-pub(crate) use rates::Rates;
 use slip::PartialSlip;
 use std::f64::consts::PI;
 use stickslip_contact::RootSeries;
-pub(crate) use stretch::Stretch;
 use sway::Sway;
 use turning::{EXACT, ROUGH, softer};
 
@@ -173,7 +169,7 @@ impl<'a> Swing<'a> {
             if !(gain > 0.0 && lean > 0.0 && height > 0.0) {
                 return false;
             }
-            self.slips.push(PartialSlip::new((pull.index, law), gain, lean, height));
+            self.slips.push(PartialSlip::new(law, gain, lean, height));
         }
         true
     }
@@ -350,7 +346,7 @@ mod tests {
             start: PhasePoint { t: 0.0, x: 0.0, v: speed },
             mobility: 1.0,
             push,
-            slips: vec![PartialSlip::new((0, law), 1.0, 1.0, 1.0)],
+            slips: vec![PartialSlip::new(law, 1.0, 1.0, 1.0)],
             reach: 1.0,
             tolerance: 1e-12,
             last: EXACT,

@@ -115,15 +115,6 @@ impl Ledger {
         self.segments.push((c, Timed { path, duration }));
     }
 
-    /// When the paths of contact `c` on the page end, s, the first of them having begun at `from`.
-    pub(super) fn ends(&self, c: usize, from: f64) -> impl Iterator<Item = f64> + '_ {
-        let own = self.segments.iter().filter(move |(of, _)| *of == c);
-        own.scan(from, |t, (_, segment)| {
-            *t += segment.duration;
-            Some(*t)
-        })
-    }
-
     /// All contacts move their memory to where the step ended, at time t, s.
     ///
     /// Books friction (J) of all of a contact's identical members, unless it is an integral of the run. Fails

@@ -26,7 +26,6 @@ mod search;
 mod shift;
 mod steady;
 mod step;
-mod stride;
 #[cfg(test)]
 mod tests;
 mod turning;

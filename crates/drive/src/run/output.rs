@@ -29,8 +29,6 @@ pub(super) struct Output {
     pub(super) marks: Marks,
     pub(super) turns: Turns,
     pub(super) rows: Rows,
-    /// Whether the record reads every step.
-    pub(super) strides: bool,
     row: Vec<f64>,
     /// Scratch: components of a moment, or their slopes.
     pub(super) components: Vec<f64>,
@@ -43,8 +41,7 @@ impl Output {
         let grid = Grid::new(None, 0.0, EVERYWHERE);
         let (row, components) = (Vec::new(), Vec::new());
         let (looks, marks, turns, rows) = (Looks::NONE, Marks::none(), Turns::default(), Rows::default());
-        let blank =
-            Self { every, grid, looks, marks, turns, rows, strides: false, row, components, evaluations: 0 };
+        let blank = Self { every, grid, looks, marks, turns, rows, row, components, evaluations: 0 };
         blank.renewed(every, layout)
     }
 
@@ -54,14 +51,13 @@ impl Output {
         self.components.resize(layout.total(), 0.0);
         let grid = Grid { row: self.grid.row, ..Grid::new(None, 0.0, EVERYWHERE) };
         let (marks, turns, rows) = (self.marks.renewed(), self.turns.renewed(), self.rows.renewed());
-        Self { every, grid, looks: Looks::NONE, marks, turns, rows, strides: false, evaluations: 0, ..self }
+        Self { every, grid, looks: Looks::NONE, marks, turns, rows, evaluations: 0, ..self }
     }
 
     /// Begins the rows after a time, s. Rows in a run that `begins` there: the first one is at hand if it is on the grid.
     pub(super) fn set_out(&mut self, from: f64, record: &dyn Record) {
         let row = std::mem::take(&mut self.grid.row);
         self.grid = Grid { row, ..Grid::new(self.every, from, record.rows_within()) };
-        self.strides = record.strides();
     }
 
     /// Asks for the first look and the first mark, and takes them if they are at hand.

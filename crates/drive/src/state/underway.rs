@@ -16,15 +16,7 @@ pub(crate) enum Underway {
     Fixed(Box<FixedWay>),
 }
 
-impl Underway {
-    /// Makes one the copy of another, in the room there is where both are of a run between located events.
-    pub(crate) fn copy(own: &mut Option<Self>, from: &Option<Self>) {
-        match (own, from) {
-            (Some(Self::Located(own)), Some(Self::Located(from))) => own.copy(from),
-            (own, from) => own.clone_from(from),
-        }
-    }
-}
+impl Underway {}
 
 /// Of a run between located events.
 #[derive(Debug, Clone, PartialEq)]
@@ -233,36 +225,6 @@ pub(crate) struct Stepped {
 }
 
 impl LocatedWay {
-    /// Becomes another one's copy, in the room there is.
-    fn copy(&mut self, from: &Self) {
-        // Whatever comes to it is to be named here.
-        let Self {
-            tolerance,
-            whereabouts,
-            hand,
-            slopes,
-            history,
-            gait,
-            allowed,
-            booked,
-            asked,
-            leap,
-            detour,
-            last_detour,
-            windows,
-            crawl,
-            steps,
-        } = from;
-        self.slopes.clone_from(slopes);
-        self.allowed.copy(allowed);
-        self.booked.copy(booked);
-        self.windows.clone_from(windows);
-        (self.tolerance, self.whereabouts, self.hand) = (*tolerance, *whereabouts, *hand);
-        (self.history, self.gait, self.asked) = (*history, *gait, *asked);
-        (self.leap, self.crawl, self.steps) = (*leap, *crawl, *steps);
-        (self.detour, self.last_detour) = (*detour, *last_detour);
-    }
-
     /// Nothing learnt yet.
     pub(crate) const BLANK: Self = Self {
         tolerance: 0.0,

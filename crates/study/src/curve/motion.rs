@@ -5,7 +5,8 @@
 
 use super::waiting::{Unstable, waited};
 use crate::steady::{self, Multiplier, Options, SteadyError};
-use stickslip_drive::{RunError, Waveform};
+use serde::{Deserialize, Serialize};
+use stickslip_drive::Waveform;
 use stickslip_run::{Job, Watcher};
 use stickslip_scenario::ScenarioError;
 use thiserror::Error;
@@ -18,7 +19,7 @@ const SHOT_OF_BLOCKS: u32 = 100;
 const TOLERANCE: f64 = 1e-9;
 
 /// What the motion does at the end.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Course {
     /// The same step in every period.
     Steady,
@@ -29,7 +30,7 @@ pub enum Course {
 }
 
 /// Motion of the figures' body.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Motion {
     /// Step along x in a period of the figures' waveform, m: of steps that swing or change without a pattern their mean.
     pub step: f64,
@@ -51,13 +52,14 @@ pub struct Motion {
 }
 
 /// Why there is no motion.
-#[derive(Debug, Clone, PartialEq, Error)]
+#[derive(Debug, Clone, PartialEq, Error, Serialize, Deserialize)]
 pub enum Motionless {
     /// Nobody computed it: the curve was interrupted before.
     #[error("not run")]
     NotRun,
     /// The value makes no scenario.
     #[error(transparent)]
+    #[serde(skip)]
     Scenario(#[from] ScenarioError),
     /// No waveform with a period makes steps, or no body.
     #[error("nothing has a period and a body whose steps could be counted")]
@@ -65,12 +67,9 @@ pub enum Motionless {
     /// The waveform ends.
     #[error("its waveform ends after {0} cycles: too few to become steady")]
     Ends(u32),
-    /// The run.
-    #[error(transparent)]
-    Run(RunError),
-    /// The search, where waiting does not help either.
-    #[error(transparent)]
-    Search(SteadyError),
+    /// The run stops itself, or the search does where waiting does not help either.
+    #[error("{0}")]
+    Stopped(String),
     /// A load, or what else pulls, drags the body away: it accelerates, or slips all through and goes as far in every period.
     #[error("slides away: after {periods} periods {step:.3e} m a period, {}", away(*step, *change))]
     SlidesAway {
@@ -164,7 +163,7 @@ impl Motion {
                 | SteadyError::Flies { .. }
                 | SteadyError::Run(_),
             ) => waited(job, watcher, None),
-            Err(error) => Err(Motionless::Search(error)),
+            Err(error) => Err(Motionless::Stopped(error.to_string())),
         }
     }
 
@@ -257,6 +256,11 @@ impl Motionless {
         }
     }
 
+    /// Whether what was found is more than that somebody wanted an end, or that the value makes no scenario, which is soon found again.
+    pub(super) fn is_no_end(found: &Result<Motion, Self>) -> bool {
+        !matches!(found, Err(Self::NotRun | Self::Scenario(_)))
+    }
+
     /// The kind of reason, in a word or two.
     #[must_use]
     pub fn kind(&self) -> &'static str {
@@ -264,7 +268,7 @@ impl Motionless {
             Self::NotRun => "not run",
             Self::Scenario(_) => "refused",
             Self::NoSteps | Self::Ends(_) => "no steps to count",
-            Self::Run(_) | Self::Search(_) => "stopped",
+            Self::Stopped(_) => "stopped",
             Self::SlidesAway { .. } => "slides away",
             Self::Flies { .. } => "in the air",
             Self::Grows { .. } => "leaves",

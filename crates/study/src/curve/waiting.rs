@@ -74,7 +74,7 @@ pub(super) fn waited(
     }
     let failed = |error: RunError| match error {
         RunError::Interrupted { .. } => Motionless::NotRun,
-        error => Motionless::Run(error),
+        error => Motionless::Stopped(error.to_string()),
     };
     let plan = Plan { every: None, until_steady: None, ..job.scenario.plan };
     let mut run = Run::new(&job.model, &plan, job.start.clone()).map_err(failed)?;

@@ -1,6 +1,8 @@
 //! The regime of a contact in one case: from the waveforms that prescribe its motion, or from a run.
 
 use super::{Axis, Map};
+use crate::journal::Journal;
+use serde::{Deserialize, Serialize};
 use std::sync::atomic::{AtomicUsize, Ordering};
 use stickslip_drive::facts::{Prescribed, common_period};
 use stickslip_drive::{Event, EventKind, Limits, Plan, Record, RunError, Source};
@@ -14,7 +16,7 @@ const LITTLE: f64 = 1e-3;
 const SAME: f64 = 1e-9;
 
 /// How a contact slips over a period; each has more of it than the one before.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 pub enum Regime {
     /// Never in contact.
     Open,
@@ -43,14 +45,14 @@ impl Regime {
 }
 
 /// A regime, and by how much each of those from stick on is reached: above 0 where it is.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub(super) struct Seen {
     pub(super) regime: Regime,
     pub(super) margins: [f64; 3],
 }
 
 /// Why a case has no regime.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(super) enum Unseen {
     /// Somebody interrupted it.
     Interrupted,
@@ -65,6 +67,8 @@ pub(super) struct Looks<'m> {
     /// The contact's place.
     contact: usize,
     by_runs: bool,
+    /// Where runs are looked up and written down.
+    journal: &'m Journal,
     watcher: &'m (dyn Watcher + Sync),
     /// Looks and runs so far.
     looks: AtomicUsize,
@@ -79,7 +83,7 @@ impl<'m> Looks<'m> {
         watcher: &'m (dyn Watcher + Sync),
     ) -> Self {
         let (looks, runs) = (AtomicUsize::new(0), AtomicUsize::new(0));
-        Self { job: &map.job, axes: &map.axes, contact, by_runs, watcher, looks, runs }
+        Self { job: &map.job, axes: &map.axes, contact, by_runs, journal: &map.journal, watcher, looks, runs }
     }
 
     /// Runs so far.
@@ -111,7 +115,8 @@ impl<'m> Looks<'m> {
             Some(path) => Ok(prescribed(&path)),
             None => {
                 self.runs.fetch_add(1, Ordering::Relaxed);
-                run(&job, self.contact, self.watcher)
+                let compute = || run(&job, self.contact, self.watcher);
+                self.journal.found(&place, compute, |seen| !matches!(seen, Err(Unseen::Interrupted)))
             }
         };
         self.watcher.reached((self.looks.fetch_add(1, Ordering::Relaxed) + 1) as f64);

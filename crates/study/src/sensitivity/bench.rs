@@ -3,8 +3,10 @@
 use super::ladder::{self, Tried};
 use super::{Missing, Quantity, Sample, Sensitivity, sample};
 use crate::each::each;
+use serde::Serialize;
 use std::sync::atomic::{AtomicUsize, Ordering};
-use stickslip_run::Watcher;
+use stickslip_run::{Job, Watcher};
+use stickslip_scenario::ScenarioError;
 
 /// Most of the figure that it may change by where the scale of a quantity is looked for.
 const LITTLE: f64 = 0.1;
@@ -39,15 +41,9 @@ impl Bench<'_> {
             let (q, (share, is_level)) = variants[place];
             let quantity = &asked.quantities[q];
             let value = quantity.value + share * scales[q];
-            let goes_on = self.watcher.goes_on();
-            let variant = if goes_on {
+            let sample = self.found(&(&quantity.path, value), || {
                 sample::variant(&asked.job, &quantity.path, value, self.tolerance)
-            } else {
-                Err(Missing::NotRun)
-            };
-            let variant = variant.map(|job| if self.has_rows { job } else { sample::without_rows(job) });
-            let silent = Silent(self.watcher);
-            let sample = variant.and_then(|job| Sample::of(&job, &asked.figures, self.tolerance, &silent));
+            });
             let done = self.done.fetch_add(1, Ordering::Relaxed) + 1;
             self.watcher.reached(done as f64);
             Tried { share, offset: value - quantity.value, is_level, sample }
@@ -55,6 +51,33 @@ impl Bench<'_> {
         let mut by_quantity: Vec<Vec<Tried>> = vec![Vec::new(); asked.quantities.len()];
         variants.iter().zip(tried).for_each(|((q, _), tried)| by_quantity[*q].push(tried));
         by_quantity
+    }
+
+    /// What a variant comes to, by the journal or by its run.
+    fn found(
+        &self,
+        of: &impl Serialize,
+        job: impl FnOnce() -> Result<Job, Missing>,
+    ) -> Result<Sample, Missing> {
+        let asked = self.asked;
+        let run = || {
+            if !self.watcher.goes_on() {
+                return Err(Missing::NotRun);
+            }
+            let job = if self.has_rows { job()? } else { sample::without_rows(job()?) };
+            Sample::of(&job, &asked.figures, self.tolerance, &Silent(self.watcher))
+        };
+        asked.journal.found(&(of, self.tolerance), run, |found| !matches!(found, Err(Missing::NotRun)))
+    }
+
+    /// The figures of the scenario as it stands, by this tolerance.
+    pub(super) fn own(&self) -> Vec<Option<f64>> {
+        let asked = self.asked;
+        let refused = |error: ScenarioError| Missing::Refused(error.to_string());
+        let sample = self.found(&"own", || {
+            sample::ready(asked.job.scenario.clone(), &asked.job.name, self.tolerance).map_err(refused)
+        });
+        sample.map_or_else(|_| Vec::new(), |sample| sample.figures)
     }
 
     /// The scale of each quantity: its magnitude, or of one that is 0 the largest distance at which all goes on nearly as it does.

@@ -4,18 +4,6 @@ use super::ladder::{self, Tried};
 use super::sample::{Happened, Missing};
 use super::stencil::{Estimate, Level, Wanted, bends_near_by, estimate};
 
-/// Where a slope comes from.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Source {
-    /// Differences between runs, the farthest with the quantity so much away from its value, in its own unit.
-    Differences {
-        /// Largest distance.
-        reach: f64,
-    },
-    /// The variation of the scenario's own run.
-    Variation,
-}
-
 /// A slope.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Slope {
@@ -23,8 +11,8 @@ pub struct Slope {
     pub value: f64,
     /// How far it may be off, of the same unit.
     pub error: f64,
-    /// Where it comes from.
-    pub source: Source,
+    /// How far from its value the quantity was in the farthest run that counts, in its own unit.
+    pub reach: f64,
 }
 
 /// The derivative of a figure.
@@ -202,18 +190,7 @@ fn differences(side: &str, own: &Happened, other: &Happened) -> Vec<String> {
 
 impl From<Estimate> for Slope {
     fn from(found: Estimate) -> Self {
-        Self { value: found.value, error: found.error, source: Source::Differences { reach: found.reach } }
-    }
-}
-
-impl Source {
-    /// Its word.
-    #[must_use]
-    pub fn word(self) -> &'static str {
-        match self {
-            Self::Differences { .. } => "differences",
-            Self::Variation => "variation",
-        }
+        Self { value: found.value, error: found.error, reach: found.reach }
     }
 }
 
@@ -231,11 +208,6 @@ impl Split {
 }
 
 impl Derivative {
-    /// What a variation tells: a slope and its error.
-    pub(super) fn led((value, error): (f64, f64)) -> Self {
-        Self::Known(Slope { value, error, source: Source::Variation })
-    }
-
     /// With more that its slopes may be off by.
     pub(super) fn less_sure(self, by: f64) -> Self {
         let wider = |slope: Slope| Slope { error: slope.error + by, ..slope };
@@ -245,16 +217,6 @@ impl Derivative {
                 Self::Split { below: below.map(wider), above: above.map(wider), why }
             }
             Self::Unknown(missing) => Self::Unknown(missing),
-        }
-    }
-
-    /// What a variation tells instead, if this is the same within both errors.
-    pub(super) fn or_led(self, (value, error): (f64, f64)) -> Self {
-        match self {
-            Self::Known(own) if (own.value - value).abs() <= APART * (own.error + error) => {
-                Self::led((value, error))
-            }
-            own => own,
         }
     }
 

@@ -1,6 +1,7 @@
 //! Figures that derivatives are taken of: numbers of a run's summary, channels at its end, steady motion.
 
 use super::SensitivityError;
+use crate::sweep::wanted::needs_rows;
 use serde_json::Value;
 use stickslip_drive::scene::Side;
 use stickslip_quantity::names;
@@ -51,6 +52,13 @@ const OF_RUNS: [&str; 8] =
     ["program", "stepper", "counts", "timing", "tables", "simulated_s", "warnings", "steady_after_periods"];
 const OF_THE_RUN: &str = "says how the run was run";
 const WHOLE: &str = "counts whole things";
+
+impl Figure {
+    /// Whether it is made of rows that are written as the run goes on.
+    pub(super) fn needs_rows(&self) -> bool {
+        self.reading == Reading::Summary && needs_rows(&self.name)
+    }
+}
 
 impl Reading {
     /// Whether a plain run tells it.

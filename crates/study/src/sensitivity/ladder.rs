@@ -30,9 +30,8 @@ impl Tried {
 const LEVELS: [i32; 7] = [7, 9, 11, 13, 15, 17, 19];
 /// How many levels are the farthest.
 const FARTHEST: usize = 3;
-/// Those of the levels at which runs are compared with what a variation tells: bends and noise weigh about the same in a single difference at
-/// the first, and where it bends too much for that, nearer by.
-pub(super) const NEAR: [i32; 3] = [15, 17, 19];
+/// Powers of two of the distances of two pairs of runs that are tried before all others: 0.2 % and a quarter of it, then 0.003 %.
+pub(super) const PAIRS: [[i32; 2]; 2] = [[9, 11], [15, 17]];
 /// The same where something else happens as near as these: to where noise leaves a few digits.
 const FINER: [i32; 5] = [21, 23, 25, 27, 29];
 /// A power of two of distances between values that noise is measured of, and how many of them to a side: the second is a level.
@@ -51,9 +50,9 @@ pub(super) fn first() -> impl Iterator<Item = (f64, bool)> {
     both(levels.chain(beside))
 }
 
-/// Those of them on one level.
-pub(super) fn beside(power: i32) -> impl Iterator<Item = (f64, bool)> {
-    first().filter(move |(share, _)| share.abs() == 2.0_f64.powi(-power))
+/// Two pairs of levels, the outer one first.
+pub(super) fn pairs(powers: [i32; 2]) -> impl Iterator<Item = (f64, bool)> {
+    both(powers.into_iter().map(|power| (2.0_f64.powi(-power), true)))
 }
 
 /// The farthest of them, on both sides, which slopes are most often made of.

@@ -2,6 +2,7 @@
 
 use super::figure::{self, Figure, Reading};
 use crate::steady::{self, Options, SteadyError};
+use serde::{Deserialize, Serialize};
 use serde_json::Value;
 use std::collections::{BTreeMap, HashMap};
 use std::path::PathBuf;
@@ -14,16 +15,17 @@ use thiserror::Error;
 pub(super) type Happened = BTreeMap<(String, String), usize>;
 
 /// What a variant came to.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(super) struct Sample {
     /// The figures in their order; none where there is no such figure.
     pub(super) figures: Vec<Option<f64>>,
     /// Events of the run; none where none was asked for.
+    #[serde(with = "crate::journal::pairs")]
     pub(super) happened: Happened,
 }
 
 /// Why there is none.
-#[derive(Debug, Clone, PartialEq, Error)]
+#[derive(Debug, Clone, PartialEq, Error, Serialize, Deserialize)]
 pub enum Missing {
     /// Nobody computed it: the command was interrupted before.
     #[error("not run")]

@@ -1,6 +1,6 @@
 //! What is told of derivatives: a table, and all of it in JSON.
 
-use super::{Derivative, Missing, Sensitivity, Slope, Source, Split, Taken};
+use super::{Derivative, Missing, Sensitivity, Slope, Split, Taken};
 use crate::published::{self, Names};
 use schemars::JsonSchema;
 use serde::Serialize;
@@ -70,8 +70,7 @@ pub(super) struct Row<'a> {
     side: Option<&'static str>,
     /// change of the figure per change of the quantity
     derivative: Option<Real>,
-    /// how far that may be off: by what a coarser variation differs, or by bends that the extrapolation misses and by measured
-    /// noise
+    /// how far that may be off: by bends that the extrapolation misses and by measured noise
     derivative_error: Option<Real>,
     /// unit of both
     unit: String,
@@ -79,10 +78,7 @@ pub(super) struct Row<'a> {
     elasticity: Option<Real>,
     /// how far that may be off
     elasticity_error: Option<Real>,
-    /// where the derivative comes from: `variation` of the scenario's own run, or `differences` between runs
-    #[serde(skip_serializing_if = "Option::is_none")]
-    source: Option<&'static str>,
-    /// how far from its value the quantity was in the farthest run that counts, in its unit; none of a variation
+    /// how far from its value the quantity was in the farthest run that counts, in its unit
     #[serde(skip_serializing_if = "Option::is_none")]
     reach: Option<Real>,
     /// what differs between the sides: `kink` (the slopes), `jump` (the figure itself), `events` (one appears or vanishes),
@@ -116,10 +112,7 @@ impl Sensitivity {
         let (side, slope) = side;
         let slope = slope.ok();
         let elasticity = |value: f64| Taken::elasticity(self, place, value).map(Real);
-        let reach = slope.and_then(|slope| match slope.source {
-            Source::Differences { reach } => Some(Real(reach)),
-            Source::Variation => None,
-        });
+        let reach = slope.map(|slope| Real(slope.reach));
         let split = match derivative {
             Derivative::Split { why, .. } => Some(Split::name(why)),
             Derivative::Known(_) | Derivative::Unknown(_) => None,
@@ -136,7 +129,6 @@ impl Sensitivity {
             elasticity_error: slope
                 .and_then(|slope| elasticity(slope.error))
                 .map(|error| Real(error.0.abs())),
-            source: slope.map(|slope| slope.source.word()),
             reach,
             split,
             note: derivative.words(),
@@ -166,7 +158,7 @@ fn bracketed(unit: &str) -> String {
 #[must_use]
 pub fn csv(asked: &Sensitivity, taken: &Taken) -> String {
     let mut table = "figure,figure_unit,figure_value,quantity,quantity_unit,quantity_value,side,derivative,derivative_error,unit,\
-                     elasticity,elasticity_error,source,note\n"
+                     elasticity,elasticity_error,note\n"
         .to_owned();
     for (f, figure) in asked.figures.iter().enumerate() {
         for row in asked.rows(taken, f) {
@@ -179,7 +171,7 @@ pub fn csv(asked: &Sensitivity, taken: &Taken) -> String {
             let _ = write!(table, ",{}", row.unit);
             [row.elasticity, row.elasticity_error].into_iter().for_each(|n| number(&mut table, n));
             let note = row.note.map(|note| quoted(&note)).unwrap_or_default();
-            let _ = writeln!(table, ",{},{note}", row.source.unwrap_or_default());
+            let _ = writeln!(table, ",{note}");
         }
     }
     table

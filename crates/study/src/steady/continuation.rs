@@ -6,7 +6,7 @@
 //! place: folds, period doublings, Neimark–Sacker bifurcations, and events of a period that appear or vanish, where P has a corner.
 //!
 //! In reading order: `place`, a state at a value and where a period leads it; `corrector`, Newton's method; `happened`, what happens in a
-//! period; `standing`, a motion of the branch with its tangent; `bifurcation`, what may lie between two of them; `arm`, the way in one
+//! period; `standing`, a motion of the branch with its tangent, `written`, as it stands in the journal; `bifurcation`, what may lie between two of them; `arm`, the way in one
 //! sense; `passage`, what lies between two of its motions; `beyond`, what lies beyond its end; `table`, what is told of it all.
 
 mod arm;
@@ -19,6 +19,7 @@ mod passage;
 mod place;
 mod standing;
 mod table;
+mod written;
 
 pub use arm::End;
 pub use bifurcation::{Bifurcation, Mark};
@@ -29,6 +30,7 @@ pub(crate) use table::definitions;
 pub use table::{all_files, csv, json, write};
 
 use super::{Options, SteadyError, moment, named};
+use crate::journal::Journal;
 use arm::{Arm, Walk};
 use error::Trouble;
 use happened::Period;
@@ -67,6 +69,8 @@ pub struct Continuation {
     pub present: f64,
     /// Ends of the range, SI.
     pub range: [f64; 2],
+    /// Where steps along the branch are looked up and written down.
+    pub journal: Journal,
 }
 
 /// A branch of steady motions.
@@ -98,7 +102,7 @@ impl Continuation {
         if !(from..=to).contains(&present) {
             return Err(ContinuationError::Outside { path, present, unit, from, to });
         }
-        Ok(Self { job, path, unit, present, range: [from, to] })
+        Ok(Self { job, path, unit, present, range: [from, to], journal: Journal::default() })
     }
 
     /// Follows the branch to both ends of the range.
@@ -114,7 +118,7 @@ impl Continuation {
             from.tangent *= sense;
             let walk =
                 Walk::new((&bench, measure), self.range, (course.points, course.accuracy), course.told);
-            walk.go(from)
+            walk.go(from, (&self.journal, sense))
         });
         Ok(joined(start.point, arms))
     }

@@ -4,13 +4,13 @@
 
 mod gradient;
 
-pub(super) use gradient::Gradient;
+pub(super) use gradient::{Gradient, near};
 
 use super::newton::Fixed;
 use super::tally::Tally;
 use super::{Options, SteadyError};
 use crate::interruptible::Interruptible;
-use nalgebra::{DMatrix, DVector};
+use nalgebra::DVector;
 use stickslip_drive::section::{Section, Unknown};
 use stickslip_drive::{Limits, Model, Plan, Record, Run, RunError, State, Stepper};
 use stickslip_run::Job;
@@ -41,10 +41,8 @@ pub(super) struct Image {
     pub(super) state: State,
     /// Way of the free coordinates, m or rad.
     pub(super) way: Vec<f64>,
-    /// How both change with the state that they came from, where that was led along.
-    pub(super) gradient: Option<Gradient>,
     /// What has happened on the way, where that was noted.
-    happened: Option<Tally>,
+    pub(super) happened: Option<Tally>,
 }
 
 /// Accepted and rejected steps so far.
@@ -58,7 +56,7 @@ impl Image {
     pub(super) fn sides(&self, beside: [Option<&Self>; 2]) -> [bool; 2] {
         let is_like = |other: &Self| {
             let both = self.happened.as_ref().zip(other.happened.as_ref());
-            both.is_none_or(|(one, other)| one.is_like(other))
+            both.is_none_or(|(one, other)| one == other)
         };
         let alike = beside.map(|side| side.is_some_and(is_like));
         if alike == [false; 2] { beside.map(|side| side.is_some()) } else { alike }
@@ -207,31 +205,6 @@ impl<'m> Map<'m> {
         Ok(Image { happened: Some(happened), ..self.brought_back(end) })
     }
 
-    /// The same with its gradient, by the variation of the run, where that has one.
-    pub(super) fn image_with_gradient(&mut self, state: &State) -> Result<Image, SteadyError> {
-        let tolerance = self.options.tolerance;
-        let made = self.section.as_ref().and_then(|section| section.variation((state, &[]), tolerance).ok());
-        let Some(mut variation) = made else { return self.image(state, 1.0) };
-        let end = self.a_period_on(state, 1.0, &mut variation)?;
-        let outcome = variation.finish(&end);
-        let mut image = self.brought_back(end);
-        if let (Some(section), Ok(())) = (&self.section, outcome)
-            && section.difference(&image.state, state).is_some()
-        {
-            let matrix = |rows: Vec<Vec<f64>>| {
-                DMatrix::from_row_iterator(rows.len(), self.scales.len(), rows.into_iter().flatten())
-            };
-            image.gradient = section.gradient(&variation, &image.state).map(|gradient| Gradient {
-                numbers: matrix(gradient.numbers),
-                way: matrix(gradient.way),
-                is_exact: true,
-                unknown: Vec::new(),
-                missed: 0.0,
-            });
-        }
-        Ok(image)
-    }
-
     /// A state led on by a period.
     fn a_period_on(
         &mut self,
@@ -254,7 +227,7 @@ impl<'m> Map<'m> {
             Some(section) => section.back(end),
             None => (end, Vec::new()),
         };
-        Image { state, way, gradient: None, happened: None }
+        Image { state, way, happened: None }
     }
 
     /// By how much a state some periods after a fixed point is off, in natural scales: of its numbers, and of the way, which alone tells

@@ -29,7 +29,7 @@ const FORGOTTEN: f64 = 1e-3;
 const ANGLE: f64 = 1e-6;
 
 /// An eigenvalue of the gradient of a period's map.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Multiplier {
     /// Real part.
     pub re: f64,
@@ -143,8 +143,7 @@ fn digits(x: f64) -> String {
 /// then a triangle of blocks. Else there are none.
 pub(super) fn of(gradient: &Gradient, (tolerance, defect): (f64, f64)) -> Vec<Multiplier> {
     let size = gradient.numbers.norm();
-    let shares = ENTRIES * tolerance.max(defect) + gradient.missed;
-    let entries = shares * size + gradient.noise(tolerance);
+    let entries = ENTRIES * tolerance.max(defect) * size + gradient.missed + Gradient::noise(tolerance);
     let known: Vec<usize> = (0..gradient.numbers.ncols()).filter(|j| !gradient.unknown.contains(j)).collect();
     let columns = gradient.numbers.select_columns(&known);
     if gradient.unknown.iter().any(|i| columns.row(*i).amax() > entries.max(NEUTRAL)) {
@@ -193,7 +192,7 @@ mod tests {
 
     fn led(numbers: DMatrix<f64>) -> Gradient {
         let way = DMatrix::zeros(0, numbers.ncols());
-        Gradient { numbers, way, is_exact: true, unknown: Vec::new(), missed: 0.0 }
+        Gradient { numbers, way, unknown: Vec::new(), missed: 0.0 }
     }
 
     #[test]

@@ -1,12 +1,11 @@
 //! The fixed point of the map of a period.
 //!
-//! Plain periods as long as they come nearer by themselves; else Newton's method on the defect, its gradient by the variation of a
-//! run, made anew for every step, so that defects fall quadratically; by differences where there is none, and then
-//! mended by Broyden's rule from period to period, made anew where that no longer helps. Where a step leads away it is halved.
+//! Plain periods as long as they come nearer by themselves; else Newton's method on the defect, its gradient by differences, mended by
+//! Broyden's rule from period to period and made anew where that no longer helps. Where a step leads away it is halved.
 //! Directions along which nothing changes, as in a shakedown, are left alone: the nearest fixed point is the one.
 
 use super::SteadyError;
-use super::map::{Gradient, Map};
+use super::map::{Gradient, Map, near};
 use nalgebra::{DMatrix, DVector};
 use stickslip_drive::State;
 use stickslip_drive::section::Section;
@@ -21,6 +20,13 @@ const BY_ITSELF: f64 = 0.05;
 const WORN: f64 = 0.1;
 /// Halvings of a step.
 const HALVINGS: u32 = 4;
+/// Differences are taken so many times as far apart, up to that many natural scales, where a step by a new gradient brings nothing: of a heavy
+/// slider, whose speed is nearly the same after a period, near by they tell what rounding leaves. So often that is tried in vain; where a plain
+/// period changes the defect by less than this share they are taken that far apart at once.
+const WIDER: f64 = 100.0;
+const WIDEST: f64 = 1e-2;
+const IN_VAIN: u32 = 4;
+const SLOW: f64 = 1e-3;
 /// Plain periods after a step that nothing has helped.
 const PLAIN: u32 = 8;
 /// Plain periods in a row that add the same to a state, after which none is waited for that does not.
@@ -100,6 +106,9 @@ struct Search {
     same: Option<(DVector<f64>, u32)>,
     /// Whether the last Newton step has brought nothing.
     stalled: bool,
+    /// How far apart differences are taken, in natural scales, and how often that was tried farther in vain.
+    apart: f64,
+    in_vain: u32,
     /// What a period makes of what its steps miss, in natural scales: no defect gets smaller for sure.
     magnified: f64,
 }
@@ -119,6 +128,8 @@ impl Search {
             defects: Vec::new(),
             same: None,
             stalled: false,
+            apart: near(map.tolerance()),
+            in_vain: 0,
             magnified: 0.0,
         };
         search.note(Way::Plain);
@@ -168,6 +179,8 @@ impl Search {
         self.state = self.image.state.clone();
         self.image = map.image(&self.state, 1.0)?;
         self.defect = map.difference(&self.image.state, &self.state);
+        let is_slow = self.before.is_some_and(|before| (self.size() / before - 1.0).abs() < SLOW);
+        self.apart = if is_slow { WIDEST } else { near(map.tolerance()) };
         self.note(Way::Plain);
         self.same = self.defect.clone().map(|defect| match self.same.take() {
             Some((first, count)) if is_alike(&first, &defect, map.tolerance()) => (first, count + 1),
@@ -194,7 +207,7 @@ impl Search {
         let fresh = self.gradient.is_none();
         let gradient = match self.gradient.take() {
             Some(gradient) => gradient,
-            None => map.near_gradient(&self.state, &self.image)?,
+            None => map.near_gradient((&self.state, &self.image), self.apart)?,
         };
         let Some(step) = step(&gradient.numbers, &defect) else { return Ok(false) };
         let mut share = 1.0;
@@ -208,6 +221,11 @@ impl Search {
             }
             share *= 0.5;
         }
+        if self.in_vain < IN_VAIN && self.apart * WIDER <= WIDEST {
+            self.apart *= WIDER;
+            return self.newton(map);
+        }
+        self.in_vain += 1;
         self.stalled = true;
         self.magnified = self.goal * gradient.numbers.norm();
         Ok(self.size() <= self.least_sure())
@@ -228,9 +246,7 @@ impl Search {
         // What is carried along comes from the image: it is newer.
         let along = step * share;
         let Some(state) = map.moved(&self.image.state, &(&along - defect)) else { return Ok(false) };
-        // What the next step needs comes with it.
-        let image = if gradient.is_exact { map.image_with_gradient(&state) } else { map.image(&state, 1.0) };
-        let image = match image {
+        let image = match map.image(&state, 1.0) {
             Ok(image) => image,
             Err(SteadyError::Run(_)) => return Ok(false),
             Err(error) => return Err(error),
@@ -241,8 +257,7 @@ impl Search {
             return Ok(false);
         }
         let pays = size <= WORN * before || self.lasts(size / before, size) <= defect.len() as f64;
-        // An exact one costs less than it spares: defects fall quadratically.
-        self.gradient = (pays && !gradient.is_exact).then(|| mended(gradient, (&along, defect, &after)));
+        self.gradient = pays.then(|| mended(gradient, (&along, defect, &after)));
         (self.state, self.image, self.defect) = (state, image, Some(after));
         self.before = Some(before);
         self.same = None;

@@ -15,17 +15,16 @@ const OUTLOOK: &str = "steady_motion";
 /// What that search says of settled steps.
 const COMPARED: [&str; 2] = ["steps.steady.error_m", "steps.steady.back_step"];
 
-/// Parts of a summary that are made of the ends of periods and of what lies between them, not of rows.
-const BY_MOMENTS: [&str; 8] = [
-    "steps.last_m",
-    "steps.longest_m",
-    "steps.period",
-    "steps.mean_speed_m_s",
-    "steps.net_travel_m",
-    "steps.settling",
-    "steps.steady",
-    "status",
-];
+/// Whether a number of a summary is made of rows that are written as the run goes on: extremes of loads and of the energy balance. All
+/// others are made of moments and events alone.
+pub(crate) fn needs_rows(name: &str) -> bool {
+    match name.split('.').next() {
+        Some("steps" | "status") => false,
+        Some("energy") => name.contains("largest") || name.contains("throughput"),
+        Some("contacts") => name.contains(".peak_") || name.contains(".normal."),
+        _ => true,
+    }
+}
 
 /// A result of each case.
 #[derive(Debug, Clone, PartialEq)]
@@ -104,10 +103,9 @@ impl Wanted {
         self.is_of_motion() || COMPARED.contains(&self.name.as_str())
     }
 
-    /// Whether it is made of rows that are written as the run goes on; all others are made of moments and events alone.
+    /// Whether it needs rows: [`needs_rows`].
     pub(crate) fn needs_rows(&self) -> bool {
-        let Place::Summary(_) = &self.place else { return false };
-        !self.is_of_motion() && !BY_MOMENTS.iter().any(|name| self.name.starts_with(name))
+        matches!(self.place, Place::Summary(_)) && !self.is_of_motion() && needs_rows(&self.name)
     }
 
     /// What it is in a summary: a number, the code of a word, or NaN where there is none.

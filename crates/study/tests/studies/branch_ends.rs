@@ -204,7 +204,7 @@ fn is_sound(branch: &Branch) -> Checked {
     for mark in branch.marks.iter().filter(|_| rises) {
         let Bifurcation::Event(changes) = &mark.kind else { continue };
         for change in changes {
-            let before = counts.insert((change.source.as_str(), change.kind), change.above);
+            let before = counts.insert((change.source.as_str(), change.kind.as_str()), change.above);
             if before.is_some_and(|count| count != change.below) {
                 return Err(format!("{before:?} above the one before, and then {mark:?}").into());
             }

@@ -32,5 +32,4 @@ mod shakedown;
 mod steady;
 mod sweep;
 mod variants;
-mod variations;
 mod vibrating_table;

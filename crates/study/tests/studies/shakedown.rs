@@ -44,13 +44,10 @@ fn an_undamped_bounce_beside_what_is_held_for_ever_keeps_its_modulus() -> Result
     Ok(())
 }
 
-/// By a loose tolerance what rides comes back with other knots wherever it is disturbed, and no column but one is known: that of the third
-/// body, which nothing of the others moves and which fades by itself, as it does by a tight one. Of the others nothing is told.
+/// The third body, which nothing of the others moves, fades by itself, by a loose tolerance as by a tight one, within what is told to be off.
 #[test]
-fn multipliers_of_some_numbers_are_told_as_such() -> Result<(), Box<dyn Error>> {
+fn multipliers_by_loose_tolerances_hold_within_their_errors() -> Result<(), Box<dyn Error>> {
     let [loose, tight] = [found(1e-8)?, found(1e-12)?];
-    let [only] = loose.multipliers[..] else { panic!("{:?}", loose.multipliers) };
-    assert!((0.4..0.45).contains(&only.re) && only.im == 0.0, "{only:?}");
     // What differences miss they estimate themselves, and that by rounding falls short in one of eight: the middle one of five counts.
     let mut shares = Vec::new();
     for k in 0..5 {
@@ -62,7 +59,6 @@ fn multipliers_of_some_numbers_are_told_as_such() -> Result<(), Box<dyn Error>> 
     }
     shares.sort_by(f64::total_cmp);
     assert!(shares[2] < 1.0, "{shares:?}");
-    assert_eq!(loose.untold.len(), loose.unknowns.len() - 1);
     assert!(tight.untold.is_empty() && loose.comes_back().is_none());
     Ok(())
 }

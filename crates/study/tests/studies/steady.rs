@@ -188,8 +188,7 @@ fn the_climber_stops_growing_where_its_branch_says() -> Checked {
     let damping = "springs.clamp.damping";
     let of =
         Continuation::new(job("vertical_climber.json", &[(damping, "0.0103")])?, damping, [0.0102, 0.0107])?;
-    let steady = Options { tolerance: 1e-10, ..Options::default() };
-    let branch = of.follow(&Course { steady, accuracy: 1e-6, ..Course::default() })?;
+    let branch = of.follow(&Course { accuracy: 1e-6, ..Course::default() })?;
     let mut beats = branch.marks.iter().filter(|mark| matches!(mark.kind, Bifurcation::NeimarkSacker { .. }));
     let (Some(mark), None) = (beats.next(), beats.next()) else {
         return Err(format!("{:?}", branch.marks).into());
@@ -202,9 +201,9 @@ fn the_climber_stops_growing_where_its_branch_says() -> Checked {
     Ok(())
 }
 
-/// Each Newton step by an exact gradient leaves the square of the defect before, times how much the map bends: below 10⁻⁴ a
-/// thousandth at least, until the tolerance of the runs is met.
-fn falls_quadratically(name: &str) -> Checked {
+/// Each step by a gradient of differences, mended by Broyden's rule, leaves a tenth of the defect before at most, below 10⁻⁴ and until
+/// the tolerance of the runs is met.
+fn falls_fast(name: &str) -> Checked {
     let job = job(name, &[])?;
     let options = Options { settling: 2, ..Options::default() };
     let found = steady::find(&job, &options)?;
@@ -214,18 +213,18 @@ fn falls_quadratically(name: &str) -> Checked {
     let sizes: Vec<[f64; 2]> = steps.map(|pair| [pair[0].size, pair[1].size]).collect();
     assert!(!sizes.is_empty(), "{name}: {told:?}");
     for [before, after] in sizes {
-        assert!(after < 100.0 * before * before + 1e-11, "{name}: {told:?}");
+        assert!(after < 0.1 * before + 1e-11, "{name}: {told:?}");
     }
     let numbers = found.unknowns.len() as u32;
-    assert!(found.work <= 6 * (numbers + 1), "{name}: {} periods for {numbers} numbers", found.work);
+    assert!(found.work <= 8 * (numbers + 1), "{name}: {} periods for {numbers} numbers", found.work);
     Ok(())
 }
 
 #[test]
-fn defects_fall_quadratically() -> Checked {
+fn defects_fall_fast() -> Checked {
     ["piezo_stack.json", "three_ball_stage.json", "vertical_climber.json"]
         .into_iter()
-        .try_for_each(falls_quadratically)
+        .try_for_each(falls_fast)
 }
 
 #[test]

@@ -431,7 +431,8 @@ fn a_ball_begins_to_lift_off_where_its_force_vanishes() -> Result<(), Box<dyn Er
         branch.marks.iter().filter(|mark| matches!(mark.kind, Bifurcation::Event(_))).collect();
     let [mark] = events[..] else { return Err(format!("{:?}", branch.marks).into()) };
     let Bifurcation::Event(changes) = &mark.kind else { return Err("an event".into()) };
-    let told: Vec<_> = changes.iter().map(|change| (change.kind, change.below, change.above)).collect();
+    let told: Vec<_> =
+        changes.iter().map(|change| (change.kind.as_str(), change.below, change.above)).collect();
     assert_eq!(told, [("lift-off", 0, 1), ("touch", 0, 1)]);
     let off = mark.value / own - 1.0;
     assert!(off.abs() < 1e-8 && mark.half_width < 1e-8 * own, "{off:e} of {own:e} m");

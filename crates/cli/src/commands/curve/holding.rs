@@ -2,13 +2,13 @@
 
 use super::{CurveFailure, complain_of_warnings, ends, of, place, prepared, said, shown, shows_rows};
 use crate::arguments::CurveArguments;
+use crate::commands::output::OutputFailure;
 use stickslip_console::answer::{complain, say, say_json, warn};
 use stickslip_console::interrupt::Interrupt;
 use stickslip_console::progress::Progress;
 use stickslip_console::table;
 use stickslip_console::verdict::Verdict;
 use stickslip_figures::curve::{self as pictures, holding as picture};
-use stickslip_run::folder::sweep;
 use stickslip_study::curve::all_files;
 use stickslip_study::curve::holding::{self, Held, Holding, NAME, Point};
 
@@ -25,23 +25,24 @@ pub(super) fn trace(arguments: &CurveArguments) -> Result<Verdict, CurveFailure>
     };
     let values =
         of(arguments, ends).values().map_err(|error| said(arguments, holding.variation.unit, error))?;
-    let (out, folder) = place(arguments, &holding.job, NAME)?;
+    let output = place(arguments, &holding.job, NAME)?;
+    let out = output.path.clone();
     let (interrupt, progress) = (Interrupt::install(), Progress::new(!arguments.quiet));
     let name = &holding.job.name;
     progress.tell(format_args!("{name}: {NAME}, {} points", values.len()));
     let bar = progress.budget(NAME, values.len() as f64, &interrupt);
-    let points = holding.trace(&values, arguments.tolerance, arguments.threads.count(), &bar)?;
+    let points = holding.trace(&values, arguments.tolerance, arguments.work.threads.count(), &bar)?;
     drop(bar);
     let (done, all) = (points.iter().filter(|point| point.is_done()).count(), points.len());
     progress.tell(format_args!("{name}: {NAME}, {done} of {all} points done"));
     if done == 0 {
         return Ok(Verdict::Interrupted);
     }
-    let drawn = picture::draw((&holding, &points), arguments.log, &arguments.look.look())?;
-    let stale = pictures::all_files(done < all);
-    sweep(&out, &all_files().chain(stale.iter().cloned()).collect::<Vec<_>>());
-    let names = holding::write(folder, (&holding, &points), &drawn, stale)
-        .map_err(|source| CurveFailure::Write { path: out.clone(), source })?;
+    let drawn = picture::draw((&holding, &points), arguments.log, &arguments.look.look())
+        .map_err(OutputFailure::from)?;
+    let names = output.write(all_files(), pictures::all_files(done < all), |folder, stale| {
+        holding::write(folder, (&holding, &points), &drawn, stale)
+    })?;
     if arguments.json {
         say_json(&holding::json(&holding, &points));
     } else if !arguments.quiet {

@@ -25,7 +25,7 @@ const SAMPLES: &str = "waveform.csv";
 const WAVEFORM: &str = "waveform.json";
 
 pub(super) fn optimise(arguments: &OptimiseStudyArguments) -> Result<Verdict, StudyError> {
-    let OptimiseStudyArguments { file, out, fresh, gain, quiet, .. } = arguments;
+    let OptimiseStudyArguments { file, out, gain, quiet, work, .. } = arguments;
     let rate = arguments.rate.as_deref().map(sample_rate).transpose()?;
     if !(gain.is_finite() && *gain != 0.0) {
         return Err(StudyError::Unasked(format!("--gain {gain}: expected a finite number other than 0")));
@@ -45,7 +45,7 @@ pub(super) fn optimise(arguments: &OptimiseStudyArguments) -> Result<Verdict, St
         optimum.most_evaluations()
     ));
     let bar = progress.budget(&optimum.job.name, optimum.most_evaluations() as f64, &interrupt);
-    let best = optimum.run(&out, (arguments.threads.count(), *fresh), &bar)?;
+    let best = optimum.run(&out, (work.threads.count(), work.fresh), &bar)?;
     drop(bar);
     let report = optimum.report(&best);
     let files = write(&out, (&optimum, &best, &report), (rate, *gain), &arguments.look.look())?;

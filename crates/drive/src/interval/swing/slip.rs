@@ -19,8 +19,6 @@ const DEGREES: usize = 8;
 /// A contact in partial slip, its heights counted by their roots.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct PartialSlip {
-    /// Its place among the contacts.
-    pub(super) contact: usize,
     law: RootSeries,
     /// αc: b falls by gain·N' as the height does.
     gain: f64,
@@ -62,49 +60,15 @@ macro_rules! rooted {
 
 impl PartialSlip {
     /// `pull` is what M adds to b, 1/(m s²).
-    pub(super) fn new((contact, law): (usize, RootSeries), pull: f64, lean: f64, height: f64) -> Self {
+    pub(super) fn new(law: RootSeries, pull: f64, lean: f64, height: f64) -> Self {
         let root = rooted!(law, N => root::<N>(height));
         let gain = pull * law.factor;
-        Self {
-            contact,
-            law,
-            gain,
-            lean,
-            height,
-            root,
-            ends: [root; 2],
-            beyond: 0.0,
-            numerator: [0.0; DEGREES],
-        }
+        Self { law, gain, lean, height, root, ends: [root; 2], beyond: 0.0, numerator: [0.0; DEGREES] }
     }
 
     /// Whether its force goes on smoothly to the centre.
     pub(super) fn ends_smoothly(&self) -> bool {
         self.law.root == 1
-    }
-
-    /// αN and its first two derivatives by the height, at heights: its parts of ∫b dh, of b and of db/dh but for their signs; m²/s², m/s², 1/s².
-    #[inline(always)]
-    pub(super) fn sums<const L: usize>(&self, heights: [f64; L]) -> [[f64; L]; 3] {
-        rooted!(self.law, N => self.sums_inside::<N, L>(heights.map(above)))
-    }
-
-    #[inline(always)]
-    fn sums_inside<const N: usize, const L: usize>(&self, heights: [f64; L]) -> [[f64; L]; 3] {
-        let e = 2.0 + 1.0 / N as f64;
-        let (mut values, mut forces, mut stiffness) = ([1.0; L], [e; L], [e * (e - 1.0); L]);
-        if self.law.terms.len() > 1 {
-            for i in 0..L {
-                [values[i], ..] = self.law.divided([heights[i]; 3]);
-                [forces[i], stiffness[i], _] = self.derivatives::<N>(heights[i]);
-            }
-        }
-        let powers = heights.map(|height| self.gain * root::<N>(height));
-        [
-            array::from_fn(|i| powers[i] * heights[i] * heights[i] * values[i]),
-            array::from_fn(|i| powers[i] * heights[i] * forces[i]),
-            array::from_fn(|i| powers[i] * stiffness[i]),
-        ]
     }
 
     /// Takes up the turning points.
@@ -319,7 +283,7 @@ mod tests {
         for law in laws() {
             // Turning points inside, at and beyond the centre, h = 0.8 - 0.5 q.
             for (low, high) in [(-0.2, 1.2), (0.0, 1.6), (-0.1, 3.0)] {
-                let mut slip = PartialSlip::new((0, law), 3.0, 0.5, 0.8);
+                let mut slip = PartialSlip::new(law, 3.0, 0.5, 0.8);
                 slip.swing_between(low, high);
                 let height = |q: f64| 0.8 - 0.5 * q;
                 for q in [-0.05, 0.1, 0.6, 1.1] {
@@ -337,7 +301,7 @@ mod tests {
     #[test]
     fn no_swing_is_too_small_for_its_digits() {
         for law in laws() {
-            let mut slip = PartialSlip::new((0, law), 3.0, 0.5, 0.8);
+            let mut slip = PartialSlip::new(law, 3.0, 0.5, 0.8);
             let [_, bend, _] = slip.start();
             slip.swing_between(-1e-12, 1e-12);
             let [stiffness] = slip.stiffness([3e-13]);
@@ -348,7 +312,7 @@ mod tests {
     #[test]
     fn pull_is_mean_value_and_slope_of_the_force() {
         for law in laws() {
-            let slip = PartialSlip::new((0, law), 3.0, 0.5, 0.8);
+            let slip = PartialSlip::new(law, 3.0, 0.5, 0.8);
             for q in [-0.2, 0.3, 1.5, 2.5] {
                 let (h, step) = (0.8 - 0.5 * q, 1e-4);
                 // Central differences of N: its derivatives to the square of the step.

@@ -64,9 +64,6 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         if self.output.due(to.t) {
             self.write_on_the_way(state, to, record);
         }
-        if self.output.strides {
-            self.tell_leap(state.t, to, to.t == event.t, record);
-        }
         // Both may be true, to the last bit: then the event's guards fall and the corner turns in one.
         let (is_event, is_corner) = (to.t == event.t, to.t == self.horizon.corner);
         self.land(state, to, is_event || is_corner)?;

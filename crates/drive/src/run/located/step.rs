@@ -202,9 +202,6 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         if self.output.due(t) {
             self.write(state, t, record);
         }
-        if self.output.strides {
-            self.tell_stride(state, record);
-        }
         let end = self.motion.solver.span().end;
         // Checked on the whole of the end: a value that is not finite must not reach a memory.
         if let Some(i) = beyond(end) {

@@ -10,6 +10,9 @@ use super::error::Trouble;
 use super::happened::Period;
 use super::place::Bench;
 use super::standing::{Measure, Point, Standing, by_value};
+use super::written::Written;
+use crate::journal::Journal;
+use serde::{Deserialize, Serialize};
 
 /// Lengths of a step: the first, the longest, the shortest; the range of what is varied is 1.
 const FIRST: f64 = 1.0 / 64.0;
@@ -30,7 +33,7 @@ const NEAR: f64 = 0.2;
 const TURNING: f64 = 0.02;
 
 /// Why a branch goes no further.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub enum End {
     /// It has come to an end of the range.
     Range,
@@ -75,7 +78,21 @@ pub(super) struct Walk<'a> {
     pub(super) accuracy: f64,
     /// Told how many points there are.
     told: &'a dyn Fn(usize),
+    /// Where there was an event, also one that the next took back.
+    pub(super) passed: Vec<f64>,
     pub(super) arm: Arm,
+}
+
+/// A step of the way, as it is written down: where it has led, how long the next one is, what it has added, and whether it is the last.
+#[derive(Serialize, Deserialize)]
+struct Leg {
+    to: Written,
+    length: f64,
+    /// By how much the varied number is moved for a difference.
+    apart: f64,
+    points: Vec<Point>,
+    marks: Vec<Mark>,
+    end: Option<End>,
 }
 
 impl<'a> Walk<'a> {
@@ -86,47 +103,88 @@ impl<'a> Walk<'a> {
         told: &'a dyn Fn(usize),
     ) -> Self {
         let arm = Arm { points: Vec::new(), marks: Vec::new(), end: End::Range };
-        Self { bench, measure, range, most, accuracy, told, arm }
+        Self { bench, measure, range, most, accuracy, told, passed: Vec::new(), arm }
     }
 
-    /// Follows it from a motion on.
-    pub(super) fn go(mut self, start: Standing) -> Arm {
+    /// Follows it from a motion on, in a sense; steps that are in the journal are not taken again.
+    pub(super) fn go(mut self, start: Standing, (journal, sense): (&Journal, f64)) -> Arm {
         let (mut here, mut length) = (start, FIRST);
-        self.arm.end = loop {
-            if self.arm.points.len() >= self.most {
-                break End::Points;
-            }
-            if self.is_beyond(&here) {
-                break End::Range;
-            }
-            if here.margin < NEAR {
-                here = self.another_moment(&here).unwrap_or(here);
-            }
-            let (to, at_end) = self.aim(&here, length);
-            let next = self.probe(&here, to, at_end).and_then(|probe| {
-                let easy = probe.corrected.steps <= EASY;
-                Ok((self.advance(&here, probe, (length, at_end.is_some()))?, easy))
-            });
-            match next {
-                Ok((next, easy)) => {
-                    here = next;
-                    length = if easy { (1.5 * length).min(LONGEST) } else { length };
+        for count in 0.. {
+            let take = || self.leg(&here, length);
+            let is_kept = |leg: &Leg| leg.end != Some(End::Interrupted);
+            let Leg { to, length: next, apart, points, marks, end } =
+                journal.found(&(sense, count), take, is_kept);
+            self.arm.points.extend(points);
+            marks.into_iter().for_each(|mark| self.add(mark));
+            (self.told)(self.arm.points.len());
+            // A motion that cannot be read is of another drive.
+            let end =
+                end.map_or_else(|| to.read(self.bench).ok_or(End::Lost("damaged journal".to_owned())), Err);
+            self.bench.apart.set(apart);
+            match end {
+                Ok(standing) => (here, length) = (standing, next),
+                Err(end) => {
+                    self.arm.end = end;
+                    break;
                 }
-                Err(trouble) if trouble.is_final() => break End::Interrupted,
-                Err(Trouble::Slides) => break self.sliding(),
-                Err(_) if length > SHORTEST => {
-                    length *= 0.25;
-                    if here.margin < 2.0 * NEAR {
-                        here = self.another_moment(&here).unwrap_or(here);
-                    }
-                }
-                Err(trouble) => match self.beyond(&here, &trouble) {
-                    Ok(next) => (here, length) = (next, FIRST * 1e-2),
-                    Err(end) => break end,
-                },
             }
-        };
+        }
         self.arm
+    }
+
+    /// One step.
+    fn leg(&mut self, here: &Standing, length: f64) -> Leg {
+        let [points, marks] = [self.arm.points.len(), self.arm.marks.len()];
+        let mut at = None;
+        let (length, end) = match self.step(here, &mut at, length) {
+            Ok(next) => (next, None),
+            Err(end) => (length, Some(end)),
+        };
+        Leg {
+            to: Written::of(at.as_ref().unwrap_or(here)),
+            length,
+            apart: self.bench.apart.get(),
+            points: self.arm.points.split_off(points),
+            marks: self.arm.marks.split_off(marks),
+            end,
+        }
+    }
+
+    /// The same: how long the next one is to be; `at` is where it has led, if that is elsewhere.
+    fn step(&mut self, here: &Standing, at: &mut Option<Standing>, length: f64) -> Result<f64, End> {
+        if self.arm.points.len() >= self.most {
+            return Err(End::Points);
+        }
+        if self.is_beyond(here) {
+            return Err(End::Range);
+        }
+        if here.margin < NEAR {
+            *at = self.another_moment(here);
+        }
+        let here = at.clone().unwrap_or_else(|| here.clone());
+        let (to, at_end) = self.aim(&here, length);
+        let next = self.probe(&here, to, at_end).and_then(|probe| {
+            let easy = probe.corrected.steps <= EASY;
+            Ok((self.advance(&here, probe, (length, at_end.is_some()))?, easy))
+        });
+        match next {
+            Ok((next, easy)) => {
+                *at = Some(next);
+                Ok(if easy { (1.5 * length).min(LONGEST) } else { length })
+            }
+            Err(trouble) if trouble.is_final() => Err(End::Interrupted),
+            Err(Trouble::Slides) => Err(self.sliding()),
+            Err(_) if length > SHORTEST => {
+                if here.margin < 2.0 * NEAR {
+                    *at = self.another_moment(&here).or(at.take());
+                }
+                Ok(0.25 * length)
+            }
+            Err(trouble) => {
+                *at = Some(self.beyond(&here, &trouble)?);
+                Ok(FIRST * 1e-2)
+            }
+        }
     }
 
     /// The end of the range that a motion's branch leads to, and how far along its tangent that is.

@@ -12,6 +12,7 @@ use super::happened::Change;
 use super::standing::{Measure, Standing};
 use crate::steady::Multiplier;
 use nalgebra::{Complex, ComplexField};
+use serde::{Deserialize, Serialize};
 
 /// How near a multiplier is to where it must be, at a place that is closed in on.
 const THERE: f64 = 1e-2;
@@ -19,7 +20,7 @@ const THERE: f64 = 1e-2;
 const MOST: u32 = 60;
 
 /// What happens at a place of a branch.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub enum Bifurcation {
     /// The branch turns back.
     Fold,
@@ -34,13 +35,13 @@ pub enum Bifurcation {
     Branching,
     /// What leads a disturbance on changes at once: two events, by contact or block and kind, change places, the first comes first below;
     /// or none does, and what changes is nothing that a period tells.
-    Break(Option<[(String, &'static str); 2]>),
+    Break(Option<[(String, String); 2]>),
     /// Something begins to happen in a period, or no longer does.
     Event(Vec<Change>),
 }
 
 /// A place of a branch.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Mark {
     /// What happens there.
     pub kind: Bifurcation,

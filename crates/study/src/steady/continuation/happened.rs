@@ -5,18 +5,19 @@ use super::place::{Bench, Place};
 use crate::grip::{Grip, Loose};
 use crate::steady::map::Map;
 use crate::steady::tally::tells;
+use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use stickslip_drive::{Event, Record, Source, State};
 
 /// How often something happens in a period, by who and what.
-pub(super) type Happened = BTreeMap<(String, &'static str), usize>;
+pub(super) type Happened = BTreeMap<(String, String), usize>;
 
 /// A period of a motion.
 #[derive(Debug, Clone)]
 pub(super) struct Period {
     pub(super) happened: Happened,
     /// The same in its order.
-    pub(super) order: Vec<(String, &'static str)>,
+    pub(super) order: Vec<(String, String)>,
     /// Whether the figures' body slips on all its contacts all through.
     pub(super) is_dragged: bool,
     /// Where the map's moment lies between the events before and after it: 0.5 in the middle, 0 at one of them.
@@ -24,12 +25,12 @@ pub(super) struct Period {
 }
 
 /// What one motion does in a period and its neighbour does not.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Change {
     /// Contact or block.
     pub source: String,
     /// What happens.
-    pub kind: &'static str,
+    pub kind: String,
     /// How often below the place of the change.
     pub below: usize,
     /// How often above it.
@@ -68,8 +69,9 @@ impl Period {
             };
             let source = source.filter(|_| tells(event));
             if let Some(source) = source {
-                order.push((source.clone(), event.kind.name()));
-                *happened.entry((source, event.kind.name())).or_default() += 1;
+                let one = (source, event.kind.name().to_owned());
+                order.push(one.clone());
+                *happened.entry(one).or_default() += 1;
             }
         }
         let times = || events.iter().map(|event| event.t - from);
@@ -102,15 +104,15 @@ pub(super) fn changes(below: &Happened, above: &Happened) -> Vec<Change> {
     let mut keys: Vec<_> = below.keys().chain(above.keys()).collect();
     keys.sort();
     keys.dedup();
-    let change = |key: &(String, &'static str)| {
+    let change = |key: &(String, String)| {
         let [below, above] = [below, above].map(|of| of.get(key).copied().unwrap_or(0));
-        Change { source: key.0.clone(), kind: key.1, below, above }
+        Change { source: key.0.clone(), kind: key.1.clone(), below, above }
     };
     keys.into_iter().map(change).filter(|change| change.below != change.above).collect()
 }
 
 /// The first two events that come in another order above than below; none where the order is the same.
-pub(super) fn swap(orders: [&[(String, &'static str)]; 2]) -> Option<[(String, &'static str); 2]> {
+pub(super) fn swap(orders: [&[(String, String)]; 2]) -> Option<[(String, String); 2]> {
     let mut pairs = orders[0].iter().zip(orders[1]);
     pairs.find(|(below, above)| below != above).map(|(below, above)| [below.clone(), above.clone()])
 }
@@ -122,7 +124,7 @@ mod tests {
 
     #[test]
     fn changes_are_told_from_below() {
-        let touch = |count: usize| Happened::from([(("end".to_owned(), "touch"), count)]);
+        let touch = |count: usize| Happened::from([(("end".to_owned(), "touch".to_owned()), count)]);
         let found = changes(&Happened::new(), &touch(1));
         assert_eq!((found[0].below, found[0].above), (0, 1));
         assert_eq!(Bifurcation::Event(found).words(), "above, touch of end appears (1 a period)");
@@ -131,7 +133,7 @@ mod tests {
 
     #[test]
     fn events_that_change_places_are_told_apart() {
-        let [one, other] = [("end".to_owned(), "touch"), ("end".to_owned(), "reversal")];
+        let [one, other] = ["touch", "reversal"].map(|kind| ("end".to_owned(), kind.to_owned()));
         let below = [one.clone(), other.clone()];
         assert_eq!(swap([&below, &[other.clone(), one.clone()]]), Some([one, other]));
         assert_eq!(swap([&below, &below]), None);

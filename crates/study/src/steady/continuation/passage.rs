@@ -3,11 +3,17 @@
 use super::arm::{Probe, Walk};
 use super::bifurcation::{Bifurcation, Mark, Test, root, turn};
 use super::error::Trouble;
-use super::happened::{Happened, changes, swap};
+use super::happened::{Change, Happened, changes, swap};
 use super::standing::Standing;
 
 /// Motions on either side of an event that are farther apart than this are of two branches.
 const JUMP: f64 = 1e-3;
+/// Where so many events lie within this share of the range the next ones are told as one, no longer than that: reversals of a ring that dies
+/// out vanish one after the other.
+const CROWD: f64 = 1e-4;
+const CLOSE: usize = 2;
+/// What an event takes back of the one before, no more than so many times the accuracy of places away, is rounding at the place of both.
+const FLICKER: f64 = 1e3;
 
 impl Walk<'_> {
     /// Finds what lies between two motions in whose periods the same happens.
@@ -81,7 +87,8 @@ impl Walk<'_> {
     pub(super) fn pass(&mut self, here: &Standing, far: Probe, length: f64) -> Result<Standing, Trouble> {
         let (mut low, mut high) = (0.0, length);
         let (mut near, mut far): (Option<Probe>, Probe) = (None, far);
-        while high - low > self.accuracy {
+        let accuracy = if self.is_crowded(here) { CROWD } else { self.accuracy };
+        while high - low > accuracy {
             let middle = 0.5 * (low + high);
             let probe = self.probe(here, middle, None)?;
             if probe.period.happened == here.happened {
@@ -116,6 +123,32 @@ impl Walk<'_> {
         Ok(beyond)
     }
 
+    /// Whether events lie so close that one more is not told from those that follow.
+    fn is_crowded(&self, here: &Standing) -> bool {
+        let near = |value: &&f64| (**value - here.point.value).abs() < CROWD * self.bench.span;
+        self.passed.iter().rev().take(CLOSE).filter(near).count() == CLOSE
+    }
+
+    /// Adds a place, unless what happens there takes back the event before it.
+    pub(super) fn add(&mut self, mark: Mark) {
+        // One without a width is told from another moment of the same period.
+        if matches!(mark.kind, Bifurcation::Event(_)) && mark.half_width > 0.0 {
+            self.passed.push(mark.value);
+        }
+        let apart = FLICKER * self.accuracy * self.bench.span;
+        let takes_back = |last: &Mark| match (&last.kind, &mark.kind) {
+            (Bifurcation::Event(last_changes), Bifurcation::Event(changes)) => {
+                (last.value - mark.value).abs() < apart && is_reverse(last_changes, changes)
+            }
+            _ => false,
+        };
+        if self.arm.marks.last().is_some_and(takes_back) {
+            self.arm.marks.pop();
+        } else {
+            self.arm.marks.push(mark);
+        }
+    }
+
     /// Tells what differs between a motion and one just beyond, if anything does, where the varied number goes on in a sense.
     pub(super) fn event(
         &mut self,
@@ -141,4 +174,10 @@ impl Walk<'_> {
             stable: sides.map(|(_, stable)| stable),
         });
     }
+}
+
+/// Whether what changes at two places is the same, there and back.
+fn is_reverse(one: &[Change], other: &[Change]) -> bool {
+    let back = |change: &Change| Change { below: change.above, above: change.below, ..change.clone() };
+    one.len() == other.len() && one.iter().zip(other).all(|(one, other)| back(one) == *other)
 }

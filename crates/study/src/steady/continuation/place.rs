@@ -2,10 +2,11 @@
 
 use super::error::Trouble;
 use crate::steady::endless::Endless;
-use crate::steady::map::{Gradient, Map};
+use crate::steady::map::{Gradient, Map, near};
 use crate::steady::newton::Fixed;
 use crate::steady::{Options, fixed_point, moment, newton};
 use nalgebra::DVector;
+use serde::{Deserialize, Serialize};
 use std::cell::Cell;
 use std::path::PathBuf;
 use std::rc::Rc;
@@ -41,7 +42,7 @@ pub(super) struct Place {
 }
 
 /// How a state comes back, to first order.
-#[derive(Clone)]
+#[derive(Clone, Serialize, Deserialize)]
 pub(super) struct Slopes {
     pub(super) gradient: Gradient,
     /// Of the defect by the varied number as a share of its range, in natural scales.
@@ -56,7 +57,7 @@ pub(super) struct Bench<'a> {
     pub(super) span: f64,
     pub(super) options: Options<'a>,
     /// By how much the varied number is moved for a difference, as a share of its range.
-    apart: Cell<f64>,
+    pub(super) apart: Cell<f64>,
 }
 
 impl<'a> Bench<'a> {
@@ -157,7 +158,8 @@ impl<'a> Bench<'a> {
     /// How the state of a place comes back, to first order.
     pub(super) fn slopes(&self, place: &Place) -> Result<Slopes, Trouble> {
         let Fixed { state, image, .. } = &place.fixed;
-        let gradient = self.map_at(place)?.near_gradient(state, image)?;
+        let apart = near(self.options.tolerance);
+        let gradient = self.map_at(place)?.near_gradient((state, image), apart)?;
         Ok(Slopes { gradient, by_value: self.by_value(place)? })
     }
 

@@ -6,10 +6,11 @@ use super::happened::{Happened, Period};
 use super::place::{Bench, Place, Slopes};
 use crate::steady::{Kind, Multiplier, bound, multiplier};
 use nalgebra::DVector;
+use serde::{Deserialize, Serialize};
 use stickslip_drive::scene::Axis;
 
 /// A steady motion of the branch.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Point {
     /// What is varied, SI.
     pub value: f64,

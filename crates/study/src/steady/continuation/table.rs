@@ -110,7 +110,7 @@ struct ChangeReport {
     /// contact or block whose event it is
     source: String,
     /// the event
-    event: &'static str,
+    event: String,
     /// how often it happens in a period below the place
     below: usize,
     /// how often above it
@@ -151,7 +151,7 @@ impl MarkReport {
     fn of(mark: &Mark) -> Self {
         let change = |change: &Change| ChangeReport {
             source: change.source.clone(),
-            event: change.kind,
+            event: change.kind.clone(),
             below: change.below,
             above: change.above,
         };

@@ -1,29 +1,32 @@
-//! The gradient of the map: by the variation of a run where there is one, else by differences.
+//! The gradient of the map, by differences.
 
 use super::{Image, Map};
 use crate::steady::SteadyError;
 use nalgebra::{DMatrix, DVector};
+use serde::{Deserialize, Serialize};
 use stickslip_drive::State;
-use stickslip_drive::section::Section;
 
-/// Differences on the way, in natural scales: steps of 1e-12 leave an error of 1e-6, and so does a bend of 1.
-const NEAR: f64 = 1e-6;
-/// Differences to both sides at the end: an error of 1e-7 from steps, and of 1e-10 from a bend of 1.
-const FINE: f64 = 1e-5;
+/// Difference on the way, in natural scales, by the tolerance t of the runs: √t leaves as much of an error from these as from a bend of 1.
+pub(in crate::steady) fn near(tolerance: f64) -> f64 {
+    tolerance.sqrt()
+}
+
+/// Differences to both sides at the end, a tenth of the cube root of t: at 1e-12 an error of 1e-7 from steps, and of 1e-10 from a bend
+/// of 1. Twice as far something else happens more often.
+fn fine(tolerance: f64) -> f64 {
+    0.1 * math::cbrt(tolerance)
+}
 
 /// The gradient of a map.
-#[derive(Clone)]
+#[derive(Clone, Serialize, Deserialize)]
 pub(in crate::steady) struct Gradient {
     /// Of the numbers, in natural scales.
     pub(in crate::steady) numbers: DMatrix<f64>,
     /// Of the way of each free coordinate, m or rad per natural scale.
     pub(in crate::steady) way: DMatrix<f64>,
-    /// Whether it is exact, but for the tolerance of the run.
-    pub(in crate::steady) is_exact: bool,
     /// Numbers whose columns are not known: disturbed by one of them memories come back with other knots.
     pub(in crate::steady) unknown: Vec<usize>,
-    /// What differences miss where the map bends between them, as a share of the size of all entries: of those to both sides in second
-    /// order, of one to one side alone in first.
+    /// What differences miss where the map bends between them, by the root of the sum of squares of all entries.
     pub(in crate::steady) missed: f64,
 }
 
@@ -32,101 +35,121 @@ struct Slope {
     numbers: DVector<f64>,
     /// Of the way.
     way: Vec<f64>,
-    /// Squares of a second difference and of the first one; none where there is one difference alone.
+    /// By how much the slopes of both sides, or of two distances, differ, and what is missed; none where there is one difference alone.
     bend: Option<[f64; 2]>,
+}
+
+/// Bends of a column that are no more than this may be a corner: what is missed is less than a multiplier is told by.
+const CORNER: f64 = 1e-6;
+/// How many times nearer differences are taken where they are more.
+const NEARER: f64 = 4.0;
+
+impl Slope {
+    /// With by how much the slopes of both sides, or of two distances, differ. What a smooth bend leaves goes with the square of that.
+    fn bent_by(self, bend: f64) -> Self {
+        let size = self.numbers.norm();
+        let missed = if bend < size { bend * bend / size } else { bend };
+        Self { bend: Some([bend, missed]), ..self }
+    }
+
+    /// The slope by differences that lie nearer, where both are not the same but for noise: between the farther ones lies a corner.
+    fn or_nearer(self, inner: Self, noise: f64) -> Self {
+        let off = (&self.numbers - &inner.numbers).norm();
+        if off <= noise {
+            return self;
+        }
+        // A corner between the nearer ones misleads them by no more than their sides differ.
+        let bend = inner.bend.map_or(off, |[bend, _]| bend.min(off));
+        Self { bend: Some([bend; 2]), ..inner }
+    }
 }
 
 impl Gradient {
     /// How far entries may be off by runs that are led by a tolerance: differences of images magnify that by their distance.
     // Of bouncing bodies that nothing damps along z, |λ| = 1 by differences was up to 1.8e-4 off at 1e-9, and 7e-3 at 1e-6.
-    pub(in crate::steady) fn noise(&self, tolerance: f64) -> f64 {
-        if self.is_exact { 0.0 } else { 3.0 * tolerance / FINE }
+    pub(in crate::steady) fn noise(tolerance: f64) -> f64 {
+        3.0 * tolerance / fine(tolerance)
     }
 }
 
 impl Map<'_> {
-    /// The gradient at a state by the variation of a run, if it has one: that of its image, if that has come with it.
-    fn exact_gradient(&mut self, state: &State, image: &Image) -> Result<Option<Gradient>, SteadyError> {
-        let tolerance = self.options.tolerance;
-        let varies = |section: &Section<'_>| section.variation((state, &[]), tolerance).is_ok();
-        match &image.gradient {
-            Some(gradient) => Ok(Some(gradient.clone())),
-            None if self.section.as_ref().is_some_and(varies) => {
-                Ok(self.image_with_gradient(state)?.gradient)
-            }
-            None => Ok(None),
-        }
-    }
-
-    /// The gradient at a state whose image is known, else by one difference for each number.
+    /// The gradient at a state whose image is known, by one difference for each number, so far apart in natural scales.
     pub(in crate::steady) fn near_gradient(
         &mut self,
-        state: &State,
-        image: &Image,
+        (state, image): (&State, &Image),
+        near: f64,
     ) -> Result<Gradient, SteadyError> {
-        if let Some(gradient) = self.exact_gradient(state, image)? {
-            return Ok(gradient);
-        }
         self.gradient(image, |map, j| {
-            let beside = map.beside(state, (j, NEAR))?;
-            Ok(beside.and_then(|beside| map.slope(([&beside, image], NEAR), None)))
+            let beside = map.beside(state, (j, near))?;
+            Ok(beside.and_then(|beside| map.slope([&beside, image], near)))
         })
     }
 
-    /// The gradient, else by differences to both sides, or to one, twice as far as well, where the other is of another kind: its memories
+    /// The gradient by differences to both sides, or to one, twice as far as well, where the other is of another kind: its memories
     /// have other knots, or something else happens on the way.
     pub(in crate::steady) fn fine_gradient(
         &mut self,
         state: &State,
         image: &Image,
     ) -> Result<Gradient, SteadyError> {
-        if let Some(gradient) = self.exact_gradient(state, image)? {
-            return Ok(gradient);
-        }
+        let tolerance = self.options.tolerance;
+        let fine = fine(tolerance);
         self.gradient(image, |map, j| {
-            let [ahead, behind] = [map.beside(state, (j, FINE))?, map.beside(state, (j, -FINE))?];
-            let sides = image.sides([ahead.as_ref(), behind.as_ref()]);
-            let [ahead, behind] =
-                [(ahead, sides[0]), (behind, sides[1])].map(|(side, counts)| side.filter(|_| counts));
+            let pair = |map: &mut Self, by: f64| -> Result<[Option<Image>; 2], SteadyError> {
+                let sides = [map.beside(state, (j, by))?, map.beside(state, (j, -by))?];
+                let counts = image.sides([sides[0].as_ref(), sides[1].as_ref()]);
+                let [ahead, behind] = sides;
+                Ok([ahead.filter(|_| counts[0]), behind.filter(|_| counts[1])])
+            };
+            let [ahead, behind] = pair(map, fine)?;
             let (one, by) = match (ahead, behind) {
                 (Some(ahead), Some(behind)) => {
-                    return Ok(map.slope(([&ahead, &behind], 2.0 * FINE), Some([&ahead, image])));
+                    let Some(outer) = map.central([&ahead, image, &behind], fine) else { return Ok(None) };
+                    if outer.bend.is_none_or(|[bend, _]| bend <= CORNER) {
+                        return Ok(Some(outer));
+                    }
+                    let [Some(ahead), Some(behind)] = pair(map, fine / NEARER)? else {
+                        return Ok(Some(outer));
+                    };
+                    let Some(inner) = map.central([&ahead, image, &behind], fine / NEARER) else {
+                        return Ok(Some(outer));
+                    };
+                    return Ok(Some(outer.or_nearer(inner, NEARER * Gradient::noise(tolerance))));
                 }
-                (Some(one), None) => (one, FINE),
-                (None, Some(one)) => (one, -FINE),
+                (Some(one), None) => (one, fine),
+                (None, Some(one)) => (one, -fine),
                 (None, None) => return Ok(None),
             };
             let far = map.beside(state, (j, 2.0 * by))?.filter(|far| image.sides([Some(far), None])[0]);
             Ok(match far {
                 Some(far) => map.aside(image, [&one, &far], by),
-                None => map.slope(([&one, image], by), None),
+                None => map.slope([&one, image], by),
             })
         })
     }
 
-    /// What a number changes by a difference of two images, ahead and behind, that lie so far apart; of one to both sides by how much its
-    /// halves differ tells the difference of one of them.
-    fn slope(
-        &self,
-        ([ahead, behind], apart): ([&Image; 2], f64),
-        half: Option<[&Image; 2]>,
-    ) -> Option<Slope> {
+    /// What a number changes by a difference of two images, ahead and behind, that lie so far apart.
+    fn slope(&self, [ahead, behind]: [&Image; 2], apart: f64) -> Option<Slope> {
         let difference = self.difference(&ahead.state, &behind.state)?;
-        let bend = half.and_then(|[ahead, image]| self.difference(&ahead.state, &image.state));
-        let bend = bend.map(|half| [(&half * 2.0 - &difference).norm_squared(), difference.norm_squared()]);
         let way = ahead.way.iter().zip(&behind.way).map(|(ahead, behind)| (ahead - behind) / apart);
-        Some(Slope { numbers: difference / apart, way: way.collect(), bend })
+        Some(Slope { numbers: difference / apart, way: way.collect(), bend: None })
+    }
+
+    /// The same by images so far ahead and behind of one.
+    fn central(&self, [ahead, image, behind]: [&Image; 3], by: f64) -> Option<Slope> {
+        let half = self.slope([ahead, image], by)?;
+        let slope = self.slope([ahead, behind], 2.0 * by)?;
+        let bend = 2.0 * (half.numbers - &slope.numbers).norm();
+        Some(slope.bent_by(bend))
     }
 
     /// The same to one side alone, by an image so far off and one twice as far: (4f₁ - f₂ - 3f₀)/2h, which a bend does not move.
     fn aside(&self, image: &Image, [one, far]: [&Image; 2], by: f64) -> Option<Slope> {
-        let near = self.slope(([one, image], by), None)?;
-        let twice = self.slope(([far, image], by), None)?;
-        let bent = &twice.numbers - &near.numbers * 2.0;
-        let numbers = &near.numbers * 2.0 - &twice.numbers * 0.5;
-        let way = near.way.iter().zip(&twice.way).map(|(near, twice)| 2.0 * near - 0.5 * twice);
-        let bend = Some([bent.norm_squared(), (&numbers * 2.0).norm_squared()]);
-        Some(Slope { numbers, way: way.collect(), bend })
+        let near = self.slope([one, image], by)?;
+        let twice = self.slope([far, image], 2.0 * by)?;
+        let way = near.way.iter().zip(&twice.way).map(|(near, twice)| 2.0 * near - twice).collect();
+        let bend = (&near.numbers - &twice.numbers).norm();
+        Some(Slope { numbers: near.numbers * 2.0 - twice.numbers, way, bend: None }.bent_by(bend))
     }
 
     /// A gradient from what each number changes. One that cannot be moved leaves nothing behind, and its column is not known.
@@ -139,26 +162,26 @@ impl Map<'_> {
         let mut gradient = Gradient {
             numbers: DMatrix::zeros(count, count),
             way: DMatrix::zeros(image.way.len(), count),
-            is_exact: false,
             unknown: Vec::new(),
             missed: 0.0,
         };
-        let (mut bends, mut changes, mut order) = (0.0, 0.0, 2);
+        let (mut bends, mut known, mut all, mut missed) = (0.0, 0.0, 0.0, 0.0);
         for j in 0..count {
             let Some(Slope { numbers, way, bend }) = slope(self, j)? else {
                 gradient.unknown.push(j);
                 continue;
             };
-            match bend {
-                Some([bend, change]) => (bends, changes) = (bends + bend, changes + change),
-                // One difference to one side alone tells nothing of a bend.
-                None => order = 1,
+            let size = numbers.norm_squared();
+            all += size;
+            if let Some([bend, off]) = bend {
+                (bends, known, missed) = (bends + bend * bend, known + size, missed + off * off);
             }
             gradient.numbers.set_column(j, &numbers);
             gradient.way.set_column(j, &DVector::from_vec(way));
         }
-        // Second differences to first ones.
-        gradient.missed = if changes > 0.0 { f64::sqrt(bends / changes).powi(order) } else { 0.0 };
+        // One difference to one side alone tells nothing of a bend: those of the others stand for it.
+        let unseen = if known > 0.0 { bends * (all - known) / known } else { 0.0 };
+        gradient.missed = (missed + unseen).sqrt();
         Ok(gradient)
     }
 
