@@ -15,6 +15,7 @@ mod definitions;
 mod endings;
 mod golden;
 mod guide;
+mod import;
 mod info;
 mod info_tables;
 mod insides;

@@ -120,14 +120,23 @@ fn a_simulated_loop_stands_beside() {
 fn what_is_no_loop_is_refused_and_leaves_nothing() {
     let folder = tempdir().unwrap();
     for (text, arguments, said) in [
-        ("", &[][..], "rig.csv:1:1  expected a first line with the names of the columns, got nothing"),
-        ("t,u\n0,0\n", &[], "rig.csv:1:1  expected a column fx or f or force or q"),
-        ("t,u,f\n0,0,0\n1,1,nan\n", &[], "rig.csv:3:5  expected a number, got \"nan\""),
+        ("", &[][..], "rig.csv: no rows of numbers were found: it is empty"),
+        ("a story\nof words\n", &[], "rig.csv: no rows of numbers were found; it begins with \"a story\""),
+        ("t,u\n0,0\n", &[], "rig.csv: no column is a force by its name or unit"),
+        ("t,u,f\n0,0,nan\n1,1,nan\n", &[], "rig.csv: no column is a force by its name or unit"),
+        ("t,u,f\n0,0,0\n1,1,1\n", &["--force", "4"], "rig.csv: there is no column 4 for the force"),
+        ("t,u,f\n0,0,0\n1,1,1\n", &["--force", "3:um"], "rig.csv: \"um\" is no unit of a force"),
+        (
+            "t,u,f\n0,0,0\n1,1,1\n",
+            &["--force", "u", "--displacement", "2"],
+            "rig.csv: column 2 stands for the displacement and for the force",
+        ),
+        ("t,u,f\n0,0,0\n1,1,1\n", &["--recipe", "rig.csv"], "rig.csv: not a recipe: "),
         ("t,u,f\n0,0,0\n2,1,1\n1,0,0\n", &[], "rig.csv: t[2] = 1 s comes after 2 s"),
         ("t,u,f\n0,0,0\n1,1,1\n2,2,2\n", &[], "rig.csv: no cycle comes back to within a tenth of its range"),
         ("u,f\n0,0\n1,1\n0,0\n", &["--period", "1 s"], "rig.csv: a period needs a column of times"),
-        ("t,u,f\n0,0,0\n1,1,1\n", &["--time", "clock"], "rig.csv:1:1  expected a column clock"),
-        ("t (um),u,f\n0,0,0\n", &[], "rig.csv:1:1  expected the unit of a time"),
+        ("t,u,f\n0,0,0\n1,1,1\n", &["--time", "clock"], "rig.csv: there is no column \"clock\" for the time"),
+        ("t (um),u,f\n0,0,0\n1,1,1\n", &["--time", "t"], "rig.csv: \"um\" is no unit of a time"),
     ] {
         let output = measure(folder.path(), text, arguments);
         assert_eq!((code(&output), stdout(&output)), (2, String::new()), "{text}");

@@ -4,12 +4,14 @@ pub(crate) mod compare;
 pub(crate) mod contact;
 pub(crate) mod curve;
 pub(crate) mod golden;
+pub(crate) mod import;
 pub(crate) mod look;
 pub(crate) mod map;
 pub(crate) mod meant;
 pub(crate) mod measure;
 mod overview;
 mod pictures;
+mod reading;
 pub(crate) mod realtime;
 pub(crate) mod run;
 pub(crate) mod sensitivity;
@@ -25,6 +27,7 @@ use std::path::PathBuf;
 pub(crate) use compare::CompareArguments;
 pub(crate) use contact::ContactArguments;
 pub(crate) use curve::CurveArguments;
+pub(crate) use import::ImportArguments;
 pub(crate) use map::MapArguments;
 pub(crate) use measure::MeasureArguments;
 pub(crate) use overview::command;
@@ -117,7 +120,10 @@ pub(crate) enum Command {
     /// Solve a single contact without a run: constants, load histories, stresses
     #[command(long_about = contact::ABOUT, after_long_help = contact::EXAMPLES)]
     Contact(ContactArguments),
-    /// Evaluate measured hysteresis loops from a CSV table; compare them with a simulation
+    /// Show how a measured table is read; write the recipe
+    #[command(long_about = import::ABOUT, after_long_help = import::EXAMPLES)]
+    Import(ImportArguments),
+    /// Evaluate measured hysteresis loops from a table; compare them with a simulation
     #[command(long_about = measure::ABOUT, after_long_help = measure::EXAMPLES)]
     Measure(MeasureArguments),
     /// Run a drive in real time with inputs and outputs over UDP or shared memory
@@ -138,7 +144,7 @@ pub(crate) enum Command {
         after_long_help = "Example:\n  stickslip materials\n\n  With \"materials\": [\"ruby\", \"hardened steel\"] in a contact the scenario needs no section \"materials\"."
     )]
     Materials,
-    /// Print the JSON Schema of scenario files, or of study files
+    /// Print the JSON Schema of scenario files, study files or recipes
     #[command(
         after_long_help = "Examples:\n  stickslip schema > scenario-1.json\n  stickslip schema study > study-1.json"
     )]

@@ -8,6 +8,7 @@ pub(crate) mod contact;
 pub(crate) mod curve;
 pub(crate) mod explain;
 pub(crate) mod golden;
+pub(crate) mod import;
 pub(crate) mod info;
 pub(crate) mod map;
 pub(crate) mod materials;

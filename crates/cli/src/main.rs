@@ -9,8 +9,8 @@ mod commands;
 use arguments::{Arguments, Command, meant};
 use clap::FromArgMatches;
 use commands::{
-    branch, check, compare, completions, contact, curve, explain, golden, info, map, materials, measure, new,
-    plot, realtime, repro, run, schema, sensitivity, steady, study,
+    branch, check, compare, completions, contact, curve, explain, golden, import, info, map, materials,
+    measure, new, plot, realtime, repro, run, schema, sensitivity, steady, study,
 };
 use std::process::ExitCode;
 
@@ -27,6 +27,7 @@ fn main() -> ExitCode {
         Command::Info(arguments) => info::info(&arguments),
         Command::Curve(arguments) => curve::curve(&arguments),
         Command::Contact(arguments) => contact::contact(&arguments),
+        Command::Import(arguments) => import::import(&arguments),
         Command::Measure(arguments) => measure::measure(&arguments),
         Command::Sensitivity(arguments) => sensitivity::sensitivity(&arguments),
         Command::Branch(arguments) => branch::branch(&arguments),

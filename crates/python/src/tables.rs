@@ -6,11 +6,12 @@ use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use std::path::Path;
 use stickslip_compare::{Comparison, Results, Terms};
-use stickslip_run::measured::{Measured, Named, table};
+use stickslip_record::{Named, Recipe};
+use stickslip_run::measured::{Measured, table};
 
 /// The cycles of a measured record, from a file or from arrays, as a CSV table; and whether the force was turned round.
 #[pyfunction]
-#[pyo3(signature = (file, names, arrays, period, normal_force))]
+#[pyo3(signature = (file, names, arrays, period, normal_force, recipe))]
 #[allow(clippy::type_complexity, reason = "one for each keyword of Python's function")]
 pub(crate) fn measure(
     py: Python<'_>,
@@ -19,13 +20,16 @@ pub(crate) fn measure(
     arrays: Option<(Option<PyReadonlyArray1<'_, f64>>, PyReadonlyArray1<'_, f64>, PyReadonlyArray1<'_, f64>)>,
     period: Option<f64>,
     normal_force: Option<f64>,
+    recipe: Option<&str>,
 ) -> PyResult<(String, bool)> {
     let invalid = |error: &dyn ToString| PyValueError::new_err(error.to_string());
     let mut measured = match (file, arrays) {
         (Some(file), _) => {
             let (time, displacement, force) = names;
-            Measured::read(Path::new(file), &Named { time, displacement, force })
-                .map_err(|error| invalid(&error))?
+            let named = Named { time, displacement, force, normal: None };
+            let recipe = recipe.map(|text| Recipe::from_text(text, "recipe")).transpose();
+            let recipe = recipe.map_err(|error| invalid(&error))?.unwrap_or_default().with(&named);
+            Measured::read(Path::new(file), &recipe).map_err(|error| invalid(&error))?
         }
         (None, Some((t, u, force))) => {
             let list = |array: &PyReadonlyArray1<'_, f64>| array.as_array().to_vec();
@@ -41,7 +45,7 @@ pub(crate) fn measure(
                 );
                 return Err(PyValueError::new_err(message));
             }
-            Measured { file: "arrays".to_owned(), t, has_time, u, force, is_turned: false }
+            Measured { file: "arrays".to_owned(), t, has_time, u, force, is_turned: false, notes: Vec::new() }
         }
         (None, None) => return Err(PyValueError::new_err("expected a file, or displacements and forces")),
     };

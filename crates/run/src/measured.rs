@@ -9,13 +9,8 @@ use stickslip_measure::contact_path;
 use stickslip_measure::cycles::Cut;
 use stickslip_measure::series::extent;
 use stickslip_measure::{Cycle, SeriesError, returning_cycles, split_cycles};
-use stickslip_scenario::{Pairs, ScenarioError, pairs};
+use stickslip_record::{Recipe, Record, RecordError, Role};
 use thiserror::Error;
-
-/// Names by which columns go where nobody says which they are.
-const TIMES: [&str; 2] = ["t", "time"];
-const DISPLACEMENTS: [&str; 4] = ["u", "x", "disp", "displacement"];
-const FORCES: [&str; 4] = ["fx", "f", "force", "q"];
 
 /// Columns of the table of measured cycles: names as in a run's `cycles.csv`. Times are places of lines where there are none; stiffnesses are
 /// fitted to the first tenth of the way back.
@@ -35,23 +30,12 @@ const HEAD: [&str; 13] = [
     "fitted_stiffness_after_minimum_N_m",
 ];
 
-/// Which columns of a table are meant; those that go by a usual name where none is said.
-#[derive(Debug, Clone, Default)]
-pub struct Named {
-    /// Of times; a table may have none.
-    pub time: Option<String>,
-    /// Of displacements.
-    pub displacement: Option<String>,
-    /// Of tangential forces.
-    pub force: Option<String>,
-}
-
 /// Why there are no measured loops.
 #[derive(Debug, Error)]
 pub enum MeasuredError {
     /// The table.
     #[error(transparent)]
-    Table(#[from] ScenarioError),
+    Table(#[from] RecordError),
     /// Numbers that are no record.
     #[error("{file}: {source}")]
     Series {
@@ -61,7 +45,7 @@ pub enum MeasuredError {
         source: SeriesError,
     },
     /// A period in a table without times.
-    #[error("{0}: a period needs a column of times, t or time, or the one named by --time")]
+    #[error("{0}: a period needs a column of times, or the one named by --time")]
     NoTime(String),
     /// Nothing that comes back.
     #[error(
@@ -85,6 +69,8 @@ pub struct Measured {
     pub force: Vec<f64>,
     /// Whether the table has them with the other sign: as the forces that resist.
     pub is_turned: bool,
+    /// What reading it has done that nobody has asked for, in sentences.
+    pub notes: Vec<String>,
 }
 
 /// One cycle of a record: where it lies in it, when, and its quantities. Its opening is that at the middle of its forces, whose zero a
@@ -100,29 +86,19 @@ pub struct MeasuredCycle {
 }
 
 impl Measured {
-    /// Reads a record from a table with heads; units may stand there.
+    /// Reads a record from a table of an instrument; what the recipe leaves out is guessed.
     ///
     /// # Errors
     /// A file that is no such table, or lacks a column that is asked for.
-    pub fn read(path: &Path, named: &Named) -> Result<Self, MeasuredError> {
-        let times = names(named.time.as_deref(), &TIMES, "s");
-        if named.time.is_some() {
-            // Only of the second column it is an error that there is none.
-            pairs(path, &[], &times)?;
-        }
-        let displacements = names(named.displacement.as_deref(), &DISPLACEMENTS, "m");
-        let Pairs { first, values, .. } = pairs(path, &times, &displacements)?;
-        let Pairs { values: forces, .. } = pairs(path, &times, &names(named.force.as_deref(), &FORCES, "N"))?;
-        let has_time = first.is_some();
-        let t = values.iter().enumerate().map(|(line, [t, _])| if has_time { *t } else { line as f64 });
-        Ok(Self {
-            file: path.display().to_string(),
-            t: t.collect(),
-            has_time,
-            u: values.iter().map(|[_, u]| *u).collect(),
-            force: forces.iter().map(|[_, force]| *force).collect(),
-            is_turned: false,
-        })
+    pub fn read(path: &Path, recipe: &Recipe) -> Result<Self, MeasuredError> {
+        let mut record = Record::read(path, recipe, &[Role::Displacement, Role::Force])?;
+        let mut column = |role| record.columns.remove(&role);
+        let (time, u, force) = (column(Role::Time), column(Role::Displacement), column(Role::Force));
+        let u = u.unwrap_or_default();
+        let has_time = time.is_some();
+        let t = time.unwrap_or_else(|| (0..u.len()).map(|line| line as f64).collect());
+        let (file, force, notes) = (path.display().to_string(), force.unwrap_or_default(), record.notes);
+        Ok(Self { file, t, has_time, u, force, is_turned: false, notes })
     }
 
     /// Its cycles: of a period, s, from the first line on, or else from one reversal to the next of its kind, those that come back.
@@ -166,14 +142,6 @@ impl Measured {
             Ok(MeasuredCycle { span: span.clone(), time, cycle })
         };
         spans.iter().map(one).collect()
-    }
-}
-
-/// The names that a column may go by, with the unit of its numbers where its head tells none.
-fn names<'a>(own: Option<&'a str>, usual: &[&'static str], si: &'static str) -> Vec<(&'a str, &'static str)> {
-    match own {
-        Some(own) => vec![(own, si)],
-        None => usual.iter().map(|name| (*name, si)).collect(),
     }
 }
 

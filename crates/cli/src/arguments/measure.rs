@@ -1,19 +1,19 @@
 //! The command line of measured loops.
 
 use super::look::LookArguments;
+use super::reading::ReadingArguments;
 use clap::Args;
 use std::path::PathBuf;
 use stickslip_scenario::quantity;
 
 /// Long help; paragraphs are broken where the terminal ends.
 pub(crate) const ABOUT: &str = "\
-Evaluate measured hysteresis loops from a CSV table; compare them with a simulation
+Evaluate measured hysteresis loops from a table; compare them with a simulation
 
-Reports amplitudes, dissipated energy, loop opening, energy ratios and stiffness of every cycle. The CSV file contains \
-displacements and tangential forces, and may contain times. The first line of the file names the columns with their units, as in \
-\"t [ms],disp (um),F_mN\". A column without a unit is in SI. Default column names are t or time for times; u, x, disp or \
-displacement for displacements; and fx, f, force or q for forces. The options --time, --displacement and --force select columns with \
-other names.
+Reports amplitudes, dissipated energy, loop opening, energy ratios and stiffness of every cycle. The file contains displacements and \
+tangential forces, and may contain times. `stickslip import` shows how a file is read: encoding, delimiter, decimal sign, head lines \
+and columns are found by themselves, or said by a recipe. Columns are found by their names or units. The options --time, \
+--displacement and --force select columns by name or number, with a unit after a colon. Numbers without a unit are in SI.
 
 A cycle extends from one reversal to the next reversal in the same direction. Reversals by noise are ignored. With --period, every \
 cycle is one period long. The loop opening is measured at the mean of the largest and smallest force. If the force opposes the \
@@ -27,22 +27,17 @@ pub(crate) const EXAMPLES: &str = "\
 Examples:
   stickslip measure rig.csv
   stickslip measure rig.csv --time \"clock\" --displacement \"LVDT 2\" --force \"load cell\" --period \"1 s\"
+  stickslip measure rig.txt --displacement 2:mm --force 3:kN
+  stickslip measure rig.csv --recipe rig-recipe.json
   stickslip measure rig.csv --beside results/rig --contact ball --normal-force \"10 N\"";
 
 #[derive(Debug, Args)]
 pub(crate) struct MeasureArguments {
-    /// CSV file
+    /// Table of an instrument
     #[arg(value_name = "FILE")]
     pub(crate) file: PathBuf,
-    /// Column of the times
-    #[arg(long, value_name = "COLUMN")]
-    pub(crate) time: Option<String>,
-    /// Column of the displacements
-    #[arg(long, value_name = "COLUMN")]
-    pub(crate) displacement: Option<String>,
-    /// Column of the tangential forces
-    #[arg(long, value_name = "COLUMN")]
-    pub(crate) force: Option<String>,
+    #[command(flatten)]
+    pub(crate) reading: ReadingArguments,
     /// Period of the motion, such as "1 s", counted from the first row; by default cycles are found by their reversals
     #[arg(long, value_name = "T", value_parser = period)]
     pub(crate) period: Option<f64>,

@@ -11,13 +11,15 @@ use stickslip_figures::measured::{self as picture, Curve, Loops};
 use stickslip_measure::Cycle;
 use stickslip_run::complaint::words;
 use stickslip_run::folder::{Folder, sweep};
-use stickslip_run::measured::{Measured, MeasuredCycle, MeasuredError, Named, simulated, table};
+use stickslip_run::measured::{Measured, MeasuredCycle, MeasuredError, simulated, table};
 use stickslip_run::{Real, Results, ResultsError, quantity};
 use stickslip_scenario::PlotName;
 use thiserror::Error;
 
 /// A deviation below this share of the mean is rounding.
 const ROUNDING: f64 = 1e-12;
+/// Most rows of cycles before the last that are drawn.
+const MOST_DRAWN: usize = 100_000;
 /// Name of the table that is written.
 const CYCLES: &str = "cycles.csv";
 
@@ -64,13 +66,15 @@ pub(crate) fn measure(arguments: &MeasureArguments) -> Verdict {
 }
 
 fn answer(arguments: &MeasureArguments) -> Result<(), LoopFailure> {
-    let MeasureArguments { time, displacement, force, .. } = arguments;
-    let named = Named { time: time.clone(), displacement: displacement.clone(), force: force.clone() };
-    let mut measured = Measured::read(&arguments.file, &named)?;
+    let mut measured =
+        Measured::read(&arguments.file, &arguments.reading.recipe().map_err(MeasuredError::from)?)?;
     let cycles = measured.cycles(arguments.period)?;
     let beside = arguments.beside.as_deref().map(|folder| find(folder, arguments.contact.as_deref()));
     let beside = beside.transpose()?;
     let normal = arguments.normal_force.or_else(|| beside.as_ref()?.normal);
+    for note in measured.notes.iter().filter(|_| !arguments.quiet) {
+        complain(format_args!("{}: note: {note}", arguments.file.display()));
+    }
     if measured.is_turned {
         complain(format_args!(
             "{}: note: the force resists the motion; its sign is turned",
@@ -179,7 +183,10 @@ fn draw(
     beside: Option<&Simulated>,
     arguments: &MeasureArguments,
 ) -> Result<Vec<(String, Vec<u8>)>, FigureError> {
-    let Some((last, first)) = cycles.last().zip(cycles.first()) else { return Ok(Vec::new()) };
+    let Some(last) = cycles.last() else { return Ok(Vec::new()) };
+    // Of a long record the last cycles are drawn, and nobody could tell more of them apart.
+    let is_drawn = |cycle: &&MeasuredCycle| last.span.start - cycle.span.start <= MOST_DRAWN;
+    let first = cycles.iter().find(is_drawn).unwrap_or(last);
     let curve = |name, from: usize, to: usize| Curve {
         name,
         u: &measured.u[from..to],

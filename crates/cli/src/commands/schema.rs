@@ -11,6 +11,8 @@ pub(crate) enum Kind {
     Scenario,
     /// Study files
     Study,
+    /// Recipes of measured tables
+    Recipe,
 }
 
 /// Prints a schema.
@@ -18,6 +20,7 @@ pub(crate) fn print(kind: Kind) -> Verdict {
     let schema = match kind {
         Kind::Scenario => stickslip_scenario::schema(),
         Kind::Study => stickslip_scenario::study_schema(),
+        Kind::Recipe => stickslip_record::recipe_schema(),
     };
     say(format_args!("{}", schema.trim_end()));
     Verdict::Done

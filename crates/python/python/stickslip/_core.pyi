@@ -88,6 +88,7 @@ def measure(
     arrays: tuple[Any, Any, Any] | None,
     period: float | None,
     normal_force: float | None,
+    recipe: str | None,
 ) -> tuple[str, bool]: ...
 def compare(
     folders: tuple[str, str],

@@ -443,11 +443,13 @@ def measure(
     time: Any = None,
     period: Any = None,
     normal_force: Any = None,
+    recipe: Any = None,
 ) -> Table:
     """Evaluates measured hysteresis loops (``stickslip measure``): a row for each cycle.
 
-    Either arrays of ``displacement`` (m), ``force`` (N) and, if known, ``time`` (s); or the path of a CSV file as the first argument, where
-    ``force`` and ``time`` may name its columns. ``normal_force`` (N) gives the friction coefficient of each loop.
+    Either arrays of ``displacement`` (m), ``force`` (N) and, if known, ``time`` (s); or the path of a table as the first argument, where
+    ``force`` and ``time`` may name its columns, by name or number and with a unit, such as ``"3:kN"``. ``recipe`` says how the file is read: a
+    dictionary, or the path of a file that ``stickslip import`` wrote. ``normal_force`` (N) gives the friction coefficient of each loop.
 
     >>> import numpy as np, stickslip as ss
     >>> phase = np.linspace(0, 6 * np.pi, 601)
@@ -458,13 +460,18 @@ def measure(
     period = None if period is None else si(period, "s")
     normal_force = None if normal_force is None else si(normal_force, "N")
     if isinstance(displacement, (str, os.PathLike)):
-        text, _ = _core.measure(str(displacement), (time, None, force), None, period, normal_force)
+        if isinstance(recipe, (str, os.PathLike)):
+            with open(recipe, encoding="utf-8") as file:
+                recipe = file.read()
+        elif recipe is not None:
+            recipe = json.dumps(recipe)
+        text, _ = _core.measure(str(displacement), (time, None, force), None, period, normal_force, recipe)
     else:
         if force is None:
             raise ValueError("expected the forces beside the displacements")
         t = None if time is None else np.ascontiguousarray(time, dtype=float)
         arrays = (t, np.ascontiguousarray(displacement, dtype=float), np.ascontiguousarray(force, dtype=float))
-        text, _ = _core.measure(None, (None, None, None), arrays, period, normal_force)
+        text, _ = _core.measure(None, (None, None, None), arrays, period, normal_force, None)
     return Table.from_csv(text)
 
 

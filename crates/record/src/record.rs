@@ -1,0 +1,326 @@
+//! The columns of a file, read line by line: what is kept are numbers.
+
+use crate::cell::{Cell, DAY, Digits, unwind};
+use crate::error::RecordError;
+use crate::layout::{Layout, fields, is_row};
+use crate::recipe::{ColumnRecipe, Encoding, Place, Recipe, Role};
+use crate::roles::{Reading, readings};
+use encoding_rs::{UTF_8, UTF_16BE, UTF_16LE, WINDOWS_1252};
+use encoding_rs_io::{DecodeReaderBytes, DecodeReaderBytesBuilder};
+use std::collections::BTreeMap;
+use std::fs::File;
+use std::io::{self, BufRead, BufReader, Read};
+use std::path::Path;
+
+/// Bytes from the beginning of a file by which its layout is told.
+const SAMPLE: u64 = 1 << 18;
+/// Most lines of them.
+const LINES: usize = 600;
+/// Lines of words in a row between rows that begin another block.
+const HEAD: usize = 2;
+
+/// Lines that were passed over.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Passed {
+    /// Empty lines below the first row.
+    pub empty: usize,
+    /// Comments.
+    pub comments: usize,
+    /// Lines of words: heads of blocks, footers.
+    pub words: usize,
+    /// Rows in which a number is missing.
+    pub missing: usize,
+}
+
+/// Columns of a table, in SI.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Record {
+    /// How the file is laid out.
+    pub layout: Layout,
+    /// The columns by what they are, all of one length. Without times there are none.
+    pub columns: BTreeMap<Role, Vec<f64>>,
+    /// Number of rows.
+    pub rows: usize,
+    /// Where blocks begin, among the rows; the first is 0.
+    pub blocks: Vec<usize>,
+    /// Lines that were passed over.
+    pub passed: Passed,
+    /// What was done that nobody has asked for, in sentences.
+    pub notes: Vec<String>,
+    readings: BTreeMap<Role, Reading>,
+}
+
+impl Record {
+    /// Reads a file. What a recipe leaves out is guessed; roles that are not `wanted` may be missing.
+    ///
+    /// # Errors
+    /// A file that cannot be read or has no rows of numbers; columns that are not there, or that nothing tells.
+    pub fn read(path: &Path, recipe: &Recipe, wanted: &[Role]) -> Result<Self, RecordError> {
+        let name = path.display().to_string();
+        let failed = |source| RecordError::File { file: name.clone(), source };
+        let sample = sample(path).map_err(failed)?;
+        let encoding = recipe.encoding.unwrap_or_else(|| encoding(&sample));
+        let codec = codec(encoding, &sample);
+        let mut text = String::new();
+        decoded(sample.as_slice(), codec).read_to_string(&mut text).map_err(failed)?;
+        // The last line of a long file may be cut.
+        let whole =
+            if sample.len() as u64 == SAMPLE { text.rfind('\n').unwrap_or(text.len()) } else { text.len() };
+        let lines: Vec<&str> = text[..whole].lines().take(LINES).collect();
+        let layout = Layout::guess(&lines, encoding, recipe).ok_or_else(|| {
+            let first = lines.iter().find(|line| !line.trim().is_empty());
+            let why = first.map_or(": it is empty".to_owned(), |line| {
+                format!("; it begins with {:?}", line.chars().take(60).collect::<String>())
+            });
+            RecordError::NoRows { file: name.clone(), why }
+        })?;
+        let readings = readings(&name, &layout, recipe, wanted)?;
+        let mut record = Self {
+            columns: readings.keys().map(|role| (*role, Vec::new())).collect(),
+            layout,
+            rows: 0,
+            blocks: Vec::new(),
+            passed: Passed::default(),
+            notes: Vec::new(),
+            readings,
+        };
+        let file = File::open(path).map_err(failed)?;
+        record.fill(BufReader::with_capacity(1 << 16, decoded(file, codec))).map_err(failed)?;
+        record.finish(&name)?;
+        Ok(record)
+    }
+
+    /// The recipe with all that was guessed.
+    #[must_use]
+    pub fn recipe(&self) -> Recipe {
+        let column = |(role, reading): (&Role, &Reading)| {
+            let Reading { place, gain, offset, unit, .. } = reading;
+            let own = ColumnRecipe {
+                column: Some(Place::Number(place + 1)),
+                unit: Some(unit.clone()),
+                gain: (*gain != 1.0).then_some(*gain),
+                offset: (*offset != 0.0).then_some(*offset),
+            };
+            (*role, own)
+        };
+        let Layout { encoding, delimiter, decimal, thousands, skip, ref comment, ref missing, pace, .. } =
+            self.layout;
+        Recipe {
+            encoding: Some(encoding),
+            skip: Some(skip),
+            delimiter: Some(delimiter),
+            decimal: Some(decimal),
+            thousands,
+            comment: comment.clone(),
+            missing: Some(missing.clone()).filter(|missing| !missing.is_empty()),
+            start: pace.map(|[start, _]| start),
+            increment: pace.map(|[_, increment]| increment),
+            columns: self.readings.iter().map(column).collect(),
+        }
+    }
+
+    /// What a column, by its place, is read as, with its unit.
+    #[must_use]
+    pub fn role(&self, place: usize) -> Option<(Role, &str)> {
+        let found = self.readings.iter().find(|(_, reading)| reading.place == place);
+        found.map(|(role, reading)| (*role, reading.unit.as_str()))
+    }
+
+    fn fill(&mut self, mut from: impl BufRead) -> io::Result<()> {
+        let (mut line, mut number, mut words) = (String::new(), 0, 0);
+        let readings: Vec<(Role, Reading)> =
+            self.readings.iter().map(|(role, reading)| (*role, reading.clone())).collect();
+        let (digits, delimiter, skip) = (self.layout.digits(), self.layout.delimiter, self.layout.skip);
+        let (missing, comment) = (self.layout.missing.clone(), self.layout.comment.clone());
+        let mut columns: Vec<Vec<f64>> = vec![Vec::new(); readings.len()];
+        let (mut row, mut first) = (vec![0.0; readings.len()], None);
+        loop {
+            line.clear();
+            if from.read_line(&mut line)? == 0 {
+                break;
+            }
+            number += 1;
+            if number <= skip {
+                continue;
+            }
+            let text = line.trim_end_matches(['\n', '\r']);
+            if text.trim().is_empty() {
+                self.passed.empty += 1;
+                continue;
+            }
+            if comment.as_deref().is_some_and(|sign| text.starts_with(sign)) {
+                self.passed.comments += 1;
+                continue;
+            }
+            let read = match readings.is_empty() {
+                // Where no column is read a row is what looks like one.
+                true => self.is_row(text).then_some(true),
+                false => read_row(text, (delimiter, digits, &missing), &readings, (&mut row, &mut first)),
+            };
+            match read {
+                Some(true) => {
+                    if self.rows == 0 || words >= HEAD {
+                        self.blocks.push(self.rows);
+                    }
+                    words = 0;
+                    self.rows += 1;
+                    columns.iter_mut().zip(&row).for_each(|(column, value)| column.push(*value));
+                }
+                Some(false) => self.passed.missing += 1,
+                None => (self.passed.words, words) = (self.passed.words + 1, words + 1),
+            }
+        }
+        columns.iter_mut().for_each(Vec::shrink_to_fit);
+        self.columns = readings.into_iter().map(|(role, _)| role).zip(columns).collect();
+        Ok(())
+    }
+
+    fn is_row(&self, text: &str) -> bool {
+        let layout = &self.layout;
+        let cells = fields(text, layout.delimiter);
+        let cells: Vec<Cell> =
+            cells.iter().map(|field| Cell::read(field, layout.digits(), &layout.missing)).collect();
+        is_row(&cells, &layout.columns.iter().map(|column| column.is_number).collect::<Vec<_>>())
+    }
+
+    /// What is to be said of the columns, once they are all there.
+    fn finish(&mut self, name: &str) -> Result<(), RecordError> {
+        for (role, column) in &self.columns {
+            if column.is_empty() {
+                let column = self.readings.get(role).map_or(0, |reading| reading.place + 1);
+                return Err(RecordError::NoNumbers { file: name.to_owned(), column, role: *role });
+            }
+        }
+        let is_clock = self.readings.get(&Role::Time).is_some_and(|reading| reading.is_clock);
+        if is_clock && let Some(times) = self.columns.get_mut(&Role::Time) {
+            if unwind(times) {
+                self.notes.push("clock times go over midnight: a day is added".to_owned());
+            }
+            let first = times.first().copied().unwrap_or(0.0);
+            times.iter_mut().for_each(|time| *time -= first);
+        }
+        let assumed: Vec<String> = self
+            .readings
+            .iter()
+            .filter(|(_, reading)| reading.is_assumed)
+            .map(|(role, reading)| format!("column {} ({}) in {}", reading.place + 1, role.word(), role.si()))
+            .collect();
+        if !assumed.is_empty() {
+            self.notes.push(format!("without a unit, read in SI: {}", assumed.join(", ")));
+        }
+        if let (Some([start, increment]), false) = (self.layout.pace, self.columns.contains_key(&Role::Time))
+        {
+            let times = (0..self.rows).map(|row| start + row as f64 * increment).collect();
+            self.columns.insert(Role::Time, times);
+        }
+        let Passed { empty, comments, words, missing } = self.passed;
+        let told = [
+            (missing, "rows with a missing value"),
+            (words, "lines of words"),
+            (empty, "empty lines"),
+            (comments, "comments"),
+        ];
+        let told: Vec<String> = told
+            .iter()
+            .filter(|(count, _)| *count > 0)
+            .map(|(count, what)| format!("{count} {what}"))
+            .collect();
+        if !told.is_empty() {
+            self.notes.push(format!("passed over: {}", told.join(", ")));
+        }
+        if self.blocks.len() > 1 {
+            self.notes.push(format!("{} blocks of rows, parted by lines of words", self.blocks.len()));
+        }
+        Ok(())
+    }
+}
+
+/// Reads a row; false where a number is missing, none where it is no row.
+fn read_row(
+    text: &str,
+    (delimiter, digits, missing): (char, Digits, &[String]),
+    readings: &[(Role, Reading)],
+    (row, first): (&mut [f64], &mut Option<f64>),
+) -> Option<bool> {
+    let (mut is_whole, mut any) = (true, false);
+    let mut take = |place: usize, field: Option<&str>| -> Option<()> {
+        for ((_, reading), value) in
+            readings.iter().zip(row.iter_mut()).filter(|((_, reading), _)| reading.place == place)
+        {
+            match field.map_or(Cell::Missing, |field| Cell::read(field, digits, missing)) {
+                Cell::Number(number) if !reading.is_clock => *value = reading.si(number),
+                // Days since the first row: since Christ they would leave microseconds.
+                Cell::Clock(days, seconds) if reading.is_clock => {
+                    *value = DAY * (days - *first.get_or_insert(days)) + seconds;
+                }
+                Cell::Missing => is_whole = false,
+                _ => return None,
+            }
+            any |= is_whole;
+        }
+        Some(())
+    };
+    let last = readings.iter().map(|(_, reading)| reading.place).max()?;
+    let mut count = 0;
+    let mut each = |field: &str| -> Option<()> {
+        take(count, Some(field))?;
+        count += 1;
+        Some(())
+    };
+    match delimiter {
+        ' ' => text.split_ascii_whitespace().take(last + 1).try_for_each(&mut each)?,
+        _ if text.contains('"') => {
+            fields(text, delimiter).iter().take(last + 1).try_for_each(|field| each(field))?;
+        }
+        _ => text.split(delimiter).take(last + 1).try_for_each(&mut each)?,
+    }
+    for place in count..=last {
+        take(place, None)?;
+    }
+    // A line of words alone has no number.
+    (any || text.chars().any(|c| c.is_ascii_digit())).then_some(is_whole)
+}
+
+/// The beginning of a file.
+fn sample(path: &Path) -> io::Result<Vec<u8>> {
+    if path.canonicalize().is_ok_and(|named| !named.is_file()) {
+        let kind = if path.is_dir() { io::ErrorKind::IsADirectory } else { io::ErrorKind::InvalidInput };
+        return Err(io::Error::new(kind, "not a file"));
+    }
+    let mut bytes = Vec::new();
+    File::open(path)?.take(SAMPLE).read_to_end(&mut bytes)?;
+    Ok(bytes)
+}
+
+/// The encoding of bytes: by their mark, by the zeros of UTF-16, or by whether they are UTF-8.
+fn encoding(bytes: &[u8]) -> Encoding {
+    let zeros = bytes.iter().take(1000).filter(|byte| **byte == 0).count();
+    if bytes.starts_with(&[0xff, 0xfe])
+        || bytes.starts_with(&[0xfe, 0xff])
+        || 4 * zeros > bytes.len().min(1000)
+    {
+        return Encoding::Utf16;
+    }
+    match std::str::from_utf8(bytes) {
+        Ok(_) => Encoding::Utf8,
+        // A character may be cut at the end.
+        Err(error) if error.error_len().is_none() && bytes.len() as u64 == SAMPLE => Encoding::Utf8,
+        Err(_) => Encoding::Latin1,
+    }
+}
+
+/// How bytes that begin with these become a text.
+fn codec(encoding: Encoding, sample: &[u8]) -> &'static encoding_rs::Encoding {
+    match encoding {
+        Encoding::Utf8 => UTF_8,
+        Encoding::Latin1 => WINDOWS_1252,
+        // The zeros of Latin letters come first.
+        Encoding::Utf16 if sample.first() == Some(&0) => UTF_16BE,
+        Encoding::Utf16 => UTF_16LE,
+    }
+}
+
+/// A text as UTF-8; a mark of byte order counts first.
+fn decoded<R: Read>(from: R, codec: &'static encoding_rs::Encoding) -> DecodeReaderBytes<R, Vec<u8>> {
+    DecodeReaderBytesBuilder::new().encoding(Some(codec)).bom_override(true).build(from)
+}
