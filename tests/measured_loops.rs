@@ -144,3 +144,36 @@ fn what_is_no_loop_is_refused_and_leaves_nothing() {
         assert!(!folder.path().join("out").exists());
     }
 }
+
+/// Rows and works of cycles and of what lies outside add up to the record, to rounding. Growing cycles are cycles, and open; those that the
+/// record cuts off are none. Amplitudes of 1, 1.6, 2.5, 4, 6.3 and 10 µm, then three at 10 µm: cycles from minimum to minimum have the
+/// mean of an amplitude and the next.
+#[test]
+fn nothing_is_dropped_without_a_word() {
+    let folder = tempdir().unwrap();
+    let mut text = "t (s),disp (um),force (N)\n".to_owned();
+    let amplitudes = [1.0, 1.6, 2.5, 4.0, 6.3, 10.0, 10.0, 10.0, 10.0];
+    for row in 0..=200 * amplitudes.len() {
+        let phase = std::f64::consts::TAU * row as f64 / 200.0;
+        let amplitude = amplitudes[(row / 200).min(amplitudes.len() - 1)];
+        let (u, force) = (amplitude * phase.sin(), 3.0 * (8.0 * phase.cos()).tanh());
+        writeln!(text, "{},{u:.4},{force:.4}", row as f64 / 200.0).unwrap();
+    }
+    let output = measure(folder.path(), &text, &["--json"]);
+    assert_eq!(code(&output), 0, "{}", stderr(&output));
+    let told: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+    let record = &told["record"];
+    let number = |key: &str| record[key].as_f64().unwrap();
+    assert_eq!(number("rows_in_cycles") + number("rows_outside"), 1801.0);
+    let off = number("work_in_cycles_J") + number("work_outside_J") - number("work_J");
+    assert!(off.abs() < 1e-12 * number("work_J"), "{off:e}");
+    let stages = told["stages"].as_array().unwrap();
+    assert_eq!(stages.last().unwrap()["cycles"], 3, "{told}");
+    let table = Table::read(&folder.path().join("out/cycles.csv"));
+    let open = table.column("flags").iter().filter(|flags| **flags == "open").count();
+    assert_eq!((open, table.rows.len()), (5, 8));
+    for (k, amplitude) in table.column("displacement_amplitude_m").iter().take(5).enumerate() {
+        let wanted = 0.5e-6 * (amplitudes[k] + amplitudes[k + 1]);
+        assert!((amplitude.parse::<f64>().unwrap() / wanted - 1.0).abs() < 1e-4, "{k}: {amplitude}");
+    }
+}

@@ -73,6 +73,17 @@ pub fn returning_cycles(t: &[f64], u: &[f64], still: f64) -> Vec<Range<usize>> {
     best.1
 }
 
+/// Standard deviation of the noise of samples at equal distances, by their fourth differences, in which hardly anything is left of what is smooth:
+/// the median of their magnitudes, which turns do not move, as that of normal noise.
+#[must_use]
+pub fn noise(u: &[f64]) -> f64 {
+    let fourth = |five: &[f64]| (five[0] - 4.0 * five[1] + 6.0 * five[2] - 4.0 * five[3] + five[4]).abs();
+    let mut all: Vec<f64> = u.windows(5).map(fourth).collect();
+    all.sort_by(f64::total_cmp);
+    // Of normal noise the median magnitude is 0.6745 σ, and the sum of the squares of the binomials 70.
+    all.get(all.len() / 2).map_or(0.0, |median| median / 0.674_49 / 70.0_f64.sqrt())
+}
+
 /// Whether u comes back to within a share of its range, or moves by no more than `still`, m.
 #[must_use]
 pub fn returns(u: &[f64], still: f64, share: f64) -> bool {
@@ -83,7 +94,8 @@ pub fn returns(u: &[f64], still: f64, share: f64) -> bool {
 
 /// Places of the reversals of u, alternately maxima and minima; each is confirmed by a way back longer than
 /// `least`. The start of the record counts as none.
-fn reversals(u: &[f64], least: f64) -> Vec<usize> {
+#[must_use]
+pub fn reversals(u: &[f64], least: f64) -> Vec<usize> {
     let mut found = Vec::new();
     let (mut low, mut high) = (0, 0);
     let mut direction = 0_i8;

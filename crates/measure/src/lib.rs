@@ -46,7 +46,7 @@ mod warning;
 
 pub use account::Extreme;
 pub use contact_path::contact_path;
-pub use cycles::{Cut, returning_cycles, split_cycles};
+pub use cycles::{Cut, noise, returning_cycles, reversals, split_cycles};
 pub use fretting::Cycle;
 pub use mean::{Mean, Moved};
 pub use periods::Periods;

@@ -2,19 +2,21 @@
 
 use crate::job::Job;
 use crate::kept::Kept;
+use serde::Serialize;
 use std::ops::Range;
 use std::path::Path;
 use stickslip_measure::Periods;
 use stickslip_measure::contact_path;
 use stickslip_measure::cycles::Cut;
+use stickslip_measure::cycles::returns;
 use stickslip_measure::series::extent;
-use stickslip_measure::{Cycle, SeriesError, returning_cycles, split_cycles};
+use stickslip_measure::{Cycle, SeriesError, noise, returning_cycles, reversals, split_cycles};
 use stickslip_record::{Recipe, Record, RecordError, Role};
 use thiserror::Error;
 
 /// Columns of the table of measured cycles: names as in a run's `cycles.csv`. Times are places of lines where there are none; stiffnesses are
 /// fitted to the first tenth of the way back.
-const HEAD: [&str; 13] = [
+const HEAD: [&str; 17] = [
     "cycle",
     "start_s",
     "end_s",
@@ -28,7 +30,18 @@ const HEAD: [&str; 13] = [
     "energy_coefficient_of_friction",
     "fitted_stiffness_after_maximum_N_m",
     "fitted_stiffness_after_minimum_N_m",
+    "half_opening_at_zero_force_m",
+    "work_J",
+    "stage",
+    "flags",
 ];
+/// Reversals are confirmed by a way back of so many standard deviations of the noise, and of this share of the range at least.
+const SURE: f64 = 12.0;
+const LEAST: f64 = 1e-3;
+/// A cycle is open whose ends are farther apart than this share of its range.
+const OPEN: f64 = 0.1;
+/// A stage ends where the amplitude, or the time of a cycle, differs by more than these shares: noise moves reversals of a sine by a tenth.
+const STAGE: [f64; 2] = [0.1, 0.25];
 
 /// Why there are no measured loops.
 #[derive(Debug, Error)]
@@ -83,6 +96,34 @@ pub struct MeasuredCycle {
     pub time: [f64; 2],
     /// Its quantities.
     pub cycle: Cycle,
+    /// Half of the opening where the force itself is zero, m; none of a loop that nowhere is.
+    pub opening_at_zero: Option<f64>,
+    /// ∮F du over its rows as they are, J.
+    pub work: f64,
+    /// Number of its stage, from 1: cycles of about one amplitude and one time that follow each other.
+    pub stage: usize,
+    /// Whether its ends are farther apart than a tenth of its range: its figures are those of the loop closed by a chord.
+    pub is_open: bool,
+}
+
+/// What of a record lies in its cycles. A row belongs to one cycle, that which it begins or lies in; works are ∫F du by the trapezoids between rows.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Account {
+    /// Rows of the record.
+    pub rows: usize,
+    /// Rows in cycles.
+    pub rows_in_cycles: usize,
+    /// All others.
+    pub rows_outside: usize,
+    /// Work of the whole record, J.
+    #[serde(rename = "work_J")]
+    pub work: f64,
+    /// Work in cycles, J.
+    #[serde(rename = "work_in_cycles_J")]
+    pub work_in_cycles: f64,
+    /// Work of all others, J.
+    #[serde(rename = "work_outside_J")]
+    pub work_outside: f64,
 }
 
 impl Measured {
@@ -119,7 +160,7 @@ impl Measured {
                 // What is no record is refused here.
                 let any = Cut::Reversals { least: f64::MIN_POSITIVE };
                 split_cycles(&self.t, &self.u, &self.force, any).map_err(failed)?;
-                returning_cycles(&self.t, &self.u, 0.0)
+                self.with_changing(&returning_cycles(&self.t, &self.u, 0.0))
             }
         };
         if spans.is_empty() {
@@ -135,13 +176,94 @@ impl Measured {
         self.measure(&spans).map_err(failed)
     }
 
+    /// What of the record lies in these cycles, which follow each other.
+    #[must_use]
+    pub fn account(&self, cycles: &[MeasuredCycle]) -> Account {
+        let mut outside = 0.0;
+        let mut next = 0;
+        for cycle in cycles {
+            outside += (next..cycle.span.start).map(|row| self.work_after(row)).sum::<f64>();
+            next = cycle.span.end - 1;
+        }
+        let rows = self.u.len();
+        outside += (next..rows.saturating_sub(1)).map(|row| self.work_after(row)).sum::<f64>();
+        let rows_in_cycles = cycles.iter().map(|cycle| cycle.span.len() - 1).sum();
+        let work_in_cycles = cycles.iter().map(|cycle| cycle.work).sum();
+        Account {
+            rows,
+            rows_in_cycles,
+            rows_outside: rows - rows_in_cycles,
+            work: (0..rows.saturating_sub(1)).map(|row| self.work_after(row)).sum(),
+            work_in_cycles,
+            work_outside: outside,
+        }
+    }
+
+    /// Work between a row and the next, J.
+    fn work_after(&self, row: usize) -> f64 {
+        0.5 * (self.force[row] + self.force[row + 1]) * (self.u[row + 1] - self.u[row])
+    }
+
     fn measure(&self, spans: &[Range<usize>]) -> Result<Vec<MeasuredCycle>, SeriesError> {
         let one = |span: &Range<usize>| {
             let cycle = of_loop(&self.u[span.clone()], &self.force[span.clone()])?;
             let time = [self.t[span.start], self.t[span.end - 1]];
-            Ok(MeasuredCycle { span: span.clone(), time, cycle })
+            let (u, force) = (&self.u[span.clone()], &self.force[span.clone()]);
+            let opening_at_zero = Cycle::of_loop(u, force)?.half_opening;
+            let work = (span.start..span.end - 1).map(|row| self.work_after(row)).sum();
+            let is_open = !returns(u, 0.0, OPEN);
+            Ok(MeasuredCycle { span: span.clone(), time, cycle, opening_at_zero, work, stage: 0, is_open })
         };
-        spans.iter().map(one).collect()
+        let mut cycles = spans.iter().map(one).collect::<Result<Vec<_>, _>>()?;
+        stages(&mut cycles);
+        Ok(cycles)
+    }
+
+    /// With those between reversals before, between and after them: of growing and of shrinking amplitudes, that do not come back.
+    fn with_changing(&self, cycles: &[Range<usize>]) -> Vec<Range<usize>> {
+        let (low, high) = extent(&self.u);
+        let least = (SURE * noise(&self.u)).max(LEAST * (high - low));
+        let (last, mut all, mut from) = (self.u.len().saturating_sub(1), Vec::new(), None);
+        for next in cycles.iter().map(Some).chain([None]) {
+            let (start, end) = (from.unwrap_or(0), next.map_or(last, |next| next.start));
+            let inner = reversals(&self.u[start..=end], least).into_iter().map(|place| start + place);
+            // What the record begins with is no reversal: it must have come there.
+            let has_come = |place: &usize| {
+                let before = extent(&self.u[start..=*place]);
+                (before.1 - self.u[*place]).max(self.u[*place] - before.0) > least
+            };
+            let inner = inner.filter(|place| (start + 1..end).contains(place)).filter(has_come);
+            let mut places: Vec<usize> = inner.collect();
+            places.splice(0..0, from);
+            places.extend(next.map(|next| next.start));
+            // Of the kind of the ends, which are reversals themselves; else of that of the first.
+            let mut kind: Vec<usize> = match (from, next) {
+                (None, Some(_)) => places.into_iter().rev().step_by(2).collect(),
+                _ => places.into_iter().step_by(2).collect(),
+            };
+            kind.sort_unstable();
+            all.extend(kind.windows(2).filter(|ends| ends[0] < ends[1]).map(|ends| ends[0]..ends[1] + 1));
+            all.extend(next.cloned());
+            from = next.map(|next| next.end - 1);
+        }
+        all
+    }
+}
+
+/// Numbers the stages of cycles.
+fn stages(cycles: &mut [MeasuredCycle]) {
+    let differs = |a: f64, b: f64, share: f64| (a - b).abs() > share * b.abs();
+    let (mut stage, mut first, mut end) = (0, None, None);
+    for cycle in cycles {
+        let amplitude = cycle.cycle.displacement_amplitude;
+        let (time, is_open) = (cycle.time[1] - cycle.time[0], cycle.is_open);
+        let goes_on = first.is_some_and(|(a, t, open)| {
+            !differs(amplitude, a, STAGE[0]) && !differs(time, t, STAGE[1]) && open == is_open
+        });
+        if !goes_on || end != Some(cycle.span.start) {
+            (stage, first) = (stage + 1, Some((amplitude, time, is_open)));
+        }
+        (cycle.stage, end) = (stage, Some(cycle.span.end - 1));
     }
 }
 
@@ -164,7 +286,9 @@ pub fn simulated(job: &Job, c: usize, kept: &Kept) -> Option<(Vec<f64>, Vec<f64>
 #[must_use]
 pub fn table(cycles: &[MeasuredCycle], normal: Option<f64>) -> String {
     let mut text = HEAD.join(",") + "\n";
-    for (number, MeasuredCycle { time, cycle, .. }) in (1..).zip(cycles) {
+    for (number, MeasuredCycle { time, cycle, opening_at_zero, work, stage, is_open, .. }) in
+        (1..).zip(cycles)
+    {
         let values = [
             Some(time[0]),
             Some(time[1]),
@@ -178,9 +302,12 @@ pub fn table(cycles: &[MeasuredCycle], normal: Option<f64>) -> String {
             normal.and_then(|normal| cycle.friction_coefficient(normal)),
             cycle.stiffness_after_maximum,
             cycle.stiffness_after_minimum,
+            *opening_at_zero,
+            Some(*work),
         ];
         let cells = values.map(|value| value.map_or_else(String::new, |value| format!("{value:e}")));
-        text.push_str(&format!("{number},{}\n", cells.join(",")));
+        let flags = if *is_open { "open" } else { "" };
+        text.push_str(&format!("{number},{},{stage},{flags}\n", cells.join(",")));
     }
     text
 }

@@ -15,7 +15,8 @@ tangential forces, and may contain times. `stickslip import` shows how a file is
 and columns are found by themselves, or said by a recipe. Columns are found by their names or units. The options --time, \
 --displacement and --force select columns by name or number, with a unit after a colon. Numbers without a unit are in SI.
 
-A cycle extends from one reversal to the next reversal in the same direction. Reversals by noise are ignored. With --period, every \
+A cycle extends from one reversal to the next reversal in the same direction. Reversals by noise are ignored. Cycles of one amplitude \
+are a stage; rows and work in cycles and outside are reported, and both add up to the record. With --period, every \
 cycle is one period long. The loop opening is measured at the mean of the largest and smallest force. If the force opposes the \
 motion, the sign of the force is reversed, and a note reports the reversal.
 
@@ -53,6 +54,9 @@ pub(crate) struct MeasureArguments {
     /// Folder for the output files [default: results/NAME-loop]
     #[arg(long, value_name = "DIR")]
     pub(crate) out: Option<PathBuf>,
+    /// Print one line of JSON instead of the table
+    #[arg(long)]
+    pub(crate) json: bool,
     /// Print errors only
     #[arg(short, long)]
     pub(crate) quiet: bool,

@@ -1,9 +1,10 @@
 //! `stickslip measure`: measured loops, and a simulated one beside them.
 
 use crate::arguments::MeasureArguments;
+use serde_json::json;
 use std::io;
 use std::path::{Path, PathBuf};
-use stickslip_console::answer::{complain, say};
+use stickslip_console::answer::{complain, say, say_json};
 use stickslip_console::table;
 use stickslip_console::verdict::Verdict;
 use stickslip_figures::FigureError;
@@ -11,13 +12,15 @@ use stickslip_figures::measured::{self as picture, Curve, Loops};
 use stickslip_measure::Cycle;
 use stickslip_run::complaint::words;
 use stickslip_run::folder::{Folder, sweep};
-use stickslip_run::measured::{Measured, MeasuredCycle, MeasuredError, simulated, table};
+use stickslip_run::measured::{Account, Measured, MeasuredCycle, MeasuredError, simulated, table};
 use stickslip_run::{Real, Results, ResultsError, quantity};
 use stickslip_scenario::PlotName;
 use thiserror::Error;
 
 /// A deviation below this share of the mean is rounding.
 const ROUNDING: f64 = 1e-12;
+/// Most stages that are printed.
+const MOST_STAGES: usize = 12;
 /// Most rows of cycles before the last that are drawn.
 const MOST_DRAWN: usize = 100_000;
 /// Name of the table that is written.
@@ -81,18 +84,77 @@ fn answer(arguments: &MeasureArguments) -> Result<(), LoopFailure> {
             arguments.file.display()
         ));
     }
-    if !arguments.quiet {
-        tell(&cycles, beside.as_ref(), normal);
+    let stages: Vec<&[MeasuredCycle]> = cycles.chunk_by(|a, b| a.stage == b.stage).collect();
+    // The stage of most cycles, the last of equal ones.
+    let longest = stages.iter().max_by_key(|stage| stage.len()).copied().unwrap_or_default();
+    if !arguments.quiet && !arguments.json {
+        tell((longest, cycles.len()), beside.as_ref(), normal);
     }
     let stem = arguments.file.file_stem().unwrap_or_default().to_string_lossy();
     let out = arguments.out.clone().unwrap_or_else(|| Path::new("results").join(format!("{stem}-loop")));
     let pictures = draw(&stem, (&measured, &cycles), beside.as_ref(), arguments)?;
     let names = write(&out, &table(&cycles, normal), &pictures)
         .map_err(|source| LoopFailure::Write { folder: out.clone(), source })?;
-    if !arguments.quiet {
+    let account = measured.account(&cycles);
+    if arguments.json {
+        let told = json!({
+            "file": measured.file,
+            "cycles": cycles.len(),
+            "is_turned": measured.is_turned,
+            "record": account,
+            "stages": stages.iter().map(|stage| of_stage(stage)).collect::<Vec<_>>(),
+            "notes": measured.notes,
+            "files": names,
+        });
+        say_json(&told.to_string());
+    } else if !arguments.quiet {
+        tell_stages(&stages);
+        tell_account(&account);
         say(format_args!("\n{}: {}", out.display(), names.join(", ")));
     }
     Ok(())
+}
+
+/// Stages by their cycles, where there are several.
+fn tell_stages(stages: &[&[MeasuredCycle]]) {
+    if stages.len() < 2 {
+        return;
+    }
+    for stage in stages.iter().take(MOST_STAGES) {
+        let Some((first, last)) = stage.first().zip(stage.last()) else { continue };
+        let amplitude =
+            stage.iter().map(|cycle| cycle.cycle.displacement_amplitude).sum::<f64>() / stage.len() as f64;
+        let lost = stage.iter().map(|cycle| cycle.cycle.dissipated).sum::<f64>() / stage.len() as f64;
+        let open = stage.iter().filter(|cycle| cycle.is_open).count();
+        let open = if open > 0 { format!(", {open} open") } else { String::new() };
+        say(format_args!(
+            "stage {}: cycles {}, from {} to {}, \u{3b4}* {}, E_d {}{open}",
+            first.stage,
+            stage.len(),
+            quantity(Real(first.time[0]), "s"),
+            quantity(Real(last.time[1]), "s"),
+            quantity(Real(amplitude), "m"),
+            quantity(Real(lost), "J")
+        ));
+    }
+    if stages.len() > MOST_STAGES {
+        say(format_args!("{} more stages: cycles.csv has all of them", stages.len() - MOST_STAGES));
+    }
+}
+
+/// A stage for machines.
+fn of_stage(stage: &[MeasuredCycle]) -> serde_json::Value {
+    let from = stage.first().map(|cycle| cycle.time[0]);
+    let to = stage.last().map(|cycle| cycle.time[1]);
+    json!({ "cycles": stage.len(), "from_s": from, "to_s": to })
+}
+
+/// What lies in the cycles, and what outside.
+fn tell_account(account: &Account) {
+    let Account { rows, rows_in_cycles, rows_outside, work, work_in_cycles, work_outside } = account;
+    say(format_args!("rows: {rows_in_cycles} in cycles, {rows_outside} outside, {rows} in all"));
+    let [within, outside, all] = [work_in_cycles, work_outside, work].map(|work| quantity(Real(*work), "J"));
+    say(format_args!("work of the force: {within} in cycles, {outside} outside, {all} in all"));
 }
 
 /// The contact of results that stands beside.
@@ -138,8 +200,11 @@ fn rows(cycle: &Cycle, normal: Option<f64>) -> [(&'static str, &'static str, Opt
 }
 
 /// A table on the terminal: means over the cycles, how far they scatter, and what was simulated.
-fn tell(cycles: &[MeasuredCycle], beside: Option<&Simulated>, normal: Option<f64>) {
-    let count = format!("measured, {} cycles", cycles.len());
+fn tell((cycles, all): (&[MeasuredCycle], usize), beside: Option<&Simulated>, normal: Option<f64>) {
+    let count = match cycles.len() {
+        count if count == all => format!("measured, {count} cycles"),
+        count => format!("measured, {count} of {all} cycles"),
+    };
     let simulated = beside.map(|beside| format!("simulated, {}", beside.name));
     let heads = ["", count.as_str(), "\u{b1}"].into_iter().chain(simulated.as_deref());
     let mut page = table::plain(heads);
