@@ -227,13 +227,14 @@ impl Measured {
         for next in cycles.iter().map(Some).chain([None]) {
             let (start, end) = (from.unwrap_or(0), next.map_or(last, |next| next.start));
             let inner = reversals(&self.u[start..=end], least).into_iter().map(|place| start + place);
+            let mut places: Vec<usize> = inner.filter(|place| (start + 1..end).contains(place)).collect();
             // What the record begins with is no reversal: it must have come there.
-            let has_come = |place: &usize| {
-                let before = extent(&self.u[start..=*place]);
-                (before.1 - self.u[*place]).max(self.u[*place] - before.0) > least
-            };
-            let inner = inner.filter(|place| (start + 1..end).contains(place)).filter(has_come);
-            let mut places: Vec<usize> = inner.collect();
+            if let Some(&first) = places.first().filter(|_| from.is_none()) {
+                let (low, high) = extent(&self.u[start..=first]);
+                if high - low <= least {
+                    places.remove(0);
+                }
+            }
             places.splice(0..0, from);
             places.extend(next.map(|next| next.start));
             // Of the kind of the ends, which are reversals themselves; else of that of the first.
