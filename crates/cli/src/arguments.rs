@@ -29,7 +29,7 @@ pub(crate) use contact::ContactArguments;
 pub(crate) use curve::CurveArguments;
 pub(crate) use import::ImportArguments;
 pub(crate) use map::MapArguments;
-pub(crate) use measure::MeasureArguments;
+pub(crate) use measure::{MeasureArguments, RigStiffness};
 pub(crate) use overview::command;
 pub(crate) use pictures::{PlotArguments, ReproArguments};
 pub(crate) use realtime::RealtimeArguments;

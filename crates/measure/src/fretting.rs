@@ -4,6 +4,8 @@ use crate::series::{SeriesError, check, check_lengths, extent, mean, sum};
 
 /// Share of the displacement range after a reversal over which the tangential stiffness is fitted.
 pub const STIFFNESS_WINDOW: f64 = 0.1;
+/// Share of the displacement range after a reversal through which the parabola of the tangent goes.
+pub const TANGENT_WINDOW: f64 = 0.25;
 /// Share of the smaller of both extremes of Q, on its two sides of 0, that Q has to reach to have passed 0.
 // Of a loop of 2 000 points with noise of 0.5 % all crossings of one sense apart from all of the other gave an opening of a quarter: on
 // either branch both are in the same place.
@@ -176,6 +178,35 @@ fn stiffness_after(u: &[f64], q: &[f64], (low, high): (f64, f64), extreme: f64) 
         break;
     }
     slope(&points)
+}
+
+/// Tangent of the loop at its reversals, N/m: of least-squares parabolas through the first [`TANGENT_WINDOW`] of the way after the maximum and
+/// after the minimum of u, the mean of their slopes at the reversal. None of a loop that does not move, or has fewer than 4 points there.
+#[must_use]
+pub fn reversal_stiffness(u: &[f64], q: &[f64]) -> Option<f64> {
+    let (low, high) = extent(u);
+    let after = |extreme: f64| {
+        let start = u.iter().position(|u| *u == extreme)?;
+        let way = |k: usize| (u[(start + k) % u.len()] - extreme).abs() / (high - low);
+        let force = |k: usize| q[(start + k) % u.len()];
+        let points: Vec<[f64; 2]> =
+            (0..u.len()).take_while(|k| way(*k) <= TANGENT_WINDOW).map(|k| [way(k), force(k)]).collect();
+        if points.len() < 4 {
+            return None;
+        }
+        let rows = nalgebra::DMatrix::from_fn(points.len(), 3, |i, j| points[i][0].powi(j as i32));
+        let right = nalgebra::DVector::from_iterator(points.len(), points.iter().map(|point| point[1]));
+        let fit = rows.svd(true, true).solve(&right, 1e-9).ok()?;
+        let slope = fit[1] / (high - low);
+        Some(if extreme == high { -slope } else { slope }).filter(|slope| slope.is_finite())
+    };
+    if high <= low {
+        return None;
+    }
+    match (after(high), after(low)) {
+        (Some(a), Some(b)) => Some(0.5 * (a + b)),
+        (one, other) => one.or(other),
+    }
 }
 
 /// Slope of the least-squares line.

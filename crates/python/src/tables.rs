@@ -7,7 +7,7 @@ use pyo3::prelude::*;
 use std::path::Path;
 use stickslip_compare::{Comparison, Results, Terms};
 use stickslip_record::{Named, Recipe};
-use stickslip_run::measured::{Measured, table};
+use stickslip_run::measured::{How, Measured, table};
 
 /// The cycles of a measured record, from a file or from arrays, as a CSV table; and whether the force was turned round.
 #[pyfunction]
@@ -50,8 +50,9 @@ pub(crate) fn measure(
         (None, None) => return Err(PyValueError::new_err("expected a file, or displacements and forces")),
     };
     py.detach(|| {
-        let cycles = measured.cycles(period).map_err(|error| invalid(&error))?;
-        Ok((table(&cycles, normal_force), measured.is_turned))
+        let how = How { period, ..How::default() };
+        let evaluated = measured.evaluate(&how).map_err(|error| invalid(&error))?;
+        Ok((table(&evaluated.cycles, normal_force), measured.is_turned))
     })
 }
 

@@ -1,22 +1,33 @@
 //! Measured loops: a displacement and a tangential force from a table, cut into cycles and measured as those of a run are.
 
+mod clean;
+mod stage;
+
 use crate::job::Job;
 use crate::kept::Kept;
-use serde::Serialize;
+use clean::{Correction, clean};
+use stage::{stages, work_after};
+use std::borrow::Cow;
 use std::ops::Range;
 use std::path::Path;
-use stickslip_measure::Periods;
 use stickslip_measure::contact_path;
 use stickslip_measure::cycles::Cut;
 use stickslip_measure::cycles::returns;
 use stickslip_measure::series::extent;
-use stickslip_measure::{Cycle, SeriesError, noise, returning_cycles, reversals, split_cycles};
+use stickslip_measure::{
+    Cycle, Interval, SeriesError, SteadyLoop, noise, returning_cycles, reversal_stiffness, reversals,
+    split_cycles,
+};
+use stickslip_measure::{Periods, Trail};
 use stickslip_record::{Recipe, Record, RecordError, Role};
 use thiserror::Error;
 
+pub use clean::{Correct, Rig};
+pub use stage::{Account, MISFIT, Stage};
+
 /// Columns of the table of measured cycles: names as in a run's `cycles.csv`. Times are places of lines where there are none; stiffnesses are
 /// fitted to the first tenth of the way back.
-const HEAD: [&str; 17] = [
+const HEAD: [&str; 18] = [
     "cycle",
     "start_s",
     "end_s",
@@ -31,6 +42,7 @@ const HEAD: [&str; 17] = [
     "fitted_stiffness_after_maximum_N_m",
     "fitted_stiffness_after_minimum_N_m",
     "half_opening_at_zero_force_m",
+    "stiffness_N_m",
     "work_J",
     "stage",
     "flags",
@@ -40,8 +52,10 @@ const SURE: f64 = 12.0;
 const LEAST: f64 = 1e-3;
 /// A cycle is open whose ends are farther apart than this share of its range.
 const OPEN: f64 = 0.1;
-/// A stage ends where the amplitude, or the time of a cycle, differs by more than these shares: noise moves reversals of a sine by a tenth.
-const STAGE: [f64; 2] = [0.1, 0.25];
+/// How often the compliance of a rig is found again.
+const ROUNDS: usize = 3;
+/// Cycles follow each other whose ends are apart by no more than this share of a cycle.
+const NEAR: f64 = 0.2;
 
 /// Why there are no measured loops.
 #[derive(Debug, Error)]
@@ -57,9 +71,17 @@ pub enum MeasuredError {
         /// What is wrong with it.
         source: SeriesError,
     },
-    /// A period in a table without times.
-    #[error("{0}: a period needs a column of times, or the one named by --time")]
+    /// A period or a span of times in a table without times.
+    #[error("{0}: --period, --from and --to need a column of times, or the one named by --time")]
     NoTime(String),
+    /// No rows between the times that are asked for.
+    #[error("{0}: no rows between --from and --to")]
+    Nothing(String),
+    /// A rig that is not softer than the whole.
+    #[error(
+        "{0}: the rig's stiffness cannot be found: rig and contact together are not softer than the contact alone\n   help: give it with --rig-stiffness, if it is known"
+    )]
+    Rig(String),
     /// Nothing that comes back.
     #[error(
         "{0}: no cycle comes back to within a tenth of its range\n   help: say the period, if it has one, with --period"
@@ -98,6 +120,8 @@ pub struct MeasuredCycle {
     pub cycle: Cycle,
     /// Half of the opening where the force itself is zero, m; none of a loop that nowhere is.
     pub opening_at_zero: Option<f64>,
+    /// Tangent of the branches at the reversals, N/m; none of a loop without a way.
+    pub stiffness: Option<f64>,
     /// ∮F du over its rows as they are, J.
     pub work: f64,
     /// Number of its stage, from 1: cycles of about one amplitude and one time that follow each other.
@@ -106,24 +130,60 @@ pub struct MeasuredCycle {
     pub is_open: bool,
 }
 
-/// What of a record lies in its cycles. A row belongs to one cycle, that which it begins or lies in; works are ∫F du by the trapezoids between rows.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-pub struct Account {
-    /// Rows of the record.
-    pub rows: usize,
-    /// Rows in cycles.
-    pub rows_in_cycles: usize,
-    /// All others.
-    pub rows_outside: usize,
-    /// Work of the whole record, J.
-    #[serde(rename = "work_J")]
-    pub work: f64,
-    /// Work in cycles, J.
-    #[serde(rename = "work_in_cycles_J")]
-    pub work_in_cycles: f64,
-    /// Work of all others, J.
-    #[serde(rename = "work_outside_J")]
-    pub work_outside: f64,
+/// What of a record is evaluated, and how.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct How {
+    /// Period of the cycles from the first row on, s.
+    pub period: Option<f64>,
+    /// Time of the first row, s.
+    pub from: Option<f64>,
+    /// Time of the last row, s.
+    pub to: Option<f64>,
+    /// First and last of the cycles, from 1.
+    pub cycles: Option<[usize; 2]>,
+    /// What is taken out of the record.
+    pub correct: Correct,
+    /// The rig that lies in series with the contact, whose share of the displacement is taken out.
+    pub rig: Option<Rig>,
+}
+
+/// What was found in a record.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Evaluated {
+    /// Its cycles.
+    pub cycles: Vec<MeasuredCycle>,
+    /// Its stages.
+    pub stages: Vec<Stage>,
+    /// What lies in the cycles, and what outside.
+    pub account: Account,
+    /// Single rows of the displacement and of the force that stand far out of their neighbours, and were left out.
+    pub spikes: [usize; 2],
+    /// Displacements and forces without spikes, and without what was taken out of them, where they differ from the record.
+    pub rows: Option<[Vec<f64>; 2]>,
+    /// The steady loop of the stage of most cycles before anything was taken out of the record.
+    pub found: Option<SteadyLoop>,
+    /// The stage of most cycles with the rig in it, and the stiffness of the rig, N/m, where its share was taken out.
+    pub with_rig: Option<(Stage, Interval)>,
+}
+
+impl Evaluated {
+    /// The stage of most cycles, the last of equal ones.
+    #[must_use]
+    pub fn longest(&self) -> Option<&Stage> {
+        self.stages.iter().max_by_key(|stage| stage.cycles.len())
+    }
+
+    /// Whether the force resists the motion: by the steady loop where the rows tell, else by the slopes after the reversals, else by the area.
+    fn is_turned(&self) -> bool {
+        if let Some(steady) =
+            self.longest().and_then(|stage| stage.steady).filter(|steady| steady.is_sense_sure)
+        {
+            return steady.is_turned;
+        }
+        let slopes = self.cycles.iter().filter_map(|cycle| cycle.stiffness.map(f64::signum)).sum::<f64>();
+        let area = self.cycles.iter().map(|cycle| cycle.cycle.dissipated).sum::<f64>();
+        if slopes.abs() > 0.5 * self.cycles.len() as f64 { slopes < 0.0 } else { area < 0.0 }
+    }
 }
 
 impl Measured {
@@ -142,136 +202,206 @@ impl Measured {
         Ok(Self { file, t, has_time, u, force, is_turned: false, notes })
     }
 
-    /// Its cycles: of a period, s, from the first line on, or else from one reversal to the next of its kind, those that come back.
+    /// Evaluates it: finds its cycles, of a period from the first row on or from one reversal to the next of its kind, measures
+    /// each, and each stage with its intervals.
     ///
-    /// Forces that do work against the motion are those that resist it, and are turned round.
+    /// A force that resists the motion is turned round. Lag and drift of the stage of most cycles are taken out of all of it on request.
     ///
     /// # Errors
-    /// Times that do not ascend, a period without times, and no cycle at all.
-    pub fn cycles(&mut self, period: Option<f64>) -> Result<Vec<MeasuredCycle>, MeasuredError> {
+    /// Times that do not ascend, a period or a span of times without times, and no cycle at all.
+    pub fn evaluate(&mut self, how: &How) -> Result<Evaluated, MeasuredError> {
+        if (how.period.is_some() || how.from.is_some() || how.to.is_some()) && !self.has_time {
+            return Err(MeasuredError::NoTime(self.file.clone()));
+        }
+        self.keep(how.from, how.to)?;
+        let mut evaluated = self.round(how, &Correction::default())?;
+        let longest = evaluated.longest().and_then(|stage| stage.steady);
+        self.is_turned = evaluated.is_turned();
+        let correction = longest.map(|steady| Correction::of(&steady, how.correct)).unwrap_or_default();
+        if self.is_turned {
+            self.force.iter_mut().for_each(|force| *force = -*force);
+        }
+        if self.is_turned || correction != Correction::default() {
+            evaluated = self.round(how, &correction)?;
+        }
+        if let Some(rig) = how.rig {
+            evaluated = self.without_rig(how, evaluated, correction, rig)?;
+        }
+        evaluated.found = longest;
+        Ok(evaluated)
+    }
+
+    /// Evaluates it without the share of a rig in the displacement; `evaluated` is with it.
+    fn without_rig(
+        &self,
+        how: &How,
+        mut evaluated: Evaluated,
+        mut correction: Correction,
+        rig: Rig,
+    ) -> Result<Evaluated, MeasuredError> {
+        let unknown = || MeasuredError::Rig(self.file.clone());
+        let whole = evaluated.longest().cloned().ok_or_else(unknown)?;
+        let mut stiffness = Interval::default();
+        // Rig and contact together have other branches than the contact alone: what is left of the rig is found again without most of it.
+        for _ in 0..if matches!(rig, Rig::Contact(_)) { ROUNDS } else { 1 } {
+            let tangent = evaluated.longest().and_then(|stage| stage.result("stiffness_N_m"));
+            let compliance = rig.compliance(tangent.ok_or_else(unknown)?);
+            let before = if matches!(rig, Rig::Contact(_)) { correction.compliance } else { 0.0 };
+            let [value, low, high] =
+                [compliance.value, compliance.low, compliance.high].map(|own| before + own);
+            if value <= 0.0 {
+                return Err(unknown());
+            }
+            stiffness = Interval {
+                value: 1.0 / value,
+                low: 1.0 / high,
+                high: if low > 0.0 { 1.0 / low } else { f64::INFINITY },
+            };
+            correction.compliance = value;
+            evaluated = self.round(how, &correction)?;
+        }
+        evaluated.with_rig = Some((whole, stiffness));
+        Ok(evaluated)
+    }
+
+    /// Keeps the rows between two times.
+    fn keep(&mut self, from: Option<f64>, to: Option<f64>) -> Result<(), MeasuredError> {
+        let start = from.map_or(0, |from| self.t.partition_point(|t| *t < from));
+        let end = to.map_or(self.t.len(), |to| self.t.partition_point(|t| *t <= to));
+        if start >= end {
+            return Err(MeasuredError::Nothing(self.file.clone()));
+        }
+        for values in [&mut self.t, &mut self.u, &mut self.force] {
+            values.truncate(end);
+            values.drain(..start);
+        }
+        Ok(())
+    }
+
+    fn round(&self, how: &How, correction: &Correction) -> Result<Evaluated, MeasuredError> {
         let failed = |source| MeasuredError::Series { file: self.file.clone(), source };
+        let (u, force, spikes) = clean(&self.t, &self.u, &self.force, correction);
         let start = self.t.first().copied().unwrap_or(0.0);
-        let spans = match period {
-            Some(_) if !self.has_time => return Err(MeasuredError::NoTime(self.file.clone())),
+        let spans = match how.period {
             Some(period) => {
-                split_cycles(&self.t, &self.u, &self.force, Cut::Period { start, period }).map_err(failed)?
+                split_cycles(&self.t, &u, &force, Cut::Period { start, period }).map_err(failed)?
             }
             None => {
                 // What is no record is refused here.
                 let any = Cut::Reversals { least: f64::MIN_POSITIVE };
-                split_cycles(&self.t, &self.u, &self.force, any).map_err(failed)?;
-                self.with_changing(&returning_cycles(&self.t, &self.u, 0.0))
+                split_cycles(&self.t, &u, &force, any).map_err(failed)?;
+                joined(with_changing(&u, &returning_cycles(&self.t, &u, 0.0)))
             }
         };
+        let [first, last] = how.cycles.unwrap_or([1, usize::MAX]);
+        let chosen = spans.into_iter().zip(1..).filter(|(_, number)| (first..=last).contains(number));
+        let spans: Vec<Range<usize>> = chosen.map(|(span, _)| span).collect();
         if spans.is_empty() {
             return Err(MeasuredError::NoCycle(self.file.clone()));
         }
-        let all = self.measure(&spans).map_err(failed)?;
-        if all.iter().map(|cycle| cycle.cycle.dissipated).sum::<f64>() >= 0.0 {
-            return Ok(all);
-        }
-        self.is_turned = true;
-        self.force.iter_mut().for_each(|force| *force = -*force);
-        let failed = |source| MeasuredError::Series { file: self.file.clone(), source };
-        self.measure(&spans).map_err(failed)
+        let mut cycles = self.measure(&spans, &u, &force).map_err(failed)?;
+        let stages = stages(&mut cycles, (&self.t, &u, &force));
+        let account = Account::of(&cycles, (&self.u, &self.force));
+        let is_changed = matches!(u, Cow::Owned(_)) || matches!(force, Cow::Owned(_));
+        let rows = is_changed.then(|| [u.into_owned(), force.into_owned()]);
+        Ok(Evaluated { cycles, stages, account, spikes, rows, found: None, with_rig: None })
     }
 
-    /// What of the record lies in these cycles, which follow each other.
-    #[must_use]
-    pub fn account(&self, cycles: &[MeasuredCycle]) -> Account {
-        let mut outside = 0.0;
-        let mut next = 0;
-        for cycle in cycles {
-            outside += (next..cycle.span.start).map(|row| self.work_after(row)).sum::<f64>();
-            next = cycle.span.end - 1;
-        }
-        let rows = self.u.len();
-        outside += (next..rows.saturating_sub(1)).map(|row| self.work_after(row)).sum::<f64>();
-        let rows_in_cycles = cycles.iter().map(|cycle| cycle.span.len() - 1).sum();
-        let work_in_cycles = cycles.iter().map(|cycle| cycle.work).sum();
-        Account {
-            rows,
-            rows_in_cycles,
-            rows_outside: rows - rows_in_cycles,
-            work: (0..rows.saturating_sub(1)).map(|row| self.work_after(row)).sum(),
-            work_in_cycles,
-            work_outside: outside,
-        }
-    }
-
-    /// Work between a row and the next, J.
-    fn work_after(&self, row: usize) -> f64 {
-        0.5 * (self.force[row] + self.force[row + 1]) * (self.u[row + 1] - self.u[row])
-    }
-
-    fn measure(&self, spans: &[Range<usize>]) -> Result<Vec<MeasuredCycle>, SeriesError> {
+    fn measure(
+        &self,
+        spans: &[Range<usize>],
+        u: &[f64],
+        force: &[f64],
+    ) -> Result<Vec<MeasuredCycle>, SeriesError> {
         let one = |span: &Range<usize>| {
-            let cycle = of_loop(&self.u[span.clone()], &self.force[span.clone()])?;
-            let time = [self.t[span.start], self.t[span.end - 1]];
-            let (u, force) = (&self.u[span.clone()], &self.force[span.clone()]);
-            let opening_at_zero = Cycle::of_loop(u, force)?.half_opening;
-            let work = (span.start..span.end - 1).map(|row| self.work_after(row)).sum();
-            let is_open = !returns(u, 0.0, OPEN);
-            Ok(MeasuredCycle { span: span.clone(), time, cycle, opening_at_zero, work, stage: 0, is_open })
+            let is_open = !returns(&u[span.clone()], 0.0, OPEN);
+            // An open loop is closed by a chord, another along all of its way.
+            let closed = |values: &[f64]| if is_open { values.to_vec() } else { without_gap(values) };
+            let (u, force) = (closed(&u[span.clone()]), closed(&force[span.clone()]));
+            Ok(MeasuredCycle {
+                span: span.clone(),
+                time: [self.t[span.start], self.t[span.end - 1]],
+                cycle: of_loop(&u, &force)?,
+                opening_at_zero: Cycle::of_loop(&u, &force)?.half_opening,
+                stiffness: reversal_stiffness(&u, &force),
+                work: (span.start..span.end - 1).map(|row| work_after((&self.u, &self.force), row)).sum(),
+                stage: 0,
+                is_open,
+            })
         };
-        let mut cycles = spans.iter().map(one).collect::<Result<Vec<_>, _>>()?;
-        stages(&mut cycles);
-        Ok(cycles)
+        spans.iter().map(one).collect()
     }
+}
 
-    /// With those between reversals before, between and after them: of growing and of shrinking amplitudes, that do not come back.
-    fn with_changing(&self, cycles: &[Range<usize>]) -> Vec<Range<usize>> {
-        let (low, high) = extent(&self.u);
-        let least = (SURE * noise(&self.u)).max(LEAST * (high - low));
-        let (last, mut all, mut from) = (self.u.len().saturating_sub(1), Vec::new(), None);
-        for next in cycles.iter().map(Some).chain([None]) {
-            let (start, end) = (from.unwrap_or(0), next.map_or(last, |next| next.start));
-            let inner = reversals(&self.u[start..=end], least).into_iter().map(|place| start + place);
-            let mut places: Vec<usize> = inner.filter(|place| (start + 1..end).contains(place)).collect();
-            // What the record begins with is no reversal: it must have come there.
-            if let Some(&first) = places.first().filter(|_| from.is_none()) {
-                let (low, high) = extent(&self.u[start..=first]);
-                if high - low <= least {
-                    places.remove(0);
-                }
+/// Values without the gap between their ends, spread evenly over all rows.
+fn without_gap(values: &[f64]) -> Vec<f64> {
+    let gap = values.last().zip(values.first()).map_or(0.0, |(last, first)| last - first);
+    let rows = values.len().saturating_sub(1).max(1) as f64;
+    values.iter().enumerate().map(|(row, value)| value - gap * row as f64 / rows).collect()
+}
+
+/// With cycles between reversals before, between and after them: of growing and of shrinking amplitudes, that do not come back.
+fn with_changing(u: &[f64], cycles: &[Range<usize>]) -> Vec<Range<usize>> {
+    let (low, high) = extent(u);
+    let least = (SURE * noise(u)).max(LEAST * (high - low));
+    let (last, mut all, mut from) = (u.len().saturating_sub(1), Vec::new(), None);
+    for next in cycles.iter().map(Some).chain([None]) {
+        let (start, end) = (from.unwrap_or(0), next.map_or(last, |next| next.start));
+        let inner = reversals(&u[start..=end], least).into_iter().map(|place| start + place);
+        let mut places: Vec<usize> = inner.filter(|place| (start + 1..end).contains(place)).collect();
+        // What the record begins with is no reversal: it must have come there.
+        if let Some(&first) = places.first().filter(|_| from.is_none()) {
+            let (low, high) = extent(&u[start..=first]);
+            if high - low <= least {
+                places.remove(0);
             }
-            places.splice(0..0, from);
-            places.extend(next.map(|next| next.start));
-            // Of the kind of the ends, which are reversals themselves; else of that of the first.
-            let mut kind: Vec<usize> = match (from, next) {
-                (None, Some(_)) => places.into_iter().rev().step_by(2).collect(),
-                _ => places.into_iter().step_by(2).collect(),
-            };
-            kind.sort_unstable();
-            all.extend(kind.windows(2).filter(|ends| ends[0] < ends[1]).map(|ends| ends[0]..ends[1] + 1));
-            all.extend(next.cloned());
-            from = next.map(|next| next.end - 1);
         }
-        all
+        places.splice(0..0, from);
+        places.extend(next.map(|next| next.start));
+        // Of the kind of the ends, which are reversals themselves; else of that of the first.
+        let mut kind: Vec<usize> = match (from, next) {
+            (None, Some(_)) => places.into_iter().rev().step_by(2).collect(),
+            _ => places.into_iter().step_by(2).collect(),
+        };
+        kind.sort_unstable();
+        all.extend(kind.windows(2).filter(|ends| ends[0] < ends[1]).map(|ends| ends[0]..ends[1] + 1));
+        all.extend(next.cloned());
+        from = next.map(|next| next.end - 1);
     }
+    all
 }
 
-/// Numbers the stages of cycles.
-fn stages(cycles: &mut [MeasuredCycle]) {
-    let differs = |a: f64, b: f64, share: f64| (a - b).abs() > share * b.abs();
-    let (mut stage, mut first, mut end) = (0, None, None);
-    for cycle in cycles {
-        let amplitude = cycle.cycle.displacement_amplitude;
-        let (time, is_open) = (cycle.time[1] - cycle.time[0], cycle.is_open);
-        let goes_on = first.is_some_and(|(a, t, open)| {
-            !differs(amplitude, a, STAGE[0]) && !differs(time, t, STAGE[1]) && open == is_open
-        });
-        if !goes_on || end != Some(cycle.span.start) {
-            (stage, first) = (stage + 1, Some((amplitude, time, is_open)));
+/// Cycles whose ends noise has moved apart by less than a fifth of a cycle follow each other.
+fn joined(mut cycles: Vec<Range<usize>>) -> Vec<Range<usize>> {
+    for k in 1..cycles.len() {
+        let (end, next) = (cycles[k - 1].end - 1, cycles[k].clone());
+        if next.start > end && (next.start - end) as f64 <= NEAR * next.len() as f64 {
+            cycles[k].start = end;
         }
-        (cycle.stage, end) = (stage, Some(cycle.span.end - 1));
     }
+    cycles
 }
 
-/// The last cycle of contact `c` of a run, measured in the same way: its displacements, forces and quantities; none where none comes back.
+/// The last cycle of contact `c` of a run, measured in the same way: its displacements, or those of a channel such as `rig.x`, its forces and quantities; none
+/// where none comes back, or there is no such channel.
 #[must_use]
-pub fn simulated(job: &Job, c: usize, kept: &Kept) -> Option<(Vec<f64>, Vec<f64>, Cycle)> {
-    let trail = contact_path(job, c, &kept.series);
+pub fn simulated(
+    job: &Job,
+    c: usize,
+    kept: &Kept,
+    channel: Option<&str>,
+) -> Option<(Vec<f64>, Vec<f64>, Cycle)> {
+    let trail = match channel {
+        None => contact_path(job, c, &kept.series),
+        Some(channel) => {
+            let (name, _) = job.model.contacts().nth(c)?;
+            let (part, quantity) = channel.rsplit_once('.')?;
+            let columns = [quantity.to_owned(), format!("{quantity}_m")];
+            let x = columns.iter().map(|own| kept.series.column(part, own)).find(|own| !own.is_empty())?;
+            let [t, y] = [kept.series.time(), kept.series.column(name, "fx_N")].map(<[f64]>::to_vec);
+            Trail { t, x: x.to_vec(), y }
+        }
+    };
     let last = match Periods::of_contact(job, c, kept.end()) {
         Some(periods) => trail.part(periods.last()),
         None => {
@@ -287,7 +417,7 @@ pub fn simulated(job: &Job, c: usize, kept: &Kept) -> Option<(Vec<f64>, Vec<f64>
 #[must_use]
 pub fn table(cycles: &[MeasuredCycle], normal: Option<f64>) -> String {
     let mut text = HEAD.join(",") + "\n";
-    for (number, MeasuredCycle { time, cycle, opening_at_zero, work, stage, is_open, .. }) in
+    for (number, MeasuredCycle { time, cycle, opening_at_zero, stiffness, work, stage, is_open, .. }) in
         (1..).zip(cycles)
     {
         let values = [
@@ -304,6 +434,7 @@ pub fn table(cycles: &[MeasuredCycle], normal: Option<f64>) -> String {
             cycle.stiffness_after_maximum,
             cycle.stiffness_after_minimum,
             *opening_at_zero,
+            *stiffness,
             Some(*work),
         ];
         let cells = values.map(|value| value.map_or_else(String::new, |value| format!("{value:e}")));

@@ -1,6 +1,6 @@
 //! `stickslip measure`: measured loops, and a simulated one beside them.
 
-use crate::arguments::MeasureArguments;
+use crate::arguments::{MeasureArguments, RigStiffness};
 use serde_json::json;
 use std::io;
 use std::path::{Path, PathBuf};
@@ -9,16 +9,19 @@ use stickslip_console::table;
 use stickslip_console::verdict::Verdict;
 use stickslip_figures::FigureError;
 use stickslip_figures::measured::{self as picture, Curve, Loops};
-use stickslip_measure::Cycle;
+use stickslip_measure::{Cycle, Interval, reversal_stiffness};
 use stickslip_run::complaint::words;
 use stickslip_run::folder::{Folder, sweep};
-use stickslip_run::measured::{Account, Measured, MeasuredCycle, MeasuredError, simulated, table};
+use stickslip_run::measured::{
+    Account, Evaluated, MISFIT, Measured, MeasuredCycle, MeasuredError, Stage, middle, simulated, table,
+};
+use stickslip_run::synopsis::Synopsis;
 use stickslip_run::{Real, Results, ResultsError, quantity};
 use stickslip_scenario::PlotName;
 use thiserror::Error;
 
-/// A deviation below this share of the mean is rounding.
-const ROUNDING: f64 = 1e-12;
+/// A drift per cycle below this share of the amplitude, and a lag below this share of the period, are not told.
+const LITTLE: f64 = 1e-4;
 /// Most stages that are printed.
 const MOST_STAGES: usize = 12;
 /// Most rows of cycles before the last that are drawn.
@@ -38,6 +41,11 @@ enum LoopFailure {
     /// Its contact.
     #[error("--contact  {folder}: {words}")]
     Contact { folder: String, words: String },
+    /// A rig that nothing stands beside.
+    #[error(
+        "--rig-stiffness fit  expected --beside with a simulated contact whose last cycle is known: the rig is what softens the measured loop beside it"
+    )]
+    Rig,
     /// The picture.
     #[error(transparent)]
     Figure(#[from] FigureError),
@@ -52,6 +60,10 @@ struct Simulated {
     u: Vec<f64>,
     force: Vec<f64>,
     cycle: Cycle,
+    /// What the run itself has of the cycle, by the names of results.
+    exact: Vec<(&'static str, f64)>,
+    /// Tangent at the reversals, N/m.
+    tangent: Option<f64>,
     /// u_c (m) and μF_N (N), and F_N (N) where the load is constant.
     scale: Option<[f64; 2]>,
     normal: Option<f64>,
@@ -71,82 +83,148 @@ pub(crate) fn measure(arguments: &MeasureArguments) -> Verdict {
 fn answer(arguments: &MeasureArguments) -> Result<(), LoopFailure> {
     let mut measured =
         Measured::read(&arguments.file, &arguments.reading.recipe().map_err(MeasuredError::from)?)?;
-    let cycles = measured.cycles(arguments.period)?;
-    let beside = arguments.beside.as_deref().map(|folder| find(folder, arguments.contact.as_deref()));
-    let beside = beside.transpose()?;
+    let beside = arguments.beside.as_deref().map(|folder| find(folder, arguments)).transpose()?;
+    if arguments.rig_stiffness == Some(RigStiffness::Fit)
+        && beside.as_ref().is_none_or(|beside| beside.tangent.is_none())
+    {
+        return Err(LoopFailure::Rig);
+    }
+    let evaluated = measured.evaluate(&arguments.how(beside.as_ref().and_then(|beside| beside.tangent)))?;
     let normal = arguments.normal_force.or_else(|| beside.as_ref()?.normal);
-    for note in measured.notes.iter().filter(|_| !arguments.quiet) {
+    let notes = notes(&measured, &evaluated);
+    for note in notes.iter().filter(|_| !arguments.quiet) {
         complain(format_args!("{}: note: {note}", arguments.file.display()));
     }
-    if measured.is_turned {
-        complain(format_args!(
-            "{}: note: the force resists the motion; its sign is turned",
-            arguments.file.display()
-        ));
-    }
-    let stages: Vec<&[MeasuredCycle]> = cycles.chunk_by(|a, b| a.stage == b.stage).collect();
-    // The stage of most cycles, the last of equal ones.
-    let longest = stages.iter().max_by_key(|stage| stage.len()).copied().unwrap_or_default();
     if !arguments.quiet && !arguments.json {
-        tell((longest, cycles.len()), beside.as_ref(), normal);
+        tell(&evaluated, beside.as_ref(), normal);
     }
     let stem = arguments.file.file_stem().unwrap_or_default().to_string_lossy();
     let out = arguments.out.clone().unwrap_or_else(|| Path::new("results").join(format!("{stem}-loop")));
-    let pictures = draw(&stem, (&measured, &cycles), beside.as_ref(), arguments)?;
-    let names = write(&out, &table(&cycles, normal), &pictures)
+    let pictures = draw(&stem, (&measured, &evaluated), beside.as_ref(), arguments)?;
+    let names = write(&out, &table(&evaluated.cycles, normal), &pictures)
         .map_err(|source| LoopFailure::Write { folder: out.clone(), source })?;
-    let account = measured.account(&cycles);
     if arguments.json {
-        let told = json!({
-            "file": measured.file,
-            "cycles": cycles.len(),
-            "is_turned": measured.is_turned,
-            "record": account,
-            "stages": stages.iter().map(|stage| of_stage(stage)).collect::<Vec<_>>(),
-            "notes": measured.notes,
-            "files": names,
-        });
-        say_json(&told.to_string());
+        say_json(&for_machines(&measured, &evaluated, &notes, &names).to_string());
     } else if !arguments.quiet {
-        tell_stages(&stages);
-        tell_account(&account);
+        tell_stages(&evaluated.stages);
+        tell_account(&evaluated.account);
         say(format_args!("\n{}: {}", out.display(), names.join(", ")));
     }
     Ok(())
 }
 
+/// All that is told, for machines.
+fn for_machines(
+    measured: &Measured,
+    evaluated: &Evaluated,
+    notes: &[String],
+    files: &[String],
+) -> serde_json::Value {
+    let of_stage = |stage: &Stage| {
+        let [from, to] = stage.time;
+        json!({ "cycles": stage.cycles.len(), "from_s": from, "to_s": to, "results": stage.results() })
+    };
+    let found = evaluated.found.map(|found| {
+        json!({
+            "period_s": found.period,
+            "lag_s": found.lag,
+            "displacement_drift_m_s": found.displacement_drift,
+            "force_drift_N_s": found.force_drift,
+            "misfit": found.misfit,
+        })
+    });
+    json!({
+        "file": measured.file,
+        "cycles": evaluated.cycles.len(),
+        "is_turned": measured.is_turned,
+        "results": evaluated.longest().map(Stage::results),
+        "with_rig": evaluated.with_rig.as_ref().map(|(whole, rig)| {
+            json!({ "rig_stiffness_N_m": rig, "results": whole.results() })
+        }),
+        "signals": found,
+        "record": evaluated.account,
+        "stages": evaluated.stages.iter().map(of_stage).collect::<Vec<_>>(),
+        "notes": notes,
+        "files": files,
+    })
+}
+
+/// What was done that nobody has asked for, and what should be known of the signals.
+fn notes(measured: &Measured, evaluated: &Evaluated) -> Vec<String> {
+    let mut notes = measured.notes.clone();
+    if measured.is_turned {
+        notes.push("the force resists the motion; its sign is turned".to_owned());
+    }
+    let [of_u, of_force] = evaluated.spikes;
+    if of_u + of_force > 0 {
+        notes.push(format!("spikes left out: {of_u} of the displacement, {of_force} of the force"));
+    }
+    let Some(found) = evaluated.found else {
+        let lost =
+            "the cycles have no common period: the intervals are those of the scatter of cycles, without lag";
+        notes.push(lost.to_owned());
+        return notes;
+    };
+    let time = if measured.has_time { "s" } else { "" };
+    let is_there = |interval: &Interval| interval.low > 0.0 || interval.high < 0.0;
+    let shown = |interval: &Interval, unit: &str| {
+        let [value, half] = [interval.value, interval.half_width()].map(|value| quantity(Real(value), unit));
+        format!("{value} \u{b1} {half}")
+    };
+    let drifts = [
+        ("displacement", &found.displacement_drift, "m", found.displacement_amplitude),
+        ("force", &found.force_drift, "N", found.force_amplitude),
+    ];
+    for (name, drift, unit, amplitude) in drifts {
+        let [value, half] = [drift.value, drift.half_width()].map(|rate| rate * found.period);
+        let own = Interval { value, low: value - half, high: value + half };
+        if is_there(drift) && value.abs() > LITTLE * amplitude.value {
+            notes.push(format!("drift of the {name}: {} per cycle (--correct drift)", shown(&own, unit)));
+        }
+    }
+    if found.misfit >= MISFIT {
+        let share = 100.0 * found.misfit;
+        notes.push(format!(
+            "the branches are not those of an elastic contact at constant load ({share:.1} % of Q* are left): the intervals are those of the scatter of cycles, without lag"
+        ));
+        return notes;
+    }
+    if is_there(&found.lag) && found.lag.value.abs() > LITTLE * found.period {
+        let lag = if measured.has_time {
+            shown(&found.lag, time)
+        } else {
+            format!("{:.2} \u{b1} {:.2} rows", found.lag.value, found.lag.half_width())
+        };
+        let shares = 100.0 * found.lag.value / found.period;
+        notes.push(format!("the force is {lag} late, {shares:.2} % of a period (--correct lag)"));
+    }
+    if !found.is_sense_sure {
+        notes.push("the rows do not tell whether the force drives or resists the motion".to_owned());
+    }
+    if found.dissipated.low <= 0.0 {
+        notes.push("undecided: whether the loop dissipates anything".to_owned());
+    }
+    notes
+}
+
 /// Stages by their cycles, where there are several.
-fn tell_stages(stages: &[&[MeasuredCycle]]) {
+fn tell_stages(stages: &[Stage]) {
     if stages.len() < 2 {
         return;
     }
-    for stage in stages.iter().take(MOST_STAGES) {
-        let Some((first, last)) = stage.first().zip(stage.last()) else { continue };
-        let amplitude =
-            stage.iter().map(|cycle| cycle.cycle.displacement_amplitude).sum::<f64>() / stage.len() as f64;
-        let lost = stage.iter().map(|cycle| cycle.cycle.dissipated).sum::<f64>() / stage.len() as f64;
-        let open = stage.iter().filter(|cycle| cycle.is_open).count();
-        let open = if open > 0 { format!(", {open} open") } else { String::new() };
+    for (stage, number) in stages.iter().zip(1..).take(MOST_STAGES) {
+        let [from, to] = stage.time.map(|time| quantity(Real(time), "s"));
+        let shown = |name, unit| shown(stage.result(name).map(|interval| interval.value), unit);
         say(format_args!(
-            "stage {}: cycles {}, from {} to {}, \u{3b4}* {}, E_d {}{open}",
-            first.stage,
-            stage.len(),
-            quantity(Real(first.time[0]), "s"),
-            quantity(Real(last.time[1]), "s"),
-            quantity(Real(amplitude), "m"),
-            quantity(Real(lost), "J")
+            "stage {number}: cycles {}, from {from} to {to}, \u{3b4}* {}, E_d {}",
+            stage.cycles.len(),
+            shown("displacement_amplitude_m", "m"),
+            shown("dissipated_J", "J")
         ));
     }
     if stages.len() > MOST_STAGES {
         say(format_args!("{} more stages: cycles.csv has all of them", stages.len() - MOST_STAGES));
     }
-}
-
-/// A stage for machines.
-fn of_stage(stage: &[MeasuredCycle]) -> serde_json::Value {
-    let from = stage.first().map(|cycle| cycle.time[0]);
-    let to = stage.last().map(|cycle| cycle.time[1]);
-    json!({ "cycles": stage.len(), "from_s": from, "to_s": to })
 }
 
 /// What lies in the cycles, and what outside.
@@ -157,81 +235,130 @@ fn tell_account(account: &Account) {
     say(format_args!("work of the force: {within} in cycles, {outside} outside, {all} in all"));
 }
 
+/// Names of results, and of what the summary of a run has of a contact's last cycle.
+const EXACT: [(&str, &str); 9] = [
+    ("displacement_amplitude_m", "displacement_amplitude_m"),
+    ("force_amplitude_N", "force_amplitude_N"),
+    ("dissipated_J", "dissipated_J"),
+    ("half_opening_m", "half_opening_m"),
+    ("half_opening_at_zero_force_m", "half_opening_m"),
+    ("energy_ratio", "energy_ratio"),
+    ("system_free_ratio", "system_free_ratio"),
+    ("slip_ratio", "slip_ratio"),
+    ("stiffness_N_m", "stiffness_after_maximum_N_m"),
+];
+/// Those that are the same whichever displacement is taken.
+const OF_FORCE: [&str; 2] = ["force_amplitude_N", "dissipated_J"];
+
 /// The contact of results that stands beside.
-fn find(folder: &Path, name: Option<&str>) -> Result<Simulated, LoopFailure> {
+fn find(folder: &Path, arguments: &MeasureArguments) -> Result<Simulated, LoopFailure> {
     let Results { job, kept, .. } = Results::read(folder, &[PlotName::Loop])?;
     let failed = |words: String| LoopFailure::Contact { folder: folder.display().to_string(), words };
     let names: Vec<String> = job.model.contacts().map(|(name, _)| name.to_owned()).collect();
-    let place = match name {
+    let place = match &arguments.contact {
         Some(name) => names.iter().position(|own| own == name),
         None => Some(0).filter(|_| names.len() == 1),
     };
     let known = || failed(format!("expected the name of one of its contacts: {}", names.join(", ")));
     let place = place.ok_or_else(known)?;
-    let loop_of = simulated(&job, place, &kept);
-    let (u, force, cycle) =
-        loop_of.ok_or_else(|| failed(format!("contact {} has no cycle that comes back", names[place])))?;
+    let channel = arguments.beside_displacement.as_deref();
+    let loop_of = simulated(&job, place, &kept, channel);
+    let (u, force, cycle) = loop_of.ok_or_else(|| {
+        let channel = channel.map_or_else(String::new, |channel| format!(" along {channel}"));
+        failed(format!("contact {} has no cycle{channel} that comes back", names[place]))
+    })?;
     let count = f64::from(job.count(place));
     let friction = job.model.contacts().nth(place).map_or(0.0, |(_, law)| law.friction());
     let scale = job.model.contact_scale(place).filter(|_| job.has_constant_load(place));
     let normal = scale.map(|(_, normal)| count * normal);
     let scale = scale.map(|(u_c, normal)| [u_c, count * friction * normal]);
-    Ok(Simulated { name: names[place].clone(), u, force, cycle, scale, normal })
-}
-
-/// What is told of a cycle.
-fn rows(cycle: &Cycle, normal: Option<f64>) -> [(&'static str, &'static str, Option<f64>); 10] {
-    [
-        ("displacement amplitude \u{3b4}*", "m", Some(cycle.displacement_amplitude)),
-        ("force amplitude Q*", "N", Some(cycle.force_amplitude)),
-        ("lost per cycle E_d", "J", Some(cycle.dissipated)),
-        ("half opening \u{3b4}\u{2080}", "m", cycle.half_opening),
-        ("A = E_d/(4Q*\u{3b4}*)", "", cycle.energy_ratio()),
-        ("B = E_d/(4Q*\u{3b4}\u{2080})", "", cycle.system_free_ratio()),
-        ("D = \u{3b4}\u{2080}/\u{3b4}*", "", cycle.slip_ratio()),
-        (
-            "\u{3bc}_e = E_d/(4P\u{3b4}\u{2080})",
-            "",
-            normal.and_then(|normal| cycle.friction_coefficient(normal)),
-        ),
-        ("stiffness, first tenth after maximum", "N/m", cycle.stiffness_after_maximum),
-        ("stiffness, first tenth after minimum", "N/m", cycle.stiffness_after_minimum),
-    ]
-}
-
-/// A table on the terminal: means over the cycles, how far they scatter, and what was simulated.
-fn tell((cycles, all): (&[MeasuredCycle], usize), beside: Option<&Simulated>, normal: Option<f64>) {
-    let count = match cycles.len() {
-        count if count == all => format!("measured, {count} cycles"),
-        count => format!("measured, {count} of {all} cycles"),
+    let synopsis = Synopsis::read(folder).map_err(ResultsError::from)?;
+    let place_of = |key: &str| {
+        format!("/contacts/{}/fretting/{key}", names[place].replace('~', "~0").replace('/', "~1"))
     };
+    // Of a loop about another force than zero, the opening at the middle is another.
+    let is_centred = middle(&force).abs() < 1e-6 * cycle.force_amplitude;
+    let known = EXACT.into_iter().filter(|(name, _)| {
+        (channel.is_none() || OF_FORCE.contains(name)) && (is_centred || *name != "half_opening_m")
+    });
+    let exact = known.filter_map(|(name, key)| Some((name, synopsis.number(&place_of(key))?))).collect();
+    let tangent = synopsis.number(&place_of("stiffness_after_maximum_N_m"));
+    Ok(Simulated { name: names[place].clone(), u, force, cycle, exact, tangent, scale, normal })
+}
+
+/// What is told: what stands before it, the name among the results, the unit.
+const ROWS: [(&str, &str, &str); 10] = [
+    ("displacement amplitude \u{3b4}*", "displacement_amplitude_m", "m"),
+    ("force amplitude Q*", "force_amplitude_N", "N"),
+    ("dissipated energy E_d", "dissipated_J", "J"),
+    ("half opening \u{3b4}\u{2080}, middle of forces", "half_opening_m", "m"),
+    ("half opening at zero force", "half_opening_at_zero_force_m", "m"),
+    ("A = E_d/(4Q*\u{3b4}*)", "energy_ratio", ""),
+    ("B = E_d/(4Q*\u{3b4}\u{2080})", "system_free_ratio", ""),
+    ("D = \u{3b4}\u{2080}/\u{3b4}*", "slip_ratio", ""),
+    ("\u{3bc}_e = E_d/(4P\u{3b4}\u{2080})", "friction_force_N", ""),
+    ("stiffness at the reversal", "stiffness_N_m", "N/m"),
+];
+
+/// A table on the terminal: the figures of the stage of most cycles with half of their intervals, with the rig in them and without it, and what was simulated.
+fn tell(evaluated: &Evaluated, beside: Option<&Simulated>, normal: Option<f64>) {
+    let Some(stage) = evaluated.longest() else { return };
+    let count = match stage.cycles.len() {
+        count if count == evaluated.cycles.len() => format!("measured, {count} cycles"),
+        count => format!("measured, {count} of {} cycles", evaluated.cycles.len()),
+    };
+    let mut columns = vec![(count, stage)];
+    if let Some((whole, rig)) = &evaluated.with_rig {
+        columns[0].0 = format!("without the rig of {}", quantity(Real(rig.value), "N/m"));
+        columns.insert(
+            0,
+            (format!("{}, as it is", columns[0].0.replace("without the rig of", "rig of")), whole),
+        );
+    }
     let simulated = beside.map(|beside| format!("simulated, {}", beside.name));
-    let heads = ["", count.as_str(), "\u{b1}"].into_iter().chain(simulated.as_deref());
-    let mut page = table::plain(heads);
-    let all: Vec<_> = cycles.iter().map(|cycle| rows(&cycle.cycle, normal)).collect();
-    let other = beside.map(|beside| rows(&beside.cycle, normal));
-    for (k, (name, unit, _)) in all.first().into_iter().flatten().enumerate() {
-        let values: Vec<f64> = all.iter().filter_map(|row| row[k].2).collect();
-        let beside = other.as_ref().map(|rows| rows[k].2);
-        if values.is_empty() && beside.flatten().is_none() {
+    let heads = columns.iter().flat_map(|(head, _)| [head.as_str(), "\u{b1}, 95 %"]);
+    let mut page = table::plain([""].into_iter().chain(heads).chain(simulated.as_deref()));
+    for (words, name, unit) in ROWS {
+        let scale = match (name, normal) {
+            ("friction_force_N", None) => continue,
+            ("friction_force_N", Some(normal)) => 1.0 / normal,
+            _ => 1.0,
+        };
+        let beside = beside.map(|beside| beside.result(name));
+        let measured: Vec<Option<Interval>> = columns.iter().map(|(_, stage)| stage.result(name)).collect();
+        if measured.iter().all(Option::is_none) && beside.flatten().is_none() {
             continue;
         }
-        let (mean, scatter) = spread(&values);
-        let cells = [(*name).to_owned(), shown(mean, unit), shown(scatter, unit)];
-        page.add_row(cells.into_iter().chain(beside.map(|value| shown(value, unit))));
+        let cells = measured.iter().flat_map(|interval| {
+            let half = interval.map(|interval| scale * interval.half_width()).filter(|half| half.is_finite());
+            [shown(interval.map(|interval| scale * interval.value), unit), shown(half, unit)]
+        });
+        let simulated = beside.map(|value| shown(value.map(|own| scale * own), unit));
+        page.add_row([words.to_owned()].into_iter().chain(cells).chain(simulated));
     }
-    table::to_the_right(&mut page, 1..=if beside.is_some() { 3 } else { 2 });
+    table::to_the_right(&mut page, 1..=2 * columns.len() + usize::from(beside.is_some()));
     say(format_args!("{page}"));
 }
 
-/// Mean and standard deviation; none of nothing, and of one value no deviation.
-fn spread(values: &[f64]) -> (Option<f64>, Option<f64>) {
-    let count = values.len() as f64;
-    let mean = values.iter().sum::<f64>() / count;
-    let squares = values.iter().map(|value| (value - mean).powi(2)).sum::<f64>();
-    let deviation = (squares / (count - 1.0)).sqrt();
-    let deviation = if deviation > ROUNDING * mean.abs() { deviation } else { 0.0 };
-    (Some(mean).filter(|_| count > 0.0), Some(deviation).filter(|_| count > 1.0))
+impl Simulated {
+    /// A figure by its name.
+    fn result(&self, name: &str) -> Option<f64> {
+        if let Some((_, value)) = self.exact.iter().find(|(own, _)| *own == name) {
+            return Some(*value);
+        }
+        match name {
+            "displacement_amplitude_m" => Some(self.cycle.displacement_amplitude),
+            "force_amplitude_N" => Some(self.cycle.force_amplitude),
+            "dissipated_J" => Some(self.cycle.dissipated),
+            "half_opening_m" => self.cycle.half_opening,
+            "energy_ratio" => self.cycle.energy_ratio(),
+            "system_free_ratio" => self.cycle.system_free_ratio(),
+            "slip_ratio" => self.cycle.slip_ratio(),
+            "friction_force_N" => self.cycle.friction_coefficient(1.0),
+            "stiffness_N_m" => reversal_stiffness(&self.u, &self.force),
+            _ => None,
+        }
+    }
 }
 
 fn shown(value: Option<f64>, unit: &str) -> String {
@@ -244,19 +371,17 @@ fn shown(value: Option<f64>, unit: &str) -> String {
 
 fn draw(
     title: &str,
-    (measured, cycles): (&Measured, &[MeasuredCycle]),
+    (measured, evaluated): (&Measured, &Evaluated),
     beside: Option<&Simulated>,
     arguments: &MeasureArguments,
 ) -> Result<Vec<(String, Vec<u8>)>, FigureError> {
+    let cycles = &evaluated.cycles;
     let Some(last) = cycles.last() else { return Ok(Vec::new()) };
+    let [u, force] = evaluated.rows.as_ref().map_or([&measured.u, &measured.force], |[u, force]| [u, force]);
     // Of a long record the last cycles are drawn, and nobody could tell more of them apart.
     let is_drawn = |cycle: &&MeasuredCycle| last.span.start - cycle.span.start <= MOST_DRAWN;
     let first = cycles.iter().find(is_drawn).unwrap_or(last);
-    let curve = |name, from: usize, to: usize| Curve {
-        name,
-        u: &measured.u[from..to],
-        force: &measured.force[from..to],
-    };
+    let curve = |name, from: usize, to: usize| Curve { name, u: &u[from..to], force: &force[from..to] };
     let simulated = beside.map(|beside| format!("simulated, {}", beside.name));
     let name = simulated.as_deref().unwrap_or_default();
     let simulated = beside.map(|beside| (Curve { name, u: &beside.u, force: &beside.force }, beside.scale));
@@ -285,7 +410,7 @@ impl LoopFailure {
     fn verdict(&self) -> Verdict {
         match self {
             Self::Write { .. } | Self::Figure(_) => Verdict::Stopped,
-            Self::Measured(_) | Self::Results(_) | Self::Contact { .. } => Verdict::BadInput,
+            Self::Measured(_) | Self::Results(_) | Self::Contact { .. } | Self::Rig => Verdict::BadInput,
         }
     }
 }
