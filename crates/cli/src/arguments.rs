@@ -3,6 +3,7 @@
 pub(crate) mod compare;
 pub(crate) mod contact;
 pub(crate) mod curve;
+pub(crate) mod fit;
 pub(crate) mod golden;
 pub(crate) mod import;
 pub(crate) mod look;
@@ -27,6 +28,7 @@ use std::path::PathBuf;
 pub(crate) use compare::CompareArguments;
 pub(crate) use contact::ContactArguments;
 pub(crate) use curve::CurveArguments;
+pub(crate) use fit::FitArguments;
 pub(crate) use import::ImportArguments;
 pub(crate) use map::MapArguments;
 pub(crate) use measure::{MeasureArguments, RigStiffness};
@@ -126,6 +128,9 @@ pub(crate) enum Command {
     /// Evaluate measured hysteresis loops from a table; compare them with a simulation
     #[command(long_about = measure::ABOUT, after_long_help = measure::EXAMPLES)]
     Measure(MeasureArguments),
+    /// Fit parameters of a scenario to a measured loop or trajectory: values, intervals, correlations
+    #[command(long_about = fit::ABOUT, after_long_help = fit::EXAMPLES)]
+    Fit(FitArguments),
     /// Run a drive in real time with inputs and outputs over UDP or shared memory
     #[command(long_about = realtime::ABOUT, after_long_help = realtime::EXAMPLES)]
     Realtime(Box<RealtimeArguments>),

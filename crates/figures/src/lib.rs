@@ -11,6 +11,7 @@
 pub mod branch;
 pub mod comparison;
 pub mod curve;
+pub mod fit;
 pub mod gallery;
 pub mod look;
 pub mod map;

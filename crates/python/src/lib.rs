@@ -41,6 +41,7 @@ fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add("STATES", run::states())?;
     module.add_function(wrap_pyfunction!(scenario::run_many, module)?)?;
     module.add_function(wrap_pyfunction!(tables::measure, module)?)?;
+    module.add_function(wrap_pyfunction!(tables::fit, module)?)?;
     module.add_function(wrap_pyfunction!(tables::compare, module)?)?;
     module.add_function(wrap_pyfunction!(quantity, module)?)?;
     module.add_function(wrap_pyfunction!(schema, module)?)

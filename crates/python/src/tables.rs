@@ -1,35 +1,36 @@
 //! Measured loops and comparisons of results.
 
 use crate::RunError;
+use crate::scenario::{Scenario, cores};
 use numpy::PyReadonlyArray1;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use std::path::Path;
 use stickslip_compare::{Comparison, Results, Terms};
 use stickslip_record::{Named, Recipe};
-use stickslip_run::measured::{How, Measured, table};
+use stickslip_run::measured::{Correct, How, Measured, Rig, table};
+use stickslip_study::fit::{Asked, fit as search};
 
-/// The cycles of a measured record, from a file or from arrays, as a CSV table; and whether the force was turned round.
-#[pyfunction]
-#[pyo3(signature = (file, names, arrays, period, normal_force, recipe))]
-#[allow(clippy::type_complexity, reason = "one for each keyword of Python's function")]
-pub(crate) fn measure(
-    py: Python<'_>,
+/// Names of the columns of a file: times, displacements, forces; arrays of the same.
+type Names = (Option<String>, Option<String>, Option<String>);
+type Arrays<'py> =
+    (Option<PyReadonlyArray1<'py, f64>>, PyReadonlyArray1<'py, f64>, PyReadonlyArray1<'py, f64>);
+
+/// A measured record, from a file or from arrays.
+fn measured(
     file: Option<&str>,
-    names: (Option<String>, Option<String>, Option<String>),
-    arrays: Option<(Option<PyReadonlyArray1<'_, f64>>, PyReadonlyArray1<'_, f64>, PyReadonlyArray1<'_, f64>)>,
-    period: Option<f64>,
-    normal_force: Option<f64>,
+    names: Names,
+    arrays: Option<Arrays<'_>>,
     recipe: Option<&str>,
-) -> PyResult<(String, bool)> {
+) -> PyResult<Measured> {
     let invalid = |error: &dyn ToString| PyValueError::new_err(error.to_string());
-    let mut measured = match (file, arrays) {
+    match (file, arrays) {
         (Some(file), _) => {
             let (time, displacement, force) = names;
             let named = Named { time, displacement, force, normal: None };
             let recipe = recipe.map(|text| Recipe::from_text(text, "recipe")).transpose();
             let recipe = recipe.map_err(|error| invalid(&error))?.unwrap_or_default().with(&named);
-            Measured::read(Path::new(file), &recipe).map_err(|error| invalid(&error))?
+            Measured::read(Path::new(file), &recipe).map_err(|error| invalid(&error))
         }
         (None, Some((t, u, force))) => {
             let list = |array: &PyReadonlyArray1<'_, f64>| array.as_array().to_vec();
@@ -45,14 +46,67 @@ pub(crate) fn measure(
                 );
                 return Err(PyValueError::new_err(message));
             }
-            Measured { file: "arrays".to_owned(), t, has_time, u, force, is_turned: false, notes: Vec::new() }
+            Ok(Measured {
+                file: "arrays".to_owned(),
+                t,
+                has_time,
+                u,
+                force,
+                is_turned: false,
+                notes: Vec::new(),
+            })
         }
-        (None, None) => return Err(PyValueError::new_err("expected a file, or displacements and forces")),
-    };
+        (None, None) => Err(PyValueError::new_err("expected a file, or displacements and forces")),
+    }
+}
+
+/// The cycles of a measured record as a CSV table, and its figures with their intervals as JSON.
+#[pyfunction]
+#[allow(clippy::too_many_arguments, reason = "one for each keyword of Python's function")]
+pub(crate) fn measure(
+    py: Python<'_>,
+    file: Option<&str>,
+    names: Names,
+    arrays: Option<Arrays<'_>>,
+    recipe: Option<&str>,
+    period: Option<f64>,
+    normal_force: Option<f64>,
+    correct: (bool, bool),
+    rig_stiffness: Option<f64>,
+) -> PyResult<(String, String)> {
+    let mut measured = measured(file, names, arrays, recipe)?;
     py.detach(|| {
-        let how = How { period, ..How::default() };
-        let evaluated = measured.evaluate(&how).map_err(|error| invalid(&error))?;
-        Ok((table(&evaluated.cycles, normal_force), measured.is_turned))
+        let (lag, drift) = correct;
+        let rig = rig_stiffness.map(Rig::Stiffness);
+        let how = How { period, correct: Correct { lag, drift }, rig, ..How::default() };
+        let evaluated = measured.evaluate(&how).map_err(|error| PyValueError::new_err(error.to_string()))?;
+        Ok((table(&evaluated.cycles, normal_force), evaluated.json(&measured).to_string()))
+    })
+}
+
+/// Numbers of a scenario that fit a measured record, as JSON.
+#[pyfunction]
+#[allow(clippy::too_many_arguments, reason = "one for each keyword of Python's function")]
+pub(crate) fn fit(
+    py: Python<'_>,
+    scenario: PyRef<'_, Scenario>,
+    file: Option<&str>,
+    names: Names,
+    arrays: Option<Arrays<'_>>,
+    recipe: Option<&str>,
+    free: Vec<String>,
+    channels: (Option<String>, Option<String>, Option<String>),
+    noise: Option<f64>,
+    bootstrap: usize,
+    threads: usize,
+) -> PyResult<String> {
+    let mut measured = measured(file, names, arrays, recipe)?;
+    let (contact, displacement, force) = channels;
+    let asked = Asked { free, contact, displacement, force, noise, bootstrap };
+    let job = scenario.job.clone();
+    py.detach(|| {
+        let fitted = search(&job, (&mut measured, &How::default()), &asked, cores(threads));
+        fitted.map(|fit| fit.json().to_string()).map_err(|error| PyValueError::new_err(error.to_string()))
     })
 }
 

@@ -393,3 +393,43 @@ def test_the_types_are_those_of_the_schema():
     module = importlib.util.module_from_spec(spec)
     spec.loader.exec_module(module)
     assert (here / "python/stickslip/types.py").read_text(encoding="utf-8") == module.main(), "run tools/make_types.py"
+
+
+def test_intervals_and_fits_of_a_measured_loop():
+    """A ball at constant load (Cattaneo 1938, Mindlin 1949): friction and radius of the drawn loop lie in their intervals."""
+    load, friction, radius, young, poisson = 10.0, 0.6, 5e-3, 210e9, 0.3
+    plane, shear = young / 2 / (1 - poisson**2), young / (1 + poisson) / (2 - poisson)
+    gross = friction * plane / shear * (0.75 * load / plane / radius**0.5) ** (2 / 3)
+    top = 0.7 * gross
+    virgin = lambda u: friction * load * (1 - (1 - u / gross) ** 1.5)
+    way = 2 * top * np.arange(100) / 100
+    branch = virgin(top) - 2 * virgin(way / 2)
+    u, force = np.concatenate([top - way, way - top]), np.concatenate([branch, -branch])
+    force = force + np.random.default_rng(1).normal(0, 0.01 * friction * load, force.size)
+    paths = ["contacts.ball.friction", "contacts.ball.profile.paraboloid.radius"]
+    s = ss.Scenario(
+        {
+            "stickslip": 1,
+            "bodies": {"rig": {"x": {"follows": {"sine": {"amplitude": "0.2 um", "period": "1 s"}}}}},
+            "contacts": {
+                "ball": {
+                    "between": ["rig", "ground"], "materials": ["hardened steel", "hardened steel"],
+                    "profile": {"paraboloid": {"radius": "4 mm"}}, "friction": 0.5, "normal": {"force": "10 N"},
+                }
+            },
+            "run": {"cycles": 2},
+        }
+    )  # fmt: skip
+    found = ss.fit(s, (u, force), paths)
+    for path, exact in zip(paths, (friction, radius), strict=True):
+        value = found["parameters"][path]
+        assert value["low"] <= exact <= value["high"]
+    with pytest.raises(ValueError, match="cannot tell apart: contacts.ball.friction and contacts.ball.normal.force"):
+        ss.fit(s, (u, force), [*paths[:1], "contacts.ball.normal.force"])
+    with pytest.raises(ValueError, match="arrays need none"):
+        ss.measure(u, force, recipe={})
+    cycles = ss.measure(np.tile(u, 4), np.tile(force, 4), time=np.arange(800.0))
+    results = cycles.report["results"]
+    assert results["force_amplitude_N"]["low"] <= virgin(top) <= results["force_amplitude_N"]["high"]
+    with pytest.raises(ValueError, match="to correct"):
+        ss.measure(u, force, correct="noise")

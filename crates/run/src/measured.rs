@@ -2,6 +2,7 @@
 
 mod clean;
 mod stage;
+mod told;
 
 use crate::job::Job;
 use crate::kept::Kept;

@@ -6,13 +6,14 @@
 //! In reading order: [`sweep`], many runs in parts on disk, with `number` (numbers of a scene that are set without reading it again),
 //! `sketch` (those of its waveforms) and `figure` (what is kept of such a run); [`steady`], the motion that repeats itself every period, and how it
 //! comes back when it is disturbed; [`curve`], what that motion makes of a number that is varied; [`sensitivity`], by how much a
-//! figure changes with each number of the scenario; [`optimum`], where a result is largest or smallest; [`map`], a result over two numbers,
+//! figure changes with each number of the scenario; [`fit`], numbers that fit what was measured; [`optimum`], where a result is largest or smallest; [`map`], a result over two numbers,
 //! and borders between slip regimes; `published`, the files of curves, branches and derivatives, whole or interrupted.
 //! `each` does many things side by side, `grip` tells whether something holds a body, `interruptible` lets a run be given up.
 
 pub mod curve;
 mod each;
 mod figure;
+pub mod fit;
 mod grip;
 mod info;
 mod interruptible;

@@ -8,7 +8,7 @@ use std::fmt::Write;
 const GROUPS: [(&str, &[&str]); 5] = [
     ("Every day", &["new", "check", "info", "run", "plot", "compare", "explain"]),
     ("Design a drive", &["curve", "steady", "branch", "sensitivity", "study", "map"]),
-    ("Contacts and measured data", &["contact", "import", "measure"]),
+    ("Contacts and measured data", &["contact", "import", "measure", "fit"]),
     ("Real time", &["realtime"]),
     ("Verification and reference", &["golden", "repro", "materials", "schema", "completions"]),
 ];

@@ -4,7 +4,7 @@ use clap::Args;
 use std::path::PathBuf;
 use stickslip_record::{Named, Recipe, RecordError};
 
-#[derive(Debug, Args)]
+#[derive(Debug, Clone, Args)]
 pub(crate) struct ReadingArguments {
     /// Recipe of the file, as written by `stickslip import`
     #[arg(long, value_name = "FILE")]
@@ -35,5 +35,18 @@ impl ReadingArguments {
             normal: normal.clone(),
         };
         Ok(recipe.with(&named))
+    }
+
+    /// The recipe, and the channels of a run that the displacement and the force are: `COLUMN=CHANNEL`, of which the column may be left out.
+    pub(crate) fn meeting(&self) -> Result<(Recipe, [Option<String>; 2]), RecordError> {
+        let parted = |text: &Option<String>| match text.as_deref().and_then(|text| text.rsplit_once('=')) {
+            Some((column, channel)) => {
+                (Some(column.to_owned()).filter(|column| !column.is_empty()), Some(channel.to_owned()))
+            }
+            None => (text.clone(), None),
+        };
+        let ((displacement, first), (force, second)) = (parted(&self.displacement), parted(&self.force));
+        let own = Self { displacement, force, ..self.clone() };
+        Ok((own.recipe()?, [first, second]))
     }
 }

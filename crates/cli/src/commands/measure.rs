@@ -13,15 +13,13 @@ use stickslip_measure::{Cycle, Interval, reversal_stiffness};
 use stickslip_run::complaint::words;
 use stickslip_run::folder::{Folder, sweep};
 use stickslip_run::measured::{
-    Account, Evaluated, MISFIT, Measured, MeasuredCycle, MeasuredError, Stage, middle, simulated, table,
+    Account, Evaluated, Measured, MeasuredCycle, MeasuredError, Stage, middle, simulated, table,
 };
 use stickslip_run::synopsis::Synopsis;
 use stickslip_run::{Real, Results, ResultsError, quantity};
 use stickslip_scenario::PlotName;
 use thiserror::Error;
 
-/// A drift per cycle below this share of the amplitude, and a lag below this share of the period, are not told.
-const LITTLE: f64 = 1e-4;
 /// Most stages that are printed.
 const MOST_STAGES: usize = 12;
 /// Most rows of cycles before the last that are drawn.
@@ -91,7 +89,7 @@ fn answer(arguments: &MeasureArguments) -> Result<(), LoopFailure> {
     }
     let evaluated = measured.evaluate(&arguments.how(beside.as_ref().and_then(|beside| beside.tangent)))?;
     let normal = arguments.normal_force.or_else(|| beside.as_ref()?.normal);
-    let notes = notes(&measured, &evaluated);
+    let notes = evaluated.notes(&measured);
     for note in notes.iter().filter(|_| !arguments.quiet) {
         complain(format_args!("{}: note: {note}", arguments.file.display()));
     }
@@ -104,107 +102,15 @@ fn answer(arguments: &MeasureArguments) -> Result<(), LoopFailure> {
     let names = write(&out, &table(&evaluated.cycles, normal), &pictures)
         .map_err(|source| LoopFailure::Write { folder: out.clone(), source })?;
     if arguments.json {
-        say_json(&for_machines(&measured, &evaluated, &notes, &names).to_string());
+        let mut told = evaluated.json(&measured);
+        told["files"] = json!(names);
+        say_json(&told.to_string());
     } else if !arguments.quiet {
         tell_stages(&evaluated.stages);
         tell_account(&evaluated.account);
         say(format_args!("\n{}: {}", out.display(), names.join(", ")));
     }
     Ok(())
-}
-
-/// All that is told, for machines.
-fn for_machines(
-    measured: &Measured,
-    evaluated: &Evaluated,
-    notes: &[String],
-    files: &[String],
-) -> serde_json::Value {
-    let of_stage = |stage: &Stage| {
-        let [from, to] = stage.time;
-        json!({ "cycles": stage.cycles.len(), "from_s": from, "to_s": to, "results": stage.results() })
-    };
-    let found = evaluated.found.map(|found| {
-        json!({
-            "period_s": found.period,
-            "lag_s": found.lag,
-            "displacement_drift_m_s": found.displacement_drift,
-            "force_drift_N_s": found.force_drift,
-            "misfit": found.misfit,
-        })
-    });
-    json!({
-        "file": measured.file,
-        "cycles": evaluated.cycles.len(),
-        "is_turned": measured.is_turned,
-        "results": evaluated.longest().map(Stage::results),
-        "with_rig": evaluated.with_rig.as_ref().map(|(whole, rig)| {
-            json!({ "rig_stiffness_N_m": rig, "results": whole.results() })
-        }),
-        "signals": found,
-        "record": evaluated.account,
-        "stages": evaluated.stages.iter().map(of_stage).collect::<Vec<_>>(),
-        "notes": notes,
-        "files": files,
-    })
-}
-
-/// What was done that nobody has asked for, and what should be known of the signals.
-fn notes(measured: &Measured, evaluated: &Evaluated) -> Vec<String> {
-    let mut notes = measured.notes.clone();
-    if measured.is_turned {
-        notes.push("the force resists the motion; its sign is turned".to_owned());
-    }
-    let [of_u, of_force] = evaluated.spikes;
-    if of_u + of_force > 0 {
-        notes.push(format!("spikes left out: {of_u} of the displacement, {of_force} of the force"));
-    }
-    let Some(found) = evaluated.found else {
-        let lost =
-            "the cycles have no common period: the intervals are those of the scatter of cycles, without lag";
-        notes.push(lost.to_owned());
-        return notes;
-    };
-    let time = if measured.has_time { "s" } else { "" };
-    let is_there = |interval: &Interval| interval.low > 0.0 || interval.high < 0.0;
-    let shown = |interval: &Interval, unit: &str| {
-        let [value, half] = [interval.value, interval.half_width()].map(|value| quantity(Real(value), unit));
-        format!("{value} \u{b1} {half}")
-    };
-    let drifts = [
-        ("displacement", &found.displacement_drift, "m", found.displacement_amplitude),
-        ("force", &found.force_drift, "N", found.force_amplitude),
-    ];
-    for (name, drift, unit, amplitude) in drifts {
-        let [value, half] = [drift.value, drift.half_width()].map(|rate| rate * found.period);
-        let own = Interval { value, low: value - half, high: value + half };
-        if is_there(drift) && value.abs() > LITTLE * amplitude.value {
-            notes.push(format!("drift of the {name}: {} per cycle (--correct drift)", shown(&own, unit)));
-        }
-    }
-    if found.misfit >= MISFIT {
-        let share = 100.0 * found.misfit;
-        notes.push(format!(
-            "the branches are not those of an elastic contact at constant load ({share:.1} % of Q* are left): the intervals are those of the scatter of cycles, without lag"
-        ));
-        return notes;
-    }
-    if is_there(&found.lag) && found.lag.value.abs() > LITTLE * found.period {
-        let lag = if measured.has_time {
-            shown(&found.lag, time)
-        } else {
-            format!("{:.2} \u{b1} {:.2} rows", found.lag.value, found.lag.half_width())
-        };
-        let shares = 100.0 * found.lag.value / found.period;
-        notes.push(format!("the force is {lag} late, {shares:.2} % of a period (--correct lag)"));
-    }
-    if !found.is_sense_sure {
-        notes.push("the rows do not tell whether the force drives or resists the motion".to_owned());
-    }
-    if found.dissipated.low <= 0.0 {
-        notes.push("undecided: whether the loop dissipates anything".to_owned());
-    }
-    notes
 }
 
 /// Stages by their cycles, where there are several.

@@ -17,7 +17,7 @@ from ._errors import ErrorReport, RunError, ScenarioError, StickslipWarning
 from ._linear import LinearSystem
 from ._report import Report, Table
 from ._result import Event, Plots, Result, Summary, Value
-from ._scenario import Curve, Scenario, Simulation, compare, load, measure, run_many
+from ._scenario import Curve, Scenario, Simulation, compare, fit, load, measure, run_many
 from ._study import Study, grid, log_grid, lognormal, normal, study, triangular, uniform, values
 
 __version__ = "0.1.0"
@@ -25,7 +25,7 @@ STATES: list[str] = _core.STATES
 
 __all__ = [
     "STATES", "Curve", "ErrorReport", "Event", "LinearSystem", "Plots", "Report", "Result", "RunError", "Scenario", "ScenarioError",
-    "Simulation", "StickslipWarning", "Study", "Summary", "Table", "Value", "compare", "examples", "grid", "load", "log_grid", "lognormal",
+    "Simulation", "StickslipWarning", "Study", "Summary", "Table", "Value", "compare", "examples", "fit", "grid", "load", "log_grid", "lognormal",
     "measure", "normal", "run_many", "schema", "study", "triangular", "types", "uniform", "values",
 ]  # fmt: skip
 

@@ -86,10 +86,24 @@ def measure(
     file: str | None,
     names: tuple[str | None, str | None, str | None],
     arrays: tuple[Any, Any, Any] | None,
+    recipe: str | None,
     period: float | None,
     normal_force: float | None,
+    correct: tuple[bool, bool],
+    rig_stiffness: float | None,
+) -> tuple[str, str]: ...
+def fit(
+    scenario: Scenario,
+    file: str | None,
+    names: tuple[str | None, str | None, str | None],
+    arrays: tuple[Any, Any, Any] | None,
     recipe: str | None,
-) -> tuple[str, bool]: ...
+    free: list[str],
+    channels: tuple[str | None, str | None, str | None],
+    noise: float | None,
+    bootstrap: int,
+    threads: int,
+) -> str: ...
 def compare(
     folders: tuple[str, str],
     exact: bool,
@@ -101,4 +115,4 @@ def compare(
 def quantity(text: str, unit: str) -> float: ...
 def schema() -> str: ...
 
-__all__ = ["STATES", "Run", "Scenario", "Sim", "Study", "compare", "measure", "quantity", "run_many", "schema"]
+__all__ = ["STATES", "Run", "Scenario", "Sim", "Study", "compare", "fit", "measure", "quantity", "run_many", "schema"]

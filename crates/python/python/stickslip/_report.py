@@ -34,6 +34,9 @@ def _array(values: list[Any]) -> np.ndarray:
 class Table(Sequence[Mapping[str, Any]]):
     """Rows with the same keys. ``table["speed_m_s"]`` and ``table.speed_m_s`` are arrays; ``table[3]`` is a row."""
 
+    report: Any = None
+    """What is told beside the rows, where anything is."""
+
     def __init__(self, rows: list[dict[str, Any]]):
         self._rows = rows
         self._columns: dict[str, np.ndarray] = {}

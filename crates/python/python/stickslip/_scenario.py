@@ -444,35 +444,99 @@ def measure(
     period: Any = None,
     normal_force: Any = None,
     recipe: Any = None,
+    correct: str | Sequence[str] = (),
+    rig_stiffness: Any = None,
 ) -> Table:
     """Evaluates measured hysteresis loops (``stickslip measure``): a row for each cycle.
 
     Either arrays of ``displacement`` (m), ``force`` (N) and, if known, ``time`` (s); or the path of a table as the first argument, where
     ``force`` and ``time`` may name its columns, by name or number and with a unit, such as ``"3:kN"``. ``recipe`` says how the file is read: a
     dictionary, or the path of a file that ``stickslip import`` wrote. ``normal_force`` (N) gives the friction coefficient of each loop.
+    ``correct`` removes estimated errors of the signals: ``"lag"``, ``"drift"``, or both; ``rig_stiffness`` (N/m) removes the deformation of a rig.
+
+    The attribute ``report`` of the table has what ``--json`` prints: results with their intervals of 95 %, stages, lag, drift and notes.
 
     >>> import numpy as np, stickslip as ss
     >>> phase = np.linspace(0, 6 * np.pi, 601)
     >>> loops = ss.measure(1e-6 * np.sin(phase), np.cos(phase), time=phase)
     >>> bool(abs(loops["dissipated_J"][0] / (np.pi * 1e-6) - 1) < 1e-3)
     True
+    >>> f"{loops.report['results']['displacement_amplitude_m']['value'] * 1e6:.3f} um"
+    '1.000 um'
     """
     period = None if period is None else si(period, "s")
     normal_force = None if normal_force is None else si(normal_force, "N")
+    rig_stiffness = None if rig_stiffness is None else si(rig_stiffness, "N/m")
+    wrong = [name for name in _names(correct) if name not in ("lag", "drift")]
+    if wrong:
+        raise ValueError(f"expected \"lag\" or \"drift\" to correct, got {wrong[0]!r}")
+    both = ("lag" in _names(correct), "drift" in _names(correct))
+    source = _record(displacement, force, time, recipe)
+    text, report = _core.measure(*source, period, normal_force, both, rig_stiffness)
+    table = Table.from_csv(text)
+    table.report = Report.from_json(report)
+    return table
+
+
+def fit(
+    scenario: Scenario,
+    data: Any,
+    free: str | Sequence[str],
+    *,
+    contact: str | None = None,
+    displacement: str | None = None,
+    force: str | None = None,
+    time: str | None = None,
+    recipe: Any = None,
+    noise: Any = None,
+    bootstrap: int = 0,
+    threads: int = 0,
+) -> Report:
+    """Fits the numbers ``free`` of a scenario to a measured loop or trajectory (``stickslip fit``).
+
+    ``data`` is the path of a table, or arrays: ``(displacement, force)`` or ``(time, displacement, force)`` in SI. ``displacement`` and ``force``
+    say which channels these are, such as ``"rig.x"``; for a table they are ``"COLUMN=CHANNEL"``. ``noise`` (N) is the standard deviation of the
+    force. Numbers that the data cannot tell apart raise ValueError with their names.
+
+    >>> import numpy as np, stickslip as ss
+    >>> s = ss.examples.fretting_sphere()
+    >>> r = s.run()
+    >>> data = [r[name] for name in ("time", "800 nm.u", "800 nm.fx")]
+    >>> found = ss.fit(s.set("contacts.800 nm.friction", 0.4), data, "contacts.800 nm.friction", contact="800 nm")
+    >>> f"{found.parameters['contacts.800 nm.friction']['value']:.3f}"
+    '0.600'
+    """
+    if isinstance(data, (str, os.PathLike)):
+        parts = [name.rsplit("=", 1) if name else [None] for name in (displacement, force)]
+        columns = [part[0] or None if len(part) > 1 or part[0] is None else part[0] for part in parts]
+        channels = [part[1] if len(part) > 1 else None for part in parts]
+        recipe_text = _record(data, None, None, recipe)[3]
+        source = (str(data), (time, *columns), None, recipe_text)
+    else:
+        *t, u, q = data
+        channels = [displacement, force]
+        source = _record(u, q, t[0] if t else None, recipe)
+    noise = None if noise is None else si(noise, "N")
+    asked = (_names(free), (contact, *channels), noise, bootstrap, threads)
+    return Report.from_json(_core.fit(scenario._core, *source, *asked))
+
+
+def _record(displacement: Any, force: Any, time: Any, recipe: Any) -> tuple[Any, Any, Any, Any]:
+    """File, names of its columns, arrays and recipe of a measured record."""
     if isinstance(displacement, (str, os.PathLike)):
         if isinstance(recipe, (str, os.PathLike)):
             with open(recipe, encoding="utf-8") as file:
                 recipe = file.read()
         elif recipe is not None:
             recipe = json.dumps(recipe)
-        text, _ = _core.measure(str(displacement), (time, None, force), None, period, normal_force, recipe)
-    else:
-        if force is None:
-            raise ValueError("expected the forces beside the displacements")
-        t = None if time is None else np.ascontiguousarray(time, dtype=float)
-        arrays = (t, np.ascontiguousarray(displacement, dtype=float), np.ascontiguousarray(force, dtype=float))
-        text, _ = _core.measure(None, (None, None, None), arrays, period, normal_force, None)
-    return Table.from_csv(text)
+        return str(displacement), (time, None, force), None, recipe
+    if recipe is not None:
+        raise ValueError("a recipe says how a file is read; arrays need none")
+    if force is None:
+        raise ValueError("expected the forces beside the displacements")
+    t = None if time is None else np.ascontiguousarray(time, dtype=float)
+    arrays = (t, np.ascontiguousarray(displacement, dtype=float), np.ascontiguousarray(force, dtype=float))
+    return None, (None, None, None), arrays, None
 
 
 def compare(
