@@ -3,6 +3,8 @@
 use crate::series::{SeriesError, check, check_lengths, check_positive, check_time, extent};
 use std::ops::Range;
 
+pub use stickslip_record::noise;
+
 /// Share of its range to within which u comes back at the end of a cycle.
 pub const CLOSED: f64 = 0.01;
 /// Shares of the range of u that a way back may have to go to count as a reversal, and by how much of the time more cycles have to be with a
@@ -71,21 +73,6 @@ pub fn returning_cycles(t: &[f64], u: &[f64], still: f64) -> Vec<Range<usize>> {
         }
     }
     best.1
-}
-
-/// Standard deviation of the noise of samples at equal distances, by their fourth differences, in which hardly anything is left of what is smooth:
-/// the median of their magnitudes, which turns do not move, as that of normal noise.
-#[must_use]
-pub fn noise(u: &[f64]) -> f64 {
-    let fourth = |five: &[f64]| (five[0] - 4.0 * five[1] + 6.0 * five[2] - 4.0 * five[3] + five[4]).abs();
-    let mut all: Vec<f64> = u.windows(5).map(fourth).collect();
-    if all.is_empty() {
-        return 0.0;
-    }
-    let middle = all.len() / 2;
-    let (_, median, _) = all.select_nth_unstable_by(middle, f64::total_cmp);
-    // Of normal noise the median magnitude is 0.6745 σ, and the sum of the squares of the binomials 70.
-    *median / 0.674_49 / 70.0_f64.sqrt()
 }
 
 /// Whether u comes back to within a share of its range, or moves by no more than `still`, m.

@@ -241,7 +241,7 @@ impl Together {
         let [low, high] = [first.motion.low, first.motion.low + 2.0 * first.motion.amplitude[0]];
         let is_sound = amplitude[0] > 0.0 && amplitude[0].is_finite();
         is_sound.then(|| Self {
-            shares: Folded::shares(|phase| first.motion.harmonics.at(phase), [low, high]),
+            shares: Folded::shares(|phase| first.motion.at(phase), [low, high]),
             turn: first.motion.turn,
             amplitude,
             period: mean(&|part| TAU / part.motion.frequency),

@@ -7,6 +7,14 @@ use thiserror::Error;
 /// Why a table is not read.
 #[derive(Debug, Error)]
 pub enum RecordError {
+    /// A spreadsheet that cannot be read.
+    #[error("{file}: no spreadsheet that can be read: {why}")]
+    Sheet {
+        /// The file.
+        file: String,
+        /// Why not.
+        why: String,
+    },
     /// The file.
     #[error("{file}: cannot be read: {source}")]
     File {

@@ -7,12 +7,16 @@
 mod cell;
 mod error;
 mod layout;
+mod noise;
 mod recipe;
 mod record;
 mod roles;
+mod sheet;
 mod unit;
 
 pub use error::RecordError;
 pub use layout::{Column, Layout};
+pub use noise::{noise, smoothed};
 pub use recipe::{ColumnRecipe, Encoding, Named, Place, Recipe, Role, recipe_schema};
 pub use record::{Passed, Record};
+pub use unit::Kind;

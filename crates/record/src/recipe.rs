@@ -69,6 +69,10 @@ pub enum Role {
     Force,
     /// Normal forces.
     Normal,
+    /// Values of a waveform, or heights and gaps of a profile, in whatever unit.
+    Value,
+    /// Places along a profile.
+    Position,
 }
 
 /// Which column it is, and what its numbers are: gain × cell + offset, in the unit.
@@ -113,7 +117,7 @@ pub struct Named {
 }
 
 impl Role {
-    /// All of them.
+    /// Those of a measured loop.
     pub const ALL: [Self; 4] = [Self::Time, Self::Displacement, Self::Force, Self::Normal];
 
     /// Its word.
@@ -124,6 +128,8 @@ impl Role {
             Self::Displacement => "displacement",
             Self::Force => "force",
             Self::Normal => "normal",
+            Self::Value => "value",
+            Self::Position => "position",
         }
     }
 
@@ -132,7 +138,8 @@ impl Role {
     pub fn si(self) -> &'static str {
         match self {
             Self::Time => "s",
-            Self::Displacement => "m",
+            Self::Displacement | Self::Position => "m",
+            Self::Value => "",
             Self::Force | Self::Normal => "N",
         }
     }
@@ -167,21 +174,28 @@ impl Recipe {
             .map_err(|error| RecordError::Recipe { file: name.to_owned(), why: error.to_string() })
     }
 
+    /// With a column for a role by its name, or else its number, and perhaps a unit after a colon.
+    #[must_use]
+    pub fn with_column(mut self, role: Role, text: &str) -> Self {
+        let (column, unit) = match text.rsplit_once(':') {
+            Some((column, unit)) if unit == "clock" || unit::find(unit).is_some() => (column, Some(unit)),
+            _ => (text, None),
+        };
+        let own = self.columns.entry(role).or_default();
+        own.column = Some(column.parse().map_or_else(|_| Place::Name(column.to_owned()), Place::Number));
+        if unit.is_some() {
+            own.unit = unit.map(str::to_owned);
+        }
+        self
+    }
+
     /// With columns as somebody names them in words, which count before what the recipe says.
     #[must_use]
     pub fn with(mut self, named: &Named) -> Self {
         let all = [&named.time, &named.displacement, &named.force, &named.normal];
         for (role, text) in Role::ALL.into_iter().zip(all) {
-            let Some(text) = text else { continue };
-            let (column, unit) = match text.rsplit_once(':') {
-                Some((column, unit)) if unit == "clock" || unit::find(unit).is_some() => (column, Some(unit)),
-                _ => (text.as_str(), None),
-            };
-            let place = column.parse().map_or_else(|_| Place::Name(column.to_owned()), Place::Number);
-            let own = self.columns.entry(role).or_default();
-            own.column = Some(place);
-            if unit.is_some() {
-                own.unit = unit.map(str::to_owned);
+            if let Some(text) = text {
+                self = self.with_column(role, text);
             }
         }
         self

@@ -5,6 +5,8 @@ use crate::error::RecordError;
 use crate::layout::{Layout, fields, is_row};
 use crate::recipe::{ColumnRecipe, Encoding, Place, Recipe, Role};
 use crate::roles::{Reading, readings};
+use crate::sheet;
+use crate::unit::{self, Kind};
 use encoding_rs::{UTF_8, UTF_16BE, UTF_16LE, WINDOWS_1252};
 use encoding_rs_io::{DecodeReaderBytes, DecodeReaderBytesBuilder};
 use std::collections::BTreeMap;
@@ -58,23 +60,49 @@ impl Record {
     pub fn read(path: &Path, recipe: &Recipe, wanted: &[Role]) -> Result<Self, RecordError> {
         let name = path.display().to_string();
         let failed = |source| RecordError::File { file: name.clone(), source };
+        if sheet::is_sheet(&name) {
+            return Self::of(&name, &std::fs::read(path).map_err(failed)?, recipe, wanted);
+        }
         let sample = sample(path).map_err(failed)?;
-        let encoding = recipe.encoding.unwrap_or_else(|| encoding(&sample));
-        let codec = codec(encoding, &sample);
+        let file = File::open(path).map_err(failed)?;
+        Self::from(&name, &sample, file, recipe, wanted)
+    }
+
+    /// Reads the bytes of a file that is in memory; the name is for errors.
+    ///
+    /// # Errors
+    /// As of a file.
+    pub fn of(name: &str, bytes: &[u8], recipe: &Recipe, wanted: &[Role]) -> Result<Self, RecordError> {
+        let text = if sheet::is_sheet(name) { Some(sheet::text(name, bytes)?) } else { None };
+        let bytes = text.as_ref().map_or(bytes, |text| text.as_bytes());
+        let sample = &bytes[..bytes.len().min(SAMPLE as usize)];
+        Self::from(name, sample, bytes, recipe, wanted)
+    }
+
+    fn from(
+        name: &str,
+        sample: &[u8],
+        whole: impl Read,
+        recipe: &Recipe,
+        wanted: &[Role],
+    ) -> Result<Self, RecordError> {
+        let failed = |source| RecordError::File { file: name.to_owned(), source };
+        let encoding = recipe.encoding.unwrap_or_else(|| encoding(sample));
+        let codec = codec(encoding, sample);
         let mut text = String::new();
-        decoded(sample.as_slice(), codec).read_to_string(&mut text).map_err(failed)?;
+        decoded(sample, codec).read_to_string(&mut text).map_err(failed)?;
         // The last line of a long file may be cut.
-        let whole =
+        let end =
             if sample.len() as u64 == SAMPLE { text.rfind('\n').unwrap_or(text.len()) } else { text.len() };
-        let lines: Vec<&str> = text[..whole].lines().take(LINES).collect();
+        let lines: Vec<&str> = text[..end].lines().take(LINES).collect();
         let layout = Layout::guess(&lines, encoding, recipe).ok_or_else(|| {
             let first = lines.iter().find(|line| !line.trim().is_empty());
             let why = first.map_or(": it is empty".to_owned(), |line| {
                 format!("; it begins with {:?}", line.chars().take(60).collect::<String>())
             });
-            RecordError::NoRows { file: name.clone(), why }
+            RecordError::NoRows { file: name.to_owned(), why }
         })?;
-        let readings = readings(&name, &layout, recipe, wanted)?;
+        let readings = readings(name, &layout, recipe, wanted)?;
         let mut record = Self {
             columns: readings.keys().map(|role| (*role, Vec::new())).collect(),
             layout,
@@ -84,9 +112,8 @@ impl Record {
             notes: Vec::new(),
             readings,
         };
-        let file = File::open(path).map_err(failed)?;
-        record.fill(BufReader::with_capacity(1 << 16, decoded(file, codec))).map_err(failed)?;
-        record.finish(&name)?;
+        record.fill(BufReader::with_capacity(1 << 16, decoded(whole, codec))).map_err(failed)?;
+        record.finish(name)?;
         Ok(record)
     }
 
@@ -117,6 +144,13 @@ impl Record {
             increment: pace.map(|[_, increment]| increment),
             columns: self.readings.iter().map(column).collect(),
         }
+    }
+
+    /// What the unit of a role is of, where it is known.
+    #[must_use]
+    pub fn kind(&self, role: Role) -> Option<Kind> {
+        let reading = self.readings.get(&role).filter(|reading| !reading.is_assumed)?;
+        unit::find(&reading.unit).map(|(kind, _)| kind)
     }
 
     /// What a column, by its place, is read as, with its unit.

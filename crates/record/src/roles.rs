@@ -82,6 +82,8 @@ fn words(role: Role) -> &'static [&'static str] {
             "fuerza",
         ],
         Role::Normal => &["fz", "fn", "normal", "normalkraft", "normallast", "p"],
+        Role::Value => &["value", "z", "height", "gap", "y", "ch1", "voltage", "spannung", "signal", "volt"],
+        Role::Position => &["x", "r", "radius", "lateral", "position", "distance", "xpos"],
     }
 }
 
@@ -114,14 +116,17 @@ pub(crate) fn readings(
         places.insert(*role, place);
     }
     // The normal force first: a "normal force" is a force by its other word.
-    for role in [Role::Normal, Role::Time, Role::Displacement, Role::Force] {
+    let usual = if wanted.contains(&Role::Value) { &[] } else { &[Role::Displacement, Role::Force][..] };
+    let special = [Role::Position, Role::Value].into_iter().filter(|role| wanted.contains(role));
+    for role in [Role::Normal, Role::Time].into_iter().chain(usual.iter().copied()).chain(special) {
         let is_known = places.contains_key(&role) || role == Role::Time && layout.pace.is_some();
         if !is_known && let Some(place) = guess(layout, role, &places) {
             places.insert(role, place);
         }
     }
-    by_place(layout, &mut places);
-    if let Some(role) = wanted.iter().find(|role| !places.contains_key(role)) {
+    by_place(layout, &mut places, wanted);
+    let has = |role: &Role| places.contains_key(role) || *role == Role::Time && layout.pace.is_some();
+    if let Some(role) = wanted.iter().find(|role| !has(role)) {
         return Err(RecordError::Unknown { file: file.to_owned(), role: *role, known: layout.words() });
     }
     let reading = |(role, place): (Role, usize)| {
@@ -133,7 +138,11 @@ pub(crate) fn readings(
 
 fn find(layout: &Layout, place: &Place) -> Option<usize> {
     match place {
-        Place::Number(number) => number.checked_sub(1).filter(|place| *place < layout.columns.len()),
+        Place::Number(number) => {
+            // Scopes call channels by numbers.
+            let named = layout.columns.iter().position(|column| column.name == number.to_string());
+            named.or_else(|| number.checked_sub(1).filter(|place| *place < layout.columns.len()))
+        }
         Place::Name(name) => {
             let (bare, _) = unit::part(name);
             let is = |text: &str| !text.is_empty() && text.eq_ignore_ascii_case(name.trim());
@@ -143,7 +152,10 @@ fn find(layout: &Layout, place: &Place) -> Option<usize> {
                     || is(unit)
                     || (!bare.is_empty() && column.name.eq_ignore_ascii_case(&bare) && name.contains(unit))
             };
-            layout.columns.iter().position(whole)
+            // The first of two head lines.
+            let start = format!("{} ", name.trim().to_lowercase());
+            let begins = |column: &Column| column.name.to_lowercase().starts_with(&start);
+            layout.columns.iter().position(whole).or_else(|| layout.columns.iter().position(begins))
         }
     }
 }
@@ -175,18 +187,33 @@ fn guess(layout: &Layout, role: Role, taken: &BTreeMap<Role, usize>) -> Option<u
         let fits = |column: &Column| {
             column.unit.as_deref().and_then(unit::find).is_some_and(|(kind, _)| unit::fits(role, kind))
         };
-        // A second force is no normal force by its unit alone.
-        free().find(|(_, column)| role != Role::Normal && fits(column)).map(|(place, _)| place)
+        // A second force is no normal force by its unit alone; what is measured stands behind where.
+        let mut fitting = free().filter(|(_, column)| role != Role::Normal && fits(column));
+        let found = if role == Role::Value { fitting.next_back() } else { fitting.next() };
+        found.map(|(place, _)| place)
     })
 }
 
 /// In tables that tell nothing: a column that rises is the time where there are three, then come displacement and force.
-fn by_place(layout: &Layout, places: &mut BTreeMap<Role, usize>) {
+fn by_place(layout: &Layout, places: &mut BTreeMap<Role, usize>, wanted: &[Role]) {
     let is_silent = |column: &Column| column.is_number && column.unit.is_none();
     let free = |places: &BTreeMap<Role, usize>| -> Vec<usize> {
         let all = layout.columns.iter().enumerate().filter(|(_, column)| is_silent(column));
         all.map(|(place, _)| place).filter(|place| !places.values().any(|other| other == place)).collect()
     };
+    if wanted.contains(&Role::Value) {
+        for role in [Role::Time, Role::Position].into_iter().filter(|role| wanted.contains(role)) {
+            let is_known = places.contains_key(&role) || role == Role::Time && layout.pace.is_some();
+            let rising = free(places).into_iter().find(|place| layout.columns[*place].rises);
+            if let Some(place) = rising.filter(|_| !is_known) {
+                places.insert(role, place);
+            }
+        }
+        if let Some(place) = free(places).first().copied().filter(|_| !places.contains_key(&Role::Value)) {
+            places.insert(Role::Value, place);
+        }
+        return;
+    }
     if !places.contains_key(&Role::Time)
         && layout.pace.is_none()
         && free(places).len() + places.len() > 2
@@ -214,7 +241,8 @@ fn reading(
     let said = own.unit.as_ref().or(column.unit.as_ref()).filter(|_| !is_clock);
     let factor = match said {
         None => Some(1.0),
-        Some(unit) => unit::of_role(role, unit),
+        // A value may be of anything: a unit that nobody knows is none.
+        Some(unit) => unit::of_role(role, unit).or(Some(1.0).filter(|_| role == Role::Value)),
     };
     let refused = |unit: &String| RecordError::Unit {
         file: file.to_owned(),

@@ -4,12 +4,16 @@ use crate::recipe::Role;
 
 /// What a unit is of.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Kind {
+pub enum Kind {
+    /// Times.
     Time,
+    /// Lengths.
     Length,
+    /// Forces.
     Force,
     /// Grams and kilograms: scales show forces as masses.
     Mass,
+    /// Voltages.
     Voltage,
 }
 
@@ -79,7 +83,8 @@ pub(crate) fn of_role(role: Role, text: &str) -> Option<f64> {
 pub(crate) fn fits(role: Role, kind: Kind) -> bool {
     match role {
         Role::Time => kind == Kind::Time,
-        Role::Displacement => kind == Kind::Length,
+        Role::Displacement | Role::Position => kind == Kind::Length,
+        Role::Value => true,
         Role::Force | Role::Normal => matches!(kind, Kind::Force | Kind::Mass),
     }
 }

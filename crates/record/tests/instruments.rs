@@ -190,3 +190,17 @@ fn what_stands_in_the_way_is_passed_over_and_counted() {
     let passed = found.passed;
     assert_eq!((passed.missing, passed.words, passed.empty, passed.comments), (2, 2, 1, 1));
 }
+
+/// The first sheet that has cells, behind an empty one, as numbers are kept in it.
+#[test]
+fn spreadsheets_are_read() {
+    let found = read("sheet.xlsx", &Recipe::default());
+    assert_eq!(found.rows, 41);
+    assert_eq!((found.columns[&Role::Time][3], found.columns[&Role::Displacement][5]), (1.5e-3, 1e-5));
+    assert_eq!(found.columns[&Role::Force][10], -3.0);
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("broken.xlsx");
+    std::fs::write(&path, "no sheet").unwrap();
+    let error = Record::read(&path, &Recipe::default(), &LOOP).unwrap_err().to_string();
+    assert!(error.contains("broken.xlsx: no spreadsheet that can be read"), "{error}");
+}

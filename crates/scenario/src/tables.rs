@@ -1,6 +1,8 @@
 //! Tables in files: read once, and from then on points of the scenario.
 
+mod foreign;
 mod head;
+mod heights;
 mod pairs;
 mod profiles;
 mod sheet;
@@ -10,7 +12,7 @@ pub use pairs::{Pairs, pairs};
 use crate::document::{Document, Source, SourceKind, shown};
 use crate::fault::{Fault, Mend};
 use crate::folder::{self, Denied};
-use crate::form::{Form, FreedomForm, Moving, NormalForm, Point, WaveformForm, WaveformRef};
+use crate::form::{Form, FreedomForm, Moving, NormalForm, Point, RecipeForm, WaveformForm, WaveformRef};
 use crate::path::{At, KeyPath, Step};
 use crate::place::Span;
 use crate::quantity::{AnyQuantity, Time};
@@ -20,6 +22,7 @@ use head::{Column, Head};
 use std::io;
 use std::ops::Range;
 use std::path::Path;
+use stickslip_record::smoothed;
 
 /// Most bytes of one file, and of all together: each is kept to point into.
 const MAX_BYTES: (usize, usize) = (syntax::MAX_BYTES, 16 * syntax::MAX_BYTES);
@@ -138,30 +141,51 @@ impl Shelf<'_> {
         let WaveformForm::Table(table) = waveform else { return Ok(()) };
         let at = at.key("table");
         let columns = [("time", table.time.take()), ("value", table.value.take())];
-        let Some(file) = table.file.take() else {
-            return no_columns(&at, &columns);
-        };
-        if table.points.is_some() {
-            return Err(given_twice(&at));
+        let recipe = table.recipe.take();
+        match table.file.take() {
+            None => no_columns(&at, &columns, recipe.as_ref())?,
+            Some(_) if table.points.is_some() => return Err(given_twice(&at)),
+            Some(file) => {
+                let [time, value] = columns;
+                let columns = [(time.0, time.1, Column::Time), (value.0, value.1, Column::Value)];
+                let (rows, [_, kind]) = self.rows(&at, (&file, recipe), "points", &columns)?;
+                let point = |[time, si]: [f64; 2]| Point(Time::new(time), AnyQuantity { si, kind });
+                table.points = Some(rows.into_iter().map(point).collect());
+            }
         }
-        let [time, value] = columns;
-        let columns = [(time.0, time.1, Column::Time), (value.0, value.1, Column::Value)];
-        let (rows, [_, kind]) = self.rows(&at, &file, "points", &columns)?;
-        let point = |[time, si]: [f64; 2]| Point(Time::new(time), AnyQuantity { si, kind });
-        table.points = Some(rows.into_iter().map(point).collect());
+        if let (Some(points), Some(window)) = (&mut table.points, table.smooth.take()) {
+            if window.si <= 0.0 {
+                return Err(at.key("smooth").fault("expected more than 0 s"));
+            }
+            let rows: Vec<[f64; 2]> = points.iter().map(|Point(time, value)| [time.si, value.si]).collect();
+            for (point, value) in points.iter_mut().zip(smoothed(&rows, window.si)) {
+                point.1.si = value;
+            }
+        }
         Ok(())
     }
 
     /// The rows of a file by the columns that an object names under these keys, and the dimensions that their heads tell. The list
-    /// is what the rows become.
+    /// is what the rows become. Without a recipe a plain table is read as it is; what is none is read as an instrument's, if no line of it has to be passed over.
     fn rows<const N: usize>(
         &mut self,
         at: &At<'_>,
-        file: &str,
+        (file, recipe): (&str, Option<RecipeForm>),
         list: &'static str,
         columns: &[(&str, Option<String>, Column); N],
     ) -> Result<Rows<N>, Fault> {
-        self.read_rows(at, file, list, columns).map_err(|fault| fault.mend(Mend::Around(at.path())))
+        let read = match recipe {
+            Some(recipe) => {
+                self.recipe(at, recipe).and_then(|recipe| self.foreign(at, file, Some(recipe), columns))
+            }
+            None => self.read_rows(at, file, list, columns).or_else(|fault| {
+                if self.document.base.is_none() || columns.iter().any(|(_, name, _)| name.is_none()) {
+                    return Err(fault);
+                }
+                self.foreign(at, file, None, columns).map_err(|_| fault)
+            }),
+        };
+        read.map_err(|fault| fault.mend(Mend::Around(at.path())))
     }
 
     fn read_rows<const N: usize>(
@@ -247,7 +271,15 @@ impl Shelf<'_> {
 }
 
 /// Names of columns where there is no file.
-fn no_columns(at: &At<'_>, columns: &[(&str, Option<String>)]) -> Result<(), Fault> {
+fn no_columns(
+    at: &At<'_>,
+    columns: &[(&str, Option<String>)],
+    recipe: Option<&RecipeForm>,
+) -> Result<(), Fault> {
+    if recipe.is_some() {
+        let fault = at.key("recipe").fault("says how a file is read, but there is no file").on_key();
+        return Err(fault.help("leave it out").mend(Mend::Around(at.path())));
+    }
     match columns.iter().find(|(_, name)| name.is_some()) {
         None => Ok(()),
         Some((key, _)) => {

@@ -1,7 +1,7 @@
 //! The periodic displacement of a stage: mean, drift and harmonics by least squares.
 
 use nalgebra::{DMatrix, DVector};
-use std::f64::consts::TAU;
+use std::f64::consts::{PI, TAU};
 
 /// Numbers of harmonics that are tried, one after the other, while the next ones are more than noise.
 const ORDERS: [usize; 9] = [1, 2, 3, 5, 8, 12, 18, 26, 40];
@@ -11,6 +11,8 @@ const MORE: f64 = 8.0;
 const SPIKE: f64 = 6.0;
 /// With this share of the largest harmonic beside: corners, of which harmonics leave something, are no spikes.
 const CORNER: f64 = 0.05;
+/// By how much of the first harmonic the others may differ from those of a triangle.
+const CORNERS: f64 = 2e-3;
 /// Steps of the search of the frequency and of the rows that are no spikes.
 const ROUNDS: usize = 5;
 /// Points on which a period is looked through for its extremes.
@@ -108,6 +110,22 @@ impl Harmonics {
             .sum()
     }
 
+    /// Whether these are the first harmonics of a triangle, whose corners all further ones would have to draw: those of the orders 3 and 5 are 1/9 and
+    /// 1/25 of the first, and there are no even ones.
+    fn is_triangle(&self, rows: f64) -> bool {
+        let pairs: Vec<&[f64]> = self.coefficients[2..].chunks(2).collect();
+        let Some(first) = pairs.first().map(|pair| pair[0]).filter(|_| pairs.len() >= 5) else {
+            return false;
+        };
+        let slack = CORNERS * first.abs() + 4.0 * self.deviation * (2.0 / rows).sqrt();
+        [(1, 0.0), (2, 1.0 / 9.0), (3, 0.0), (4, 1.0 / 25.0)].into_iter().all(
+            |(place, share): (usize, f64)| {
+                let [a, b] = [pairs[place][0], pairs[place][1]];
+                (a - share * first).abs() < slack && b.abs() < slack
+            },
+        )
+    }
+
     /// Drift c₁ per unit of time, and its standard deviation.
     pub(super) fn drift(&self) -> [f64; 2] {
         [self.coefficients[1], self.deviation * self.inverse[(1, 1)].sqrt()]
@@ -135,8 +153,9 @@ pub(super) struct Motion {
     pub(super) turn: f64,
     /// Amplitude δ*, and its standard deviation, m.
     pub(super) amplitude: [f64; 2],
-    /// Least value of the harmonics.
+    /// Least value.
     pub(super) low: f64,
+    is_triangle: bool,
 }
 
 impl Motion {
@@ -196,11 +215,28 @@ impl Motion {
             gradient[place] = 0.5 * (at_top[place] - at_turn[place]);
         }
         let spread = (gradient.transpose() * &harmonics.inverse * &gradient)[0].max(0.0).sqrt();
+        let is_triangle = harmonics.is_triangle(u.len() as f64);
+        let (mut amplitude, mut low, mut turn) =
+            ([0.5 * (high - low), harmonics.deviation * spread], low, turn);
+        if is_triangle {
+            let first = harmonics.coefficients[2] * PI * PI / 8.0;
+            let deviation = harmonics.deviation * harmonics.inverse[(2, 2)].sqrt() * PI * PI / 8.0;
+            (amplitude, low, turn) = ([first, deviation], -first, PI);
+        }
         // Times were in periods.
         harmonics.coefficients[1] /= period;
-        let amplitude = [0.5 * (high - low), harmonics.deviation * spread];
         harmonics.inverse[(1, 1)] /= period * period;
-        Some(Self { middle, frequency: TAU * turns / period, phase, harmonics, turn, amplitude, low })
+        let frequency = TAU * turns / period;
+        Some(Self { middle, frequency, phase, harmonics, turn, amplitude, low, is_triangle })
+    }
+
+    /// Displacement at a phase, about the mean.
+    pub(super) fn at(&self, phase: f64) -> f64 {
+        if !self.is_triangle {
+            return self.harmonics.at(phase);
+        }
+        let way = phase.rem_euclid(TAU);
+        self.amplitude[0] * (1.0 - 2.0 * way.min(TAU - way) / PI)
     }
 }
 

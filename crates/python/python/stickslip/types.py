@@ -545,15 +545,21 @@ class Table(TypedDict):
     """Pairs of time and value, at least two, in the order of time; two equal times are a jump; give either this
     or `file`."""
     file: NotRequired[str]
-    """CSV file with a header line, in the scenario's own folder or below it; give either this or `points`.
-    Numbers are in SI, or in the unit of their column head, as in `disp (µm)`, `t [ms]`, `disp_um` and
-    `time/ms`."""
+    """Table of an instrument, or CSV file with a header line, in the scenario's own folder or below it; give
+    either this or `points`. Numbers are in SI, or in the unit of their column head, as in `disp (µm)`, `t
+    [ms]`, `disp_um` and `time/ms`."""
     time: NotRequired[str]
-    """Name of the column of times, with or without the unit in its head; required with `file`. Times are in s
-    unless the head has a unit."""
+    """Name of the column of times, with or without the unit in its head; required with `file` unless there is a
+    `recipe`. Times are in s unless the head has a unit."""
     value: NotRequired[str]
-    """Name of the column of values, with or without the unit in its head; required with `file`. Values are in SI
-    unless the head has a unit."""
+    """Name of the column of values, with or without the unit in its head; required with `file` unless there is a
+    `recipe`. Values are in SI unless the head has a unit."""
+    recipe: NotRequired["Recipe"]
+    """How the file is read: a recipe of `stickslip import`, or its path; by default the file is read as
+    `stickslip import` shows it."""
+    smooth: NotRequired["Time"]
+    """Time window, s, above 0, in which a measured motion is a parabola: the noise of the values is removed by
+    least squares; by default the values are used as they are."""
     interpolation: NotRequired["Join"]
     """Interpolation between the points: "straight" by default, or "cubic", which is smooth and without
     overshoot."""
@@ -575,6 +581,9 @@ class Point(TypedDict):
     """Coordinate along the slide, m, 0 by default."""
     z: NotRequired["Length"]
     """Coordinate normal to the slide, upwards, m, 0 by default."""
+
+Recipe = Union[str, dict[str, Any]]
+"""How a file is read."""
 
 Join = Literal["straight", "cubic"]
 """Interpolation between the points of a table."""
@@ -1003,9 +1012,14 @@ class GapTable(TypedDict):
     """CSV file with a header line, in the scenario's own folder or below it; give either this or `points`. Each
     column head contains a unit, as in `f (nm)`, `r [um]`, `r_um` and `f/nm`."""
     radius: NotRequired[str]
-    """Name of the column of radii, with or without the unit in its head; required with `file`."""
+    """Name of the column of radii, with or without the unit in its head; required with `file` unless there is a
+    `recipe`."""
     gap: NotRequired[str]
-    """Name of the column of gaps, with or without the unit in its head; required with `file`."""
+    """Name of the column of gaps, with or without the unit in its head; required with `file` unless there is a
+    `recipe`."""
+    recipe: NotRequired["Recipe"]
+    """How the file is read: a recipe of `stickslip import`, or its path; by default the file is read as
+    `stickslip import` shows it."""
     kinks: NotRequired[list["Length"]]
     """Radii of the points at which the slope of the profile jumps, m, such as the edge of a flat; none by
     default. Between these kinks the profile is assumed to be smooth."""
@@ -1025,9 +1039,14 @@ class NormalLaw(TypedDict):
     """CSV file with a header line, in the scenario's own folder or below it; give either this or `points`. Each
     column head contains a unit, as in `d (nm)` and `F_mN`."""
     indentation: NotRequired[str]
-    """Name of the column of indentations, with or without the unit in its head; required with `file`."""
+    """Name of the column of indentations, with or without the unit in its head; required with `file` unless
+    there is a `recipe`."""
     force: NotRequired[str]
-    """Name of the column of forces, with or without the unit in its head; required with `file`."""
+    """Name of the column of forces, with or without the unit in its head; required with `file` unless there is a
+    `recipe`."""
+    recipe: NotRequired["Recipe"]
+    """How the file is read: a recipe of `stickslip import`, or its path; by default the file is read as
+    `stickslip import` shows it."""
 
 LawPoint = list[Union["Length", "Force"]]
 """Indentation and normal force."""
@@ -1046,12 +1065,25 @@ class Rough(TypedDict):
     """CSV file with a header line, in the scenario's own folder or below it; give either this or `heights`. The
     column head contains a unit, as in `z (nm)`."""
     height: NotRequired[str]
-    """Name of the column of heights, with or without the unit in its head; required with `file`."""
+    """Name of the column of heights, with or without the unit in its head; required with `file` unless there is
+    a `recipe`."""
+    recipe: NotRequired["Recipe"]
+    """How the file is read: a recipe of `stickslip import`, or its path; by default the file is read as
+    `stickslip import` shows it."""
+    level: NotRequired["Level"]
+    """Shape that is removed from the heights by least squares: none by default, or a straight line (levelling),
+    or a parabola (the form of a ball or cylinder)."""
+    within: NotRequired[list["Length"]]
+    """Places between which the line counts, m from its first point; by default all of it."""
     spacing: NotRequired["Length"]
-    """Spacing of the heights, m, above 0; required with `heights` and `file`; typical 10 nm to 10 um."""
+    """Spacing of the heights, m, above 0; required with `heights`; with `file` by default the mean distance of
+    its places. Typical 10 nm to 10 um."""
     self_affine: NotRequired["SelfAffine"]
     """Self-affine line, computed from these parameters, identical on every machine; give either this or
     `heights`."""
+
+Level = Literal["line", "parabola"]
+"""A shape that is removed from heights."""
 
 
 class SelfAffine(TypedDict):

@@ -1,6 +1,6 @@
 //! Profiles by points and lines, written out or in a file.
 
-use super::Count;
+use super::{Count, RecipeForm};
 use crate::quantity::{Force, Length};
 use crate::schema::{above_zero, gaps_or_file, heights_or_file, law_or_file};
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
@@ -24,14 +24,18 @@ pub(crate) struct GapTableForm {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(example = &"worn.csv")]
     pub(crate) file: Option<String>,
-    /// Name of the column of radii, with or without the unit in its head; required with `file`.
+    /// Name of the column of radii, with or without the unit in its head; required with `file` unless there is a `recipe`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(example = &"r")]
     pub(crate) radius: Option<String>,
-    /// Name of the column of gaps, with or without the unit in its head; required with `file`.
+    /// Name of the column of gaps, with or without the unit in its head; required with `file` unless there is a `recipe`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(example = &"f")]
     pub(crate) gap: Option<String>,
+    /// How the file is read: a recipe of `stickslip import`, or its path; by default the file is read as `stickslip import` shows it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(example = &"line-recipe.json")]
+    pub(crate) recipe: Option<RecipeForm>,
     /// Radii of the points at which the slope of the profile jumps, m, such as the edge of a flat; none by default. Between these kinks the
     /// profile is assumed to be smooth.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
@@ -54,14 +58,18 @@ pub(crate) struct NormalLawForm {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(example = &"indenter.csv")]
     pub(crate) file: Option<String>,
-    /// Name of the column of indentations, with or without the unit in its head; required with `file`.
+    /// Name of the column of indentations, with or without the unit in its head; required with `file` unless there is a `recipe`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(example = &"d")]
     pub(crate) indentation: Option<String>,
-    /// Name of the column of forces, with or without the unit in its head; required with `file`.
+    /// Name of the column of forces, with or without the unit in its head; required with `file` unless there is a `recipe`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(example = &"F")]
     pub(crate) force: Option<String>,
+    /// How the file is read: a recipe of `stickslip import`, or its path; by default the file is read as `stickslip import` shows it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(example = &"line-recipe.json")]
+    pub(crate) recipe: Option<RecipeForm>,
 }
 
 /// Rough line: the height profile of the one-dimensional foundation.
@@ -79,11 +87,24 @@ pub(crate) struct RoughForm {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(example = &"line.csv")]
     pub(crate) file: Option<String>,
-    /// Name of the column of heights, with or without the unit in its head; required with `file`.
+    /// Name of the column of heights, with or without the unit in its head; required with `file` unless there is a `recipe`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(example = &"z")]
     pub(crate) height: Option<String>,
-    /// Spacing of the heights, m, above 0; required with `heights` and `file`; typical 10 nm to 10 um.
+    /// How the file is read: a recipe of `stickslip import`, or its path; by default the file is read as `stickslip import` shows it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(example = &"line-recipe.json")]
+    pub(crate) recipe: Option<RecipeForm>,
+    /// Shape that is removed from the heights by least squares: none by default, or a straight line (levelling), or a parabola (the form
+    /// of a ball or cylinder).
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(example = &"line")]
+    pub(crate) level: Option<LevelForm>,
+    /// Places between which the line counts, m from its first point; by default all of it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(example = json!(["10 um", "50 um"]))]
+    pub(crate) within: Option<[Length; 2]>,
+    /// Spacing of the heights, m, above 0; required with `heights`; with `file` by default the mean distance of its places. Typical 10 nm to 10 um.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(example = &"1 um", transform = above_zero)]
     pub(crate) spacing: Option<Length>,
@@ -91,6 +112,16 @@ pub(crate) struct RoughForm {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(example = json!({ "rms": "20 nm", "hurst": 0.8, "longest": "20 um", "shortest": "1 um", "length": "100 um", "points": 1024, "seed": 1 }))]
     pub(crate) self_affine: Option<SelfAffineForm>,
+}
+
+/// A shape that is removed from heights.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub(crate) enum LevelForm {
+    /// A straight line.
+    Line,
+    /// A parabola.
+    Parabola,
 }
 
 /// Self-affine rough line: a sum of cosines with wavelengths between two cut-offs and pseudo-random phases. The amplitude of the wavelength

@@ -36,7 +36,9 @@ pub(crate) use generator::{CycleForm, GeneratorForm, HeadingForm};
 pub(crate) use input::{Bounds, InputForm, InterpolationForm};
 pub(crate) use lengths::Lengths;
 pub(crate) use material::MaterialForm;
-pub(crate) use measured::{GapPoint, GapTableForm, LawPoint, NormalLawForm, RoughForm, SelfAffineForm};
+pub(crate) use measured::{
+    GapPoint, GapTableForm, LawPoint, LevelForm, NormalLawForm, RoughForm, SelfAffineForm,
+};
 pub(crate) use output::{FieldsOutputForm, MemoryOutputForm, OutputForm};
 pub(crate) use periodic::{BurstForm, Periodic, SectionForm};
 pub(crate) use plain::{Count, Two};
@@ -48,7 +50,7 @@ pub(crate) use shapes::{
     ChirpForm, HarmonicsForm, ParabolaForm, SCurveForm, SawtoothForm, StepForm, TrapezoidForm,
     TwoHarmonicsForm,
 };
-pub(crate) use table::{JoinForm, Point, TableForm};
+pub(crate) use table::{JoinForm, Point, RecipeForm, TableForm};
 pub(crate) use value::{Moving, Parts, WaveformRef};
 pub(crate) use waveform::WaveformForm;
 pub(crate) use written::{EventsOutputForm, KindForm, StatesForm, StepsOutputForm, WindowForm};

@@ -2,7 +2,7 @@
 
 use super::periodic::{is_false, no_time, no_value};
 use crate::quantity::{AnyQuantity, Time};
-use crate::schema::{at_least_zero, points_or_file};
+use crate::schema::{above_zero, at_least_zero, points_or_file};
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::de::{self, SeqAccess, Visitor};
 use serde::{Deserialize, Deserializer, Serialize};
@@ -30,20 +30,29 @@ pub(crate) struct TableForm {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(length(min = 2), example = json!([[0, 0], ["1 ms", "200 nm"], ["2 ms", 0]]))]
     pub(crate) points: Option<Vec<Point>>,
-    /// CSV file with a header line, in the scenario's own folder or below it; give either this or `points`. Numbers are in SI, or in the
+    /// Table of an instrument, or CSV file with a header line, in the scenario's own folder or below it; give either this or `points`. Numbers are in SI, or in the
     /// unit of their column head, as in `disp (µm)`, `t [ms]`, `disp_um` and `time/ms`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(example = &"measured.csv")]
     pub(crate) file: Option<String>,
-    /// Name of the column of times, with or without the unit in its head; required with `file`. Times are in s unless the head has a unit.
+    /// Name of the column of times, with or without the unit in its head; required with `file` unless there is a `recipe`. Times are in s unless the head has a unit.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(example = &"time_s")]
     pub(crate) time: Option<String>,
-    /// Name of the column of values, with or without the unit in its head; required with `file`. Values are in SI unless the head has a
+    /// Name of the column of values, with or without the unit in its head; required with `file` unless there is a `recipe`. Values are in SI unless the head has a
     /// unit.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(example = &"stroke_m")]
     pub(crate) value: Option<String>,
+    /// How the file is read: a recipe of `stickslip import`, or its path; by default the file is read as `stickslip import` shows it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(example = &"scope-recipe.json")]
+    pub(crate) recipe: Option<RecipeForm>,
+    /// Time window, s, above 0, in which a measured motion is a parabola: the noise of the values is removed by least squares; by default
+    /// the values are used as they are.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(example = &"20 ms", transform = above_zero)]
+    pub(crate) smooth: Option<Time>,
     /// Interpolation between the points: "straight" by default, or "cubic", which is smooth and without overshoot.
     #[serde(default, skip_serializing_if = "is_straight")]
     #[schemars(example = &"cubic")]
@@ -64,6 +73,16 @@ pub(crate) struct TableForm {
     #[serde(default = "no_time")]
     #[schemars(example = &"1 ms", transform = at_least_zero)]
     pub(crate) delay: Time,
+}
+
+/// How a file is read.
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+#[serde(untagged)]
+pub(crate) enum RecipeForm {
+    /// Path of a recipe that `stickslip import` wrote, in the scenario's own folder or below it.
+    File(String),
+    /// The recipe itself; `stickslip schema recipe` prints its keys.
+    Own(serde_json::Map<String, serde_json::Value>),
 }
 
 /// A point of a table.

@@ -4,7 +4,7 @@ use super::{Meaning, motion};
 use crate::PlotName;
 use crate::Warning;
 use crate::fault::Fault;
-use crate::form::{Form, FreedomForm, Parts, PlotForm, RunStartForm};
+use crate::form::{Form, FreedomForm, Parts, PlotForm, ProfileForm, RoughForm, RunStartForm, WaveformForm};
 use crate::path::{At, KeyPath};
 use std::collections::HashSet;
 use std::f64::consts::TAU;
@@ -17,6 +17,20 @@ const MODULUS: (f64, f64) = (1e3, 2e12);
 const TURN: f64 = TAU * (1.0 + 1e-9);
 /// More than the coefficient of friction of rubber on clean glass.
 const FRICTION: f64 = 4.0;
+
+/// Fewest values of which noise and tilt are told.
+const ROWS: usize = 20;
+/// Noise of a measured motion as a share of its range: more moves a contact to and fro.
+const NOISE: f64 = 5e-4;
+/// Tilt of a line over its length, in ranges of what is left of it.
+const TILT: f64 = 1.0;
+
+/// Least and largest of values.
+fn range(values: &[f64]) -> (f64, f64) {
+    values
+        .iter()
+        .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), value| (low.min(*value), high.max(*value)))
+}
 
 /// Something odd: what it is about, as the word of a [`Warning`](crate::Warning), and what there is to say.
 #[derive(Debug)]
@@ -36,6 +50,7 @@ pub(crate) fn of(form: &Form, meaning: &Meaning, is_written: impl Fn(&KeyPath) -
     odd.run();
     odd.waveforms_too_late();
     odd.phases();
+    odd.measured();
     let cuts = meaning.stacks.iter().filter_map(|piezo| super::driver::cut(piezo, &meaning.scene));
     cuts.for_each(|fault| odd.find("window", fault));
     for (piezo, (_, actuator)) in meaning.stacks.iter().zip(form.actuators.iter()) {
@@ -59,6 +74,53 @@ struct Oddities<'a> {
 impl Oddities<'_> {
     fn find(&mut self, kind: &'static str, fault: Fault) {
         self.found.push(Oddity { kind, fault });
+    }
+
+    /// Measured motions with noise, and measured lines that are askew.
+    fn measured(&mut self) {
+        let root = At::ROOT;
+        let at = root.key("waveforms");
+        for (name, waveform) in self.form.waveforms.iter() {
+            let WaveformForm::Table(table) = waveform else { continue };
+            let values: Vec<f64> = table.points.iter().flatten().map(|point| point.1.si).collect();
+            let (low, high) = range(&values);
+            let noise = stickslip_record::noise(&values);
+            if values.len() >= ROWS && noise > NOISE * (high - low) {
+                let share = 100.0 * noise / (high - low);
+                let fault = at
+                    .key(name)
+                    .key("table")
+                    .fault(format!("its values have noise of {share:.2} % of their range"));
+                let help = "noise moves whatever follows it to and fro, and loops of contacts mean nothing: give \"smooth\", the time in which the motion is a parabola";
+                self.find("noise", fault.help(help));
+            }
+        }
+        let at = root.key("contacts");
+        for (name, contact) in self.form.contacts.iter() {
+            let ProfileForm::Rough(RoughForm { heights: Some(heights), .. }) = &contact.profile else {
+                continue;
+            };
+            let heights: Vec<f64> = heights.iter().map(|height| height.si).collect();
+            let count = heights.len() as f64;
+            let middle = 0.5 * (count - 1.0);
+            let moment: f64 =
+                heights.iter().enumerate().map(|(row, height)| (row as f64 - middle) * height).sum();
+            let slope = 12.0 * moment / (count * (count * count - 1.0));
+            let level: Vec<f64> =
+                heights.iter().enumerate().map(|(row, height)| height - slope * row as f64).collect();
+            let (low, high) = range(&level);
+            if heights.len() >= ROWS && slope.abs() * count > TILT * (high - low) {
+                let fault = at
+                    .key(name)
+                    .key("profile")
+                    .key("rough")
+                    .fault("the line is askew: its tilt is more than its roughness");
+                self.find(
+                    "tilt",
+                    fault.help("give \"level\": \"line\" to remove it; what touches is one end of it"),
+                );
+            }
+        }
     }
 
     /// Names that nothing refers to.

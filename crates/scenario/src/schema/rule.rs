@@ -124,19 +124,20 @@ pub(crate) fn law_or_file(schema: &mut Schema) {
 pub(crate) fn heights_or_file(schema: &mut Schema) {
     let without =
         |keys: &[&str]| keys.iter().map(|key| ((*key).to_owned(), json!(false))).collect::<Map<_, _>>();
-    let here = json!({ "required": ["heights", "spacing"], "properties": without(&["file", "height", "self_affine"]) });
-    let there = json!({ "required": ["file", "height", "spacing"], "properties": without(&["heights", "self_affine"]) });
-    let made = json!({ "required": ["self_affine"], "properties": without(&["heights", "file", "height", "spacing"]) });
+    let here = json!({ "required": ["heights", "spacing"], "properties": without(&["file", "recipe", "height", "self_affine"]) });
+    let there = json!({ "required": ["file"], "anyOf": [{ "required": ["height"] }, { "required": ["recipe"] }], "properties": without(&["heights", "self_affine"]) });
+    let made = json!({ "required": ["self_affine"], "properties": without(&["heights", "file", "recipe", "height", "spacing", "level", "within"]) });
     schema.insert("oneOf".to_owned(), json!([here, there, made]));
 }
 
 /// A list stands here, or in the columns of a file.
 fn here_or_in_file(schema: &mut Schema, list: [&str; 1], columns: &[&str]) {
-    let there: Vec<&str> = ["file"].iter().chain(columns).copied().collect();
+    let there: Vec<&str> = ["file", "recipe"].iter().chain(columns).copied().collect();
     let without =
         |keys: &[&str]| keys.iter().map(|key| ((*key).to_owned(), json!(false))).collect::<Map<_, _>>();
     let here = json!({ "required": list, "properties": without(&there) });
-    let there = json!({ "required": there, "properties": without(&list) });
+    let named: Vec<&str> = ["file"].iter().chain(columns).copied().collect();
+    let there = json!({ "anyOf": [{ "required": named }, { "required": ["file", "recipe"] }], "properties": without(&list) });
     schema.insert("oneOf".to_owned(), json!([here, there]));
 }
 

@@ -633,3 +633,42 @@ fn an_equilibrium_is_not_refused_for_rounding() {
         assert!(begun.is_ok(), "{radius}: {:?}", begun.err());
     }
 }
+
+/// One motion of a scope, of a logger and in plain form is the same motion: units in the second head line, semicolons and decimal commas, a recipe in a file.
+#[test]
+fn tables_of_instruments_are_the_plain_ones() {
+    let folder = tempfile::tempdir().unwrap();
+    let write = |name: &str, text: &str| fs::write(folder.path().join(name), text).unwrap();
+    write("plain.csv", "t (ms),x (um)\n0,0\n1,0.5\n2,0\n");
+    write("scope.csv", "x-axis,1\nms,um\n0.0,0.0\n1.0,0.5\n2.0,0.0\n");
+    write("logger.csv", "Messung 7;\n\nZeit [ms];Weg [um]\n0,0;0,0\n1,0;0,5\n2,0;0,0\n");
+    write("bare.dat", "0 0\n1 50\n2 0\n");
+    write(
+        "recipe.json",
+        r#"{"columns": {"time": {"column": 1, "unit": "ms"}, "displacement": {"column": 2, "unit": "nm", "gain": 10}}}"#,
+    );
+    let read = |table: &str| {
+        let text = format!(
+            r#"{{ "stickslip": 1, "waveforms": {{ "w": {{ "table": {table} }} }}, "bodies": {{ "rig": {{ "x": {{ "follows": "w" }} }} }},
+                "contacts": {{ "c": {{ "between": ["rig", "ground"], "materials": ["steel", "steel"], "friction": 0.3,
+                    "profile": {{ "sphere": {{ "radius": "1 mm" }} }}, "normal": {{ "force": "1 N" }} }} }}, "run": {{ "duration": 1 }} }}"#
+        );
+        Scenario::from_str(&text, "s.json", folder.path()).map(|scenario| scenario.resolved())
+    };
+    let plain = read(r#"{ "file": "plain.csv", "time": "t", "value": "x" }"#).unwrap();
+    for table in [
+        r#"{ "file": "scope.csv", "time": "x-axis", "value": "1" }"#,
+        r#"{ "file": "logger.csv", "recipe": {} }"#,
+        r#"{ "file": "bare.dat", "recipe": "recipe.json" }"#,
+    ] {
+        assert_eq!(read(table).unwrap(), plain, "{table}");
+    }
+    let gone = read(r#"{ "file": "bare.dat", "recipe": "gone.json" }"#).unwrap_err().to_string();
+    assert!(gone.contains("there is no file \"gone.json\""), "{gone}");
+    // Of evenly spaced values a parabola through a window is that of Savitzky and Golay 1964: (-3, 12, 17, 12, -3)/35.
+    let points = "[[0, 0], [1, 1], [2, 5], [3, 2], [4, 0]]";
+    let smooth: serde_json::Value =
+        serde_json::from_str(&read(&format!(r#"{{ "points": {points}, "smooth": 4 }}"#)).unwrap()).unwrap();
+    let middle = smooth["waveforms"]["w"]["table"]["points"][2][1].as_f64().unwrap();
+    assert!((middle - (12.0 + 17.0 * 5.0 + 12.0 * 2.0) / 35.0).abs() < 1e-12, "{middle}");
+}

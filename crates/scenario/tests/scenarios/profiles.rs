@@ -113,3 +113,33 @@ fn a_line_made_by_numbers_keeps_its_recipe() {
     is(text, Path::new(""), &want, "rough");
     assert!(load(text, Path::new("")).resolved().contains("self_affine"));
 }
+
+/// A line of a profilometer with a preamble, tabs and decimal commas, 1 % askew: its places tell the spacing, its tilt goes by `level`, and `within` takes a part.
+#[test]
+fn lines_of_instruments_are_read_and_levelled() {
+    let folder = tempfile::tempdir().unwrap();
+    let wave = |k: i32| 20.0 * (0.5 * f64::from(k)).sin();
+    let mut text = "Scan 7\n\nLateral\tHeight\num\tnm\n".to_owned();
+    for k in 0..100 {
+        let place = 0.2 * f64::from(k);
+        text += &format!("{place:.1}\t{:.6}\n", 5.0 + 10.0 * place + wave(k)).replace('.', ",");
+    }
+    fs::write(folder.path().join("line.txt"), text).unwrap();
+    let heights = |more: &str| -> (f64, Vec<f64>) {
+        let scenario =
+            load(&format!(r#"{{ "rough": {{ "file": "line.txt", "recipe": {{}}{more} }} }}"#), folder.path());
+        let resolved: serde_json::Value = serde_json::from_str(&scenario.resolved()).unwrap();
+        let rough = &resolved["contacts"]["c"]["profile"]["rough"];
+        let all = rough["heights"].as_array().unwrap().iter().map(|height| height.as_f64().unwrap());
+        (rough["spacing"].as_f64().unwrap(), all.collect())
+    };
+    let (spacing, plain) = heights("");
+    assert!((spacing - 0.2e-6).abs() < 1e-15 && (plain[3] - 1e-9 * (11.0 + wave(3))).abs() < 1e-14);
+    let (_, level) = heights(r#", "level": "line""#);
+    // Least squares leave neither a mean nor a first moment.
+    let moment: f64 = level.iter().enumerate().map(|(k, height)| k as f64 * height).sum();
+    assert!(level.iter().sum::<f64>().abs() < 1e-20 && moment.abs() < 1e-18);
+    assert!((level[40] - level[37] - 1e-9 * (wave(40) - wave(37))).abs() < 0.3e-9);
+    let (_, part) = heights(r#", "within": ["2 um", "4 um"]"#);
+    assert_eq!(part, plain[10..=20]);
+}

@@ -1,0 +1,42 @@
+//! Spreadsheets: the first sheet that has cells, as a text of fields between tabs.
+
+use crate::error::RecordError;
+use calamine::{Data, Reader, open_workbook_auto_from_rs};
+use std::fmt::Write;
+use std::io::Cursor;
+use std::path::Path;
+
+/// Endings of files that are spreadsheets.
+const ENDINGS: [&str; 5] = ["xlsx", "xlsm", "xlsb", "xls", "ods"];
+
+/// Whether a file is a spreadsheet, by its name.
+pub(crate) fn is_sheet(name: &str) -> bool {
+    let ending = Path::new(name).extension().map(|ending| ending.to_string_lossy().to_lowercase());
+    ending.is_some_and(|ending| ENDINGS.contains(&ending.as_str()))
+}
+
+/// The text of a spreadsheet.
+pub(crate) fn text(name: &str, bytes: &[u8]) -> Result<String, RecordError> {
+    let failed = |why: &dyn ToString| RecordError::Sheet { file: name.to_owned(), why: why.to_string() };
+    let mut book = open_workbook_auto_from_rs(Cursor::new(bytes)).map_err(|error| failed(&error))?;
+    for page in book.sheet_names() {
+        let sheet = book.worksheet_range(&page).map_err(|error| failed(&error))?;
+        if sheet.is_empty() {
+            continue;
+        }
+        let mut text = String::new();
+        for row in sheet.rows() {
+            for (place, cell) in row.iter().enumerate() {
+                let start = if place == 0 { "" } else { "\t" };
+                // A number as it is kept, not as it is shown.
+                let _ = match cell {
+                    Data::Float(number) => write!(text, "{start}{number}"),
+                    other => write!(text, "{start}{}", other.to_string().replace(['\t', '\n', '\r'], " ")),
+                };
+            }
+            text.push('\n');
+        }
+        return Ok(text);
+    }
+    Err(failed(&"it has no cells"))
+}
