@@ -279,6 +279,38 @@ fn cycles_and_times_are_chosen() {
     }
 }
 
+/// A normal force of 10 N that falls to 8 N: μ_e of each cycle is that of its own mean load, 5 N/(4·P̄) · 4·δ₀/δ₀ = 5/P̄ for an element; the regime follows from its B = 1 and the
+/// threshold of a ball, 0.7695. Of many cycles the course is drawn.
+#[test]
+fn the_load_is_a_channel_and_the_regime_follows_from_the_profile() {
+    let folder = tempdir().unwrap();
+    let (mut text, mut slip) = ("t (s),disp (um),force (N),Fz (N)\n".to_owned(), 0.0);
+    for row in 0..=2000 {
+        let u = 10.0 * (std::f64::consts::TAU * row as f64 / 200.0).sin();
+        slip = f64::clamp(slip, u - 2.5, u + 2.5);
+        writeln!(text, "{},{u},{},{}", row as f64 * 5e-3, 2.0 * (u - slip), 10.0 - 1e-3 * row as f64)
+            .unwrap();
+    }
+    let output = measure(folder.path(), &text, &["--profile", "sphere", "--json"]);
+    assert_eq!(code(&output), 0, "{}", stderr(&output));
+    let told: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+    assert_eq!(told["stages"][0]["regime"], "gross", "{told}");
+    let table = Table::read(&folder.path().join("out/cycles.csv"));
+    for (k, friction) in table.column("energy_coefficient_of_friction").iter().enumerate() {
+        let load = 10.0 - 0.001 * (50.0 + 200.0 * (k as f64 + 0.5));
+        let exact = 5.0 / load;
+        assert!(
+            (friction.parse::<f64>().unwrap() / exact - 1.0).abs() < 2e-3,
+            "{k}: {friction}, not {exact}"
+        );
+    }
+    assert!(table.column("regime").iter().all(|regime| *regime == "gross"));
+    let files = ["cycles.csv", "evolution.png", "log.png", "loop.png"];
+    assert_eq!(listing(&folder.path().join("out")), files);
+    let refused = measure(folder.path(), &text, &["--profile", "brick"]);
+    assert!(stderr(&refused).contains("expected sphere, cone, flat, or a power above 0"));
+}
+
 /// A force that is constant, or the displacement itself, encloses nothing; three spikes are left out and counted.
 #[test]
 fn odd_channels_are_flagged() {

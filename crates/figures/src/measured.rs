@@ -2,13 +2,22 @@
 
 use crate::look::{Look, Pen, Picture};
 use crate::pictures::FigureError;
-use stickslip_plot::{HysteresisLoop, Ink, loop_figure};
+use stickslip_plot::{
+    Arrangement, Axis, Figure, HysteresisLoop, Ink, Label, MapContent, Panel, ResultMap, Series, loop_figure,
+    map_figure,
+};
 use stickslip_run::measured::middle;
 use stickslip_run::program::this_program;
 use stickslip_run::provenance::{PROGRAM, TITLE};
 
 /// Name of the picture.
 pub const NAME: &str = "loop";
+/// Names of those of many cycles.
+const LOG: &str = "log";
+const EVOLUTION: &str = "evolution";
+/// Columns and rows of colours.
+const COLUMNS: usize = 600;
+const LEVELS: usize = 120;
 /// Width of the last measured loop and of those before it.
 const BOLD: f64 = 1.15;
 const FINE: f64 = 0.9;
@@ -37,10 +46,101 @@ pub struct Loops<'a> {
     pub simulated: Option<(Curve<'a>, Option<[f64; 2]>)>,
 }
 
-/// Names of all files that any look gives to it.
+/// The cycles of a record, one after the other.
+#[derive(Debug, Clone)]
+pub struct Course<'a> {
+    /// Above the pictures.
+    pub title: &'a str,
+    /// Numbers of the cycles.
+    pub numbers: Vec<f64>,
+    /// Their loops.
+    pub loops: Vec<Curve<'a>>,
+    /// What becomes of them: names, units, and a value of each cycle, no number where there is none.
+    pub figures: Vec<(&'static str, &'static str, Vec<f64>)>,
+}
+
+/// Names of all files that any look gives to them.
 #[must_use]
 pub fn all_files() -> Vec<String> {
-    Look::all_files_of(&[NAME])
+    Look::all_files_of(&[NAME, LOG, EVOLUTION])
+}
+
+/// Draws the force over displacement and cycle, on the way from the largest displacement to the smallest, and the figures over the cycles.
+///
+/// # Errors
+/// What the drawing itself fails for.
+pub fn draw_course(course: &Course<'_>, look: &Look) -> Result<Vec<Picture>, FigureError> {
+    let provenance =
+        || vec![(TITLE.to_owned(), course.title.to_owned()), (PROGRAM.to_owned(), this_program())];
+    let draw = |plot, figure| {
+        let pen = Pen { look, provenance: provenance(), kept: None };
+        pen.draw_as(plot, figure).map_err(|source| FigureError::Plot { plot, source })
+    };
+    let mut pictures = draw(LOG, log_figure(course))?;
+    pictures.extend(draw(EVOLUTION, evolution_figure(course))?);
+    Ok(pictures)
+}
+
+/// The force as colours over cycles and displacements.
+fn log_figure<'a>(course: &Course<'a>) -> Figure<'a> {
+    let count = course.loops.len().min(COLUMNS);
+    let chosen: Vec<usize> = (0..count).map(|k| k * (course.loops.len() - 1) / (count - 1).max(1)).collect();
+    let ends = |curve: &Curve<'_>| {
+        let (low, high) = curve
+            .u
+            .iter()
+            .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), u| (low.min(*u), high.max(*u)));
+        [low, high]
+    };
+    let all = course.loops.iter().map(ends);
+    let [low, high] = all.fold([f64::INFINITY, f64::NEG_INFINITY], |a, b| [a[0].min(b[0]), a[1].max(b[1])]);
+    let ys: Vec<f64> = (0..LEVELS).map(|k| low + (high - low) * (k as f64 + 0.5) / LEVELS as f64).collect();
+    let values = chosen.iter().flat_map(|k| falling(&course.loops[*k], &ys)).collect();
+    let map = ResultMap {
+        axes: [("cycle", "", false), ("displacement", "m", false)],
+        places: [chosen.iter().map(|k| course.numbers[*k]).collect(), ys],
+        content: MapContent::Numbers { name: ("force on the way down", "N"), values, contours: &[] },
+        points: &[],
+    };
+    map_figure(course.title, map)
+}
+
+/// The force of a loop on its way from the largest displacement to the smallest, at displacements; no number beyond.
+fn falling(curve: &Curve<'_>, at: &[f64]) -> Vec<f64> {
+    let count = curve.u.len();
+    let place = |is_better: fn(f64, f64) -> bool| {
+        (0..count).reduce(|best, k| if is_better(curve.u[k], curve.u[best]) { k } else { best }).unwrap_or(0)
+    };
+    let (top, bottom) = (place(|a, b| a > b), place(|a, b| a < b));
+    let steps = (bottom + count - top) % count;
+    let mut way: Vec<[f64; 2]> =
+        (0..=steps).map(|k| (top + k) % count).map(|k| [curve.u[k], curve.force[k]]).collect();
+    way.sort_by(|a, b| a[0].total_cmp(&b[0]));
+    let force = |u: f64| {
+        let after = way.partition_point(|point| point[0] < u);
+        let (before, after) = (way.get(after.wrapping_sub(1))?, way.get(after)?);
+        let width = after[0] - before[0];
+        let share = if width > 0.0 { (u - before[0]) / width } else { 0.0 };
+        Some(before[1] + share * (after[1] - before[1]))
+    };
+    at.iter().map(|u| force(*u).unwrap_or(f64::NAN)).collect()
+}
+
+/// The figures, one above the other.
+fn evolution_figure<'a>(course: &Course<'a>) -> Figure<'a> {
+    let panel = |(name, unit, values): &(&'static str, &'static str, Vec<f64>)| Panel {
+        x: Axis::new(Label::plain("cycle"), ""),
+        y: Axis::new(Label::markup(name), unit),
+        series: vec![Series::new("", course.numbers.clone(), values.clone())],
+        ..Panel::default()
+    };
+    let is_known = |figure: &&(&str, &str, Vec<f64>)| figure.2.iter().any(|value| value.is_finite());
+    Figure {
+        title: Label::plain(course.title),
+        panels: course.figures.iter().filter(is_known).map(panel).collect(),
+        arrangement: Arrangement::Column { share_x: true },
+        ..Figure::default()
+    }
 }
 
 /// Draws it.

@@ -30,6 +30,19 @@ pub enum Regime {
     Gross,
 }
 
+impl Regime {
+    /// Its word.
+    #[must_use]
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::Stick => "stick",
+            Self::Partial => "partial",
+            Self::Mixed => "mixed",
+            Self::Gross => "gross",
+        }
+    }
+}
+
 impl Thresholds {
     /// Energy ratio A below which a loop counts as closed: above the noise of a good rig and of a simulation's
     /// tolerance, below the loop of a sphere at a hundredth of its gross-slip amplitude.

@@ -52,6 +52,7 @@ fn measured(
                 has_time,
                 u,
                 force,
+                normal: None,
                 is_turned: false,
                 notes: Vec::new(),
             })

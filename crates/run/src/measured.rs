@@ -19,7 +19,7 @@ use stickslip_measure::{
     Cycle, Interval, SeriesError, SteadyLoop, noise, returning_cycles, reversal_stiffness, reversals,
     split_cycles,
 };
-use stickslip_measure::{Periods, Trail};
+use stickslip_measure::{Periods, Regime, Thresholds, Trail};
 use stickslip_record::{Recipe, Record, RecordError, Role};
 use thiserror::Error;
 
@@ -28,7 +28,7 @@ pub use stage::{Account, MISFIT, Stage};
 
 /// Columns of the table of measured cycles: names as in a run's `cycles.csv`. Times are places of lines where there are none; stiffnesses are
 /// fitted to the first tenth of the way back.
-const HEAD: [&str; 18] = [
+const HEAD: [&str; 20] = [
     "cycle",
     "start_s",
     "end_s",
@@ -47,12 +47,16 @@ const HEAD: [&str; 18] = [
     "work_J",
     "stage",
     "flags",
+    "mean_normal_force_N",
+    "regime",
 ];
 /// Reversals are confirmed by a way back of so many standard deviations of the noise, and of this share of the range at least.
 const SURE: f64 = 12.0;
 const LEAST: f64 = 1e-3;
 /// A cycle is open whose ends are farther apart than this share of its range.
 const OPEN: f64 = 0.1;
+/// A load varies whose range is more than this share of its mean.
+const VARIES: f64 = 0.1;
 /// How often the compliance of a rig is found again.
 const ROUNDS: usize = 3;
 /// Cycles follow each other whose ends are apart by no more than this share of a cycle.
@@ -103,6 +107,8 @@ pub struct Measured {
     pub u: Vec<f64>,
     /// Forces that drive them, N.
     pub force: Vec<f64>,
+    /// Normal forces, N, where the table has them.
+    pub normal: Option<Vec<f64>>,
     /// Whether the table has them with the other sign: as the forces that resist.
     pub is_turned: bool,
     /// What reading it has done that nobody has asked for, in sentences.
@@ -123,6 +129,10 @@ pub struct MeasuredCycle {
     pub opening_at_zero: Option<f64>,
     /// Tangent of the branches at the reversals, N/m; none of a loop without a way.
     pub stiffness: Option<f64>,
+    /// Mean, least and largest normal force, N, where the table has them.
+    pub normal: Option<[f64; 3]>,
+    /// How it slips, by the thresholds of a profile that is known.
+    pub regime: Option<Regime>,
     /// ∮F du over its rows as they are, J.
     pub work: f64,
     /// Number of its stage, from 1: cycles of about one amplitude and one time that follow each other.
@@ -146,6 +156,8 @@ pub struct How {
     pub correct: Correct,
     /// The rig that lies in series with the contact, whose share of the displacement is taken out.
     pub rig: Option<Rig>,
+    /// Power n of the contact's profile f ~ rⁿ, for its regimes.
+    pub profile: Option<f64>,
 }
 
 /// What was found in a record.
@@ -174,6 +186,15 @@ impl Evaluated {
         self.stages.iter().max_by_key(|stage| stage.cycles.len())
     }
 
+    /// Mean normal force of the stage of most cycles, N, where the table has normal forces and they press.
+    #[must_use]
+    pub fn mean_load(&self) -> Option<f64> {
+        let stage = self.longest()?;
+        let cycles = &self.cycles[stage.cycles.clone()];
+        let sum: Option<f64> = cycles.iter().map(|cycle| cycle.normal.map(|[mean, ..]| mean)).sum();
+        sum.map(|sum| sum / cycles.len() as f64).filter(|mean| *mean > 0.0)
+    }
+
     /// Whether the force resists the motion: by the steady loop where the rows tell, else by the slopes after the reversals, else by the area.
     fn is_turned(&self) -> bool {
         if let Some(steady) =
@@ -199,8 +220,9 @@ impl Measured {
         let u = u.unwrap_or_default();
         let has_time = time.is_some();
         let t = time.unwrap_or_else(|| (0..u.len()).map(|line| line as f64).collect());
+        let normal = column(Role::Normal);
         let (file, force, notes) = (path.display().to_string(), force.unwrap_or_default(), record.notes);
-        Ok(Self { file, t, has_time, u, force, is_turned: false, notes })
+        Ok(Self { file, t, has_time, u, force, normal, is_turned: false, notes })
     }
 
     /// Evaluates it: finds its cycles, of a period from the first row on or from one reversal to the next of its kind, measures
@@ -272,7 +294,7 @@ impl Measured {
         if start >= end {
             return Err(MeasuredError::Nothing(self.file.clone()));
         }
-        for values in [&mut self.t, &mut self.u, &mut self.force] {
+        for values in [&mut self.t, &mut self.u, &mut self.force].into_iter().chain(&mut self.normal) {
             values.truncate(end);
             values.drain(..start);
         }
@@ -301,7 +323,14 @@ impl Measured {
             return Err(MeasuredError::NoCycle(self.file.clone()));
         }
         let mut cycles = self.measure(&spans, &u, &force).map_err(failed)?;
-        let stages = stages(&mut cycles, (&self.t, &u, &force));
+        // A compliance that is not known leaves B alone.
+        let is_bare = correction.compliance != 0.0;
+        let of = if is_bare { Thresholds::of_profile } else { Thresholds::with_unknown_rig };
+        let thresholds = how.profile.map(of).transpose().map_err(failed)?;
+        for cycle in &mut cycles {
+            cycle.regime = thresholds.map(|thresholds| thresholds.regime(&cycle.cycle));
+        }
+        let stages = stages(&mut cycles, (&self.t, &u, &force), thresholds.as_ref());
         let account = Account::of(&cycles, (&self.u, &self.force));
         let is_changed = matches!(u, Cow::Owned(_)) || matches!(force, Cow::Owned(_));
         let rows = is_changed.then(|| [u.into_owned(), force.into_owned()]);
@@ -325,6 +354,8 @@ impl Measured {
                 cycle: of_loop(&u, &force)?,
                 opening_at_zero: Cycle::of_loop(&u, &force)?.half_opening,
                 stiffness: reversal_stiffness(&u, &force),
+                normal: self.normal.as_ref().map(|normal| of_load(&normal[span.clone()])),
+                regime: None,
                 work: (span.start..span.end - 1).map(|row| work_after((&self.u, &self.force), row)).sum(),
                 stage: 0,
                 is_open,
@@ -332,6 +363,12 @@ impl Measured {
         };
         spans.iter().map(one).collect()
     }
+}
+
+/// Mean, least and largest of normal forces.
+fn of_load(normal: &[f64]) -> [f64; 3] {
+    let (low, high) = extent(normal);
+    [normal.iter().sum::<f64>() / normal.len() as f64, low, high]
 }
 
 /// Values without the gap between their ends, spread evenly over all rows.
@@ -414,13 +451,12 @@ pub fn simulated(
     Some((last.x, last.y, cycle))
 }
 
-/// `cycles.csv` of measured loops; μ_e under a mean normal force, N. What a cycle does not have is left empty.
+/// `cycles.csv` of measured loops; μ_e under a mean normal force, N, or else under that of each cycle. What a cycle does not have is left empty.
 #[must_use]
 pub fn table(cycles: &[MeasuredCycle], normal: Option<f64>) -> String {
     let mut text = HEAD.join(",") + "\n";
-    for (number, MeasuredCycle { time, cycle, opening_at_zero, stiffness, work, stage, is_open, .. }) in
-        (1..).zip(cycles)
-    {
+    for (number, all) in (1..).zip(cycles) {
+        let MeasuredCycle { time, cycle, opening_at_zero, stiffness, work, stage, .. } = all;
         let values = [
             Some(time[0]),
             Some(time[1]),
@@ -431,7 +467,7 @@ pub fn table(cycles: &[MeasuredCycle], normal: Option<f64>) -> String {
             cycle.energy_ratio(),
             cycle.system_free_ratio(),
             cycle.slip_ratio(),
-            normal.and_then(|normal| cycle.friction_coefficient(normal)),
+            all.friction(normal),
             cycle.stiffness_after_maximum,
             cycle.stiffness_after_minimum,
             *opening_at_zero,
@@ -439,10 +475,28 @@ pub fn table(cycles: &[MeasuredCycle], normal: Option<f64>) -> String {
             Some(*work),
         ];
         let cells = values.map(|value| value.map_or_else(String::new, |value| format!("{value:e}")));
-        let flags = if *is_open { "open" } else { "" };
-        text.push_str(&format!("{number},{},{stage},{flags}\n", cells.join(",")));
+        let load = all.normal.map_or_else(String::new, |[mean, ..]| format!("{mean:e}"));
+        let regime = all.regime.map_or("", Regime::word);
+        text.push_str(&format!("{number},{},{stage},{},{load},{regime}\n", cells.join(","), all.flags()));
     }
     text
+}
+
+impl MeasuredCycle {
+    /// Energy coefficient of friction under a mean normal force, N, or else under its own.
+    #[must_use]
+    pub fn friction(&self, normal: Option<f64>) -> Option<f64> {
+        let own = self.normal.map(|[mean, ..]| mean).filter(|mean| *mean > 0.0);
+        normal.or(own).and_then(|normal| self.cycle.friction_coefficient(normal))
+    }
+
+    /// What is odd about it: `open`, a `load` that varies by more than a tenth of its mean, or `unloaded`.
+    fn flags(&self) -> String {
+        let is_unloaded = self.normal.is_some_and(|[mean, ..]| mean <= 0.0);
+        let varies = self.normal.is_some_and(|[mean, low, high]| high - low > VARIES * mean.abs());
+        let all = [(self.is_open, "open"), (is_unloaded, "unloaded"), (varies && !is_unloaded, "load")];
+        all.iter().filter(|(is, _)| *is).map(|(_, word)| *word).collect::<Vec<_>>().join(" ")
+    }
 }
 
 /// The middle between the least and the largest value.

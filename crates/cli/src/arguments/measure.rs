@@ -16,18 +16,17 @@ in 95 of 100 records. The file contains displacements and tangential forces, and
 file is read. The options --time, --displacement and --force select columns by name or number, with a unit after a colon. Numbers \
 without a unit are in SI.
 
-A cycle extends from one reversal to the next reversal in the same direction. Cycles of one amplitude \
-are a stage; rows and work in cycles and outside are reported, and both add up to the record. Lag and drift of the signals are estimated. \
+Cycles extend from one reversal to the next in the same direction. Cycles of one amplitude \
+are a stage; rows and work in cycles and outside add up to the record. Lag and drift of the signals are estimated. \
 If the force opposes the motion, the sign of the force is reversed, and a note reports the reversal.
 
 With --beside, the plot shows the last simulated cycle together with the measured loop, and each loop is shifted to its own centre. \
-Writes cycles.csv and loop.png. Exit codes: 0 done, 2 bad input, 3 a file cannot be written.";
+Writes cycles.csv and loop.png; for five cycles or more also log.png and evolution.png. Exit codes: 0 done, 2 bad input, 3 a file cannot be written.";
 
 pub(crate) const EXAMPLES: &str = "\
 Examples:
   stickslip measure rig.csv
-  stickslip measure rig.csv --time \"clock\" --displacement \"LVDT 2\" --force \"load cell\" --period \"1 s\"
-  stickslip measure rig.txt --displacement 2:mm --force 3:kN
+  stickslip measure rig.csv --displacement \"LVDT 2\" --force 3:kN --period \"1 s\"
   stickslip measure rig.csv --recipe rig-recipe.json
   stickslip measure rig.csv --beside results/rig --contact ball --normal-force \"10 N\"";
 
@@ -38,7 +37,7 @@ pub(crate) struct MeasureArguments {
     pub(crate) file: PathBuf,
     #[command(flatten)]
     pub(crate) reading: ReadingArguments,
-    /// Period of the motion, such as "1 s", counted from the first row; by default cycles are found by their reversals
+    /// Period, such as "1 s", counted from the first row [default: cycles from reversal to reversal]
     #[arg(long, value_name = "T", value_parser = period)]
     pub(crate) period: Option<f64>,
     /// Time of the first row that counts, such as "10 s"
@@ -53,12 +52,15 @@ pub(crate) struct MeasureArguments {
     /// Estimated errors of the signals that are removed from the record
     #[arg(long, value_name = "ERROR", value_delimiter = ',')]
     pub(crate) correct: Vec<SignalError>,
-    /// Stiffness of the rig in series with the contact, such as "20 N/um", whose deformation is removed from the displacement; or fit: found from the slopes after the reversals and the contact of --beside
+    /// Stiffness of the rig in series, such as "20 N/um", to remove its deformation; fit: found by the contact of --beside
     #[arg(long, value_name = "K", value_parser = rig)]
     pub(crate) rig_stiffness: Option<RigStiffness>,
-    /// Mean normal force, such as "10 N", for the energy coefficient of friction [default: normal force of the simulated contact]
+    /// Mean normal force, such as "10 N", for the coefficient of friction [default: its column, or the simulated contact]
     #[arg(long, value_name = "FN", value_parser = normal)]
     pub(crate) normal_force: Option<f64>,
+    /// Profile of the contact, for the slip regime: sphere, cone, flat, or the power n of f ~ r^n
+    #[arg(long, value_name = "PROFILE", value_parser = profile)]
+    pub(crate) profile: Option<f64>,
     /// Results folder of a simulation that is compared with the measured loop
     #[arg(long, value_name = "DIR")]
     pub(crate) beside: Option<PathBuf>,
@@ -90,6 +92,18 @@ pub(crate) enum RigStiffness {
     Fit,
 }
 
+fn profile(text: &str) -> Result<f64, String> {
+    match text {
+        "sphere" | "paraboloid" => Ok(2.0),
+        "cone" => Ok(1.0),
+        "flat" => Ok(f64::INFINITY),
+        power => {
+            let power = power.parse().ok().filter(|power: &f64| *power > 0.0 && power.is_finite());
+            power.ok_or_else(|| "expected sphere, cone, flat, or a power above 0".to_owned())
+        }
+    }
+}
+
 fn rig(text: &str) -> Result<RigStiffness, String> {
     if text == "fit" { Ok(RigStiffness::Fit) } else { above_zero(text, "N/m").map(RigStiffness::Known) }
 }
@@ -115,6 +129,7 @@ impl MeasureArguments {
             to: self.to,
             cycles: self.cycles,
             correct: Correct { lag: has(SignalError::Lag), drift: has(SignalError::Drift) },
+            profile: self.profile,
             rig: match self.rig_stiffness {
                 Some(RigStiffness::Known(stiffness)) => Some(Rig::Stiffness(stiffness)),
                 Some(RigStiffness::Fit) => tangent.map(Rig::Contact),

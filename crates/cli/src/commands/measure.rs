@@ -8,7 +8,7 @@ use stickslip_console::answer::{complain, say, say_json};
 use stickslip_console::table;
 use stickslip_console::verdict::Verdict;
 use stickslip_figures::FigureError;
-use stickslip_figures::measured::{self as picture, Curve, Loops};
+use stickslip_figures::measured::{self as picture, Course, Curve, Loops};
 use stickslip_measure::{Cycle, Interval, reversal_stiffness};
 use stickslip_run::complaint::words;
 use stickslip_run::folder::{Folder, sweep};
@@ -22,6 +22,8 @@ use thiserror::Error;
 
 /// Most stages that are printed.
 const MOST_STAGES: usize = 12;
+/// Cycles from which on their course is drawn.
+const MANY: usize = 5;
 /// Most rows of cycles before the last that are drawn.
 const MOST_DRAWN: usize = 100_000;
 /// Name of the table that is written.
@@ -88,7 +90,8 @@ fn answer(arguments: &MeasureArguments) -> Result<(), LoopFailure> {
         return Err(LoopFailure::Rig);
     }
     let evaluated = measured.evaluate(&arguments.how(beside.as_ref().and_then(|beside| beside.tangent)))?;
-    let normal = arguments.normal_force.or_else(|| beside.as_ref()?.normal);
+    let own = evaluated.mean_load();
+    let normal = arguments.normal_force.or(own).or_else(|| beside.as_ref()?.normal);
     let notes = evaluated.notes(&measured);
     for note in notes.iter().filter(|_| !arguments.quiet) {
         complain(format_args!("{}: note: {note}", arguments.file.display()));
@@ -99,8 +102,12 @@ fn answer(arguments: &MeasureArguments) -> Result<(), LoopFailure> {
     let stem = arguments.file.file_stem().unwrap_or_default().to_string_lossy();
     let out = arguments.out.clone().unwrap_or_else(|| Path::new("results").join(format!("{stem}-loop")));
     let pictures = draw(&stem, (&measured, &evaluated), beside.as_ref(), arguments)?;
-    let names = write(&out, &table(&evaluated.cycles, normal), &pictures)
-        .map_err(|source| LoopFailure::Write { folder: out.clone(), source })?;
+    let names = write(
+        &out,
+        &table(&evaluated.cycles, arguments.normal_force.or(normal.filter(|_| own.is_none()))),
+        &pictures,
+    )
+    .map_err(|source| LoopFailure::Write { folder: out.clone(), source })?;
     if arguments.json {
         let mut told = evaluated.json(&measured);
         told["files"] = json!(names);
@@ -242,6 +249,9 @@ fn tell(evaluated: &Evaluated, beside: Option<&Simulated>, normal: Option<f64>) 
         let simulated = beside.map(|value| shown(value.map(|own| scale * own), unit));
         page.add_row([words.to_owned()].into_iter().chain(cells).chain(simulated));
     }
+    if let Some(regime) = stage.regime {
+        page.add_row(["slip regime", regime]);
+    }
     table::to_the_right(&mut page, 1..=2 * columns.len() + usize::from(beside.is_some()));
     say(format_args!("{page}"));
 }
@@ -297,7 +307,27 @@ fn draw(
         measured: curve("measured, last cycle", last.span.start, last.span.end),
         simulated,
     };
-    picture::draw(&loops, &arguments.look.look())
+    let mut pictures = picture::draw(&loops, &arguments.look.look())?;
+    if cycles.len() >= MANY {
+        let number = |place: usize| place as f64 + 1.0;
+        let of = |value: &dyn Fn(&MeasuredCycle) -> Option<f64>| {
+            cycles.iter().map(|cycle| value(cycle).unwrap_or(f64::NAN)).collect::<Vec<f64>>()
+        };
+        let normal = arguments.normal_force;
+        let course = Course {
+            title,
+            numbers: (0..cycles.len()).map(number).collect(),
+            loops: cycles.iter().map(|cycle| curve("", cycle.span.start, cycle.span.end)).collect(),
+            figures: vec![
+                ("E_d", "J", of(&|cycle| Some(cycle.cycle.dissipated))),
+                ("\u{3bc}_e", "", of(&|cycle| cycle.friction(normal))),
+                ("Q*", "N", of(&|cycle| Some(cycle.cycle.force_amplitude))),
+                ("k", "N/m", of(&|cycle| cycle.stiffness)),
+            ],
+        };
+        pictures.extend(picture::draw_course(&course, &arguments.look.look())?);
+    }
+    Ok(pictures)
 }
 
 /// Writes the table and the pictures, all or none.

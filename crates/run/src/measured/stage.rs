@@ -4,7 +4,7 @@ use super::MeasuredCycle;
 use serde::Serialize;
 use serde_json::{Map, Value, json};
 use std::ops::Range;
-use stickslip_measure::{Interval, SteadyLoop, steady_loop};
+use stickslip_measure::{Interval, SteadyLoop, Thresholds, steady_loop};
 
 /// A stage ends where the amplitude, or the time of a cycle, differs by more than these shares: noise moves reversals of a sine by a tenth.
 const STAGE: [f64; 2] = [0.1, 0.25];
@@ -26,6 +26,8 @@ pub struct Stage {
     pub steady: Option<SteadyLoop>,
     /// Its figures with their intervals, by their names.
     pub results: Vec<(&'static str, Interval)>,
+    /// How it slips, by the thresholds of a profile that is known: `partial`, `gross`, or `undecided` where an interval holds a threshold.
+    pub regime: Option<&'static str>,
 }
 
 /// What of a record lies in its cycles. A row belongs to one cycle, that which it begins or lies in; works are ∫F du by the trapezoids between rows.
@@ -75,7 +77,11 @@ pub(super) fn work_after((u, force): (&[f64], &[f64]), row: usize) -> f64 {
 }
 
 /// Numbers the stages of cycles, and measures each, with times, displacements and forces of the record.
-pub(super) fn stages(cycles: &mut [MeasuredCycle], record: (&[f64], &[f64], &[f64])) -> Vec<Stage> {
+pub(super) fn stages(
+    cycles: &mut [MeasuredCycle],
+    record: (&[f64], &[f64], &[f64]),
+    thresholds: Option<&Thresholds>,
+) -> Vec<Stage> {
     number(cycles);
     let mut start = 0;
     let parts = cycles.chunk_by(|a, b| a.stage == b.stage).map(|stage| {
@@ -86,7 +92,10 @@ pub(super) fn stages(cycles: &mut [MeasuredCycle], record: (&[f64], &[f64], &[f6
     let mut lengths: Vec<usize> = parts.iter().map(Range::len).collect();
     lengths.sort_unstable_by(|a, b| b.cmp(a));
     let least = lengths.get(FITTED).map_or(0, |length| length + 1);
-    parts.into_iter().map(|part| Stage::of(cycles, part, record, least)).collect()
+    let measured = parts.into_iter().map(|part| Stage::of(cycles, part, record, least));
+    measured
+        .map(|stage| Stage { regime: thresholds.map(|thresholds| stage.regime(thresholds)), ..stage })
+        .collect()
 }
 
 fn number(cycles: &mut [MeasuredCycle]) {
@@ -120,9 +129,45 @@ impl Stage {
         let period = (time[1] - time[0]) / stage.len() as f64;
         let fit = || steady_loop(&t[rows.clone()], &u[rows.clone()], &force[rows.clone()], period);
         let steady = (stage.len() >= least && !first.is_open).then(fit).flatten();
-        let fits = steady.as_ref().filter(|steady| steady.misfit < MISFIT);
-        let results = fits.map_or_else(|| by_cycles(stage), of_steady);
-        Self { cycles: part, time, steady, results }
+        let results = match &steady {
+            None => by_cycles(stage),
+            Some(steady) if steady.misfit < MISFIT => of_steady(steady),
+            // Neither the scatter of cycles nor a branch that is another one tells how far they are off: both do.
+            Some(steady) => {
+                let other = of_steady(steady);
+                let widened = |(name, own): (&'static str, Interval)| {
+                    let other = other.iter().find(|(same, _)| *same == name).map_or(own, |(_, other)| *other);
+                    (name, Interval { low: own.low.min(other.low), high: own.high.max(other.high), ..own })
+                };
+                by_cycles(stage).into_iter().map(widened).collect()
+            }
+        };
+        Self { cycles: part, time, steady, results, regime: None }
+    }
+
+    /// On which side of the thresholds its intervals lie.
+    fn regime(&self, thresholds: &Thresholds) -> &'static str {
+        let all = [
+            ("energy_ratio", thresholds.energy_ratio),
+            ("system_free_ratio", thresholds.system_free_ratio),
+            ("slip_ratio", thresholds.slip_ratio),
+        ];
+        let sides = all.into_iter().filter_map(|(name, limit)| {
+            let (interval, limit) = (self.result(name)?, limit?);
+            let is_known = interval.low >= limit || interval.high < limit;
+            Some(if is_known { Some(interval.low >= limit) } else { None })
+        });
+        let sides: Vec<Option<bool>> = sides.collect();
+        match sides.first() {
+            Some(Some(first)) if sides.iter().all(|side| *side == Some(*first)) => {
+                if *first {
+                    "gross"
+                } else {
+                    "partial"
+                }
+            }
+            _ => "undecided",
+        }
     }
 
     /// A figure by its name.

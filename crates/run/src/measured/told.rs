@@ -13,7 +13,13 @@ impl Evaluated {
     pub fn json(&self, measured: &Measured) -> Value {
         let of_stage = |stage: &Stage| {
             let [from, to] = stage.time;
-            json!({ "cycles": stage.cycles.len(), "from_s": from, "to_s": to, "results": stage.results() })
+            json!({
+                "cycles": stage.cycles.len(),
+                "from_s": from,
+                "to_s": to,
+                "regime": stage.regime,
+                "results": stage.results(),
+            })
         };
         let found = self.found.map(|found| {
             json!({
@@ -76,7 +82,7 @@ impl Evaluated {
         if found.misfit >= MISFIT {
             let share = 100.0 * found.misfit;
             notes.push(format!(
-            "the branches are not those of an elastic contact at constant load ({share:.1} % of Q* are left): the intervals are those of the scatter of cycles, without lag"
+            "the branches are not those of an elastic contact at constant load ({share:.1} % of Q* are left): figures are means over the cycles, and their intervals are rough"
         ));
             return notes;
         }
