@@ -89,3 +89,4 @@ pub(crate) fn read<T: DeserializeOwned>(text: &str) -> Result<T, serde_json::Err
 pub(crate) const IMPACTS: &str = include_str!("../data/kharaz_2001.json");
 pub(crate) const FINITE_ELEMENTS: &str = include_str!("../data/wu_2003.json");
 pub(crate) const BOUNDARY_ELEMENTS: &str = include_str!("../data/contact_bem.json");
+pub(crate) const FRETTING_LOAD: &str = include_str!("../data/fouvry_2017.json");

@@ -15,6 +15,7 @@ mod closed_forms;
 mod contact_bem;
 mod data;
 mod finite_elements;
+mod fretting_load;
 mod impact_theory;
 mod measured_impact;
 mod oblique_loading;

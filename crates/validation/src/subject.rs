@@ -1,7 +1,10 @@
 //! The list of what is compared.
 
 use crate::page::Page;
-use crate::{closed_forms, contact_bem, finite_elements, impact_theory, measured_impact, oblique_loading};
+use crate::{
+    closed_forms, contact_bem, finite_elements, fretting_load, impact_theory, measured_impact,
+    oblique_loading,
+};
 use stickslip_contact::{ContactError, FirstLoadingError, FrictionError, MaterialError, ProfileError};
 use stickslip_drive::RunError;
 use stickslip_run::Watcher;
@@ -21,6 +24,8 @@ pub enum Subject {
     ImpactTheory,
     /// Oblique impacts by finite elements.
     FiniteElements,
+    /// Fretting under a load that varies, as it was measured.
+    FrettingLoad,
     /// Closed forms of loading, unloading and loops.
     ClosedForms,
 }
@@ -59,12 +64,13 @@ pub enum ValidationError {
 
 impl Subject {
     /// All of them, in the order of the index.
-    pub const ALL: [Self; 6] = [
+    pub const ALL: [Self; 7] = [
         Self::MeasuredImpact,
         Self::ContactBem,
         Self::ObliqueLoading,
         Self::ImpactTheory,
         Self::FiniteElements,
+        Self::FrettingLoad,
         Self::ClosedForms,
     ];
 
@@ -76,6 +82,7 @@ impl Subject {
             Self::ObliqueLoading => oblique_loading::NAME,
             Self::ImpactTheory => impact_theory::NAME,
             Self::FiniteElements => finite_elements::NAME,
+            Self::FrettingLoad => fretting_load::NAME,
             Self::ClosedForms => closed_forms::NAME,
         }
     }
@@ -91,6 +98,7 @@ impl Subject {
             Self::ObliqueLoading => oblique_loading::page(),
             Self::ImpactTheory => impact_theory::page(watcher),
             Self::FiniteElements => finite_elements::page(watcher),
+            Self::FrettingLoad => fretting_load::page(watcher),
             Self::ClosedForms => closed_forms::page(),
         }
     }

@@ -15,7 +15,7 @@ loading and loops. It says what is computed and how, what it is compared with an
 be and are, with a picture, tables and what the comparison does not show. Nothing is fitted, and the published numbers are part of \
 the program.
 
-Everything is computed before the first file is written, in a second or so; the same is written every time. README.md, the page of \
+Everything is computed before the first file is written, in a few seconds; the same is written every time. README.md, the page of \
 all pages, is written when all are asked for. Exit codes: 0 done, 1 something asked is not kept, 2 bad input, 3 something cannot be \
 written, 130 interrupted.";
 
