@@ -18,6 +18,8 @@ const EVOLUTION: &str = "evolution";
 /// Columns and rows of colours.
 const COLUMNS: usize = 600;
 const LEVELS: usize = 120;
+/// Width of the bar of colours, in widths of the frame.
+const BAR: f64 = 0.3;
 /// Width of the last measured loop and of those before it.
 const BOLD: f64 = 1.15;
 const FINE: f64 = 0.9;
@@ -99,10 +101,13 @@ fn log_figure<'a>(course: &Course<'a>) -> Figure<'a> {
     let map = ResultMap {
         axes: [("cycle", "", false), ("displacement", "m", false)],
         places: [chosen.iter().map(|k| course.numbers[*k]).collect(), ys],
-        content: MapContent::Numbers { name: ("force on the way down", "N"), values, contours: &[] },
+        content: MapContent::Numbers { name: ("falling force", "N"), values, contours: &[] },
         points: &[],
     };
-    map_figure(course.title, map)
+    let mut figure = map_figure(course.title, map);
+    // Room for the bar in a narrow column, too.
+    figure.panels.iter_mut().skip(1).for_each(|bar| bar.share = BAR);
+    figure
 }
 
 /// The force of a loop on its way from the largest displacement to the smallest, at displacements; no number beyond.
