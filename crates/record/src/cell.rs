@@ -26,6 +26,9 @@ pub(crate) enum Cell {
     Word,
 }
 
+/// Instruments write 9.9e37 for infinity and 9.91e37 for what is no number (SCPI 1999).
+const OVERRANGE: f64 = 9.9e37;
+
 impl Cell {
     pub(crate) fn read(field: &str, digits: Digits, missing: &[String]) -> Self {
         let field = trimmed(field);
@@ -33,7 +36,7 @@ impl Cell {
             return Self::Missing;
         }
         if let Some(value) = number(field, digits) {
-            return Self::Number(value);
+            return if value.abs() < OVERRANGE { Self::Number(value) } else { Self::Missing };
         }
         let is_missing = field.chars().all(|c| matches!(c, '-' | '.' | '*' | '?' | '/'))
             || MISSING.contains(&field.to_lowercase().as_str());
@@ -159,6 +162,7 @@ mod tests {
         );
         let comma = Digits { decimal: ',', thousands: Some('.') };
         assert_eq!(Cell::read("-1.234,5", comma, &[]), Cell::Number(-1234.5));
+        assert_eq!(Cell::read("-9,9E+37", comma, &[]), Cell::Missing);
         assert_eq!(Cell::read("1.23,5", comma, &[]), Cell::Word);
         for missing in ["", "NaN", "OVER", "---", "n/a", "-99"] {
             assert_eq!(Cell::read(missing, POINT, &["-99".to_owned()]), Cell::Missing, "{missing}");
