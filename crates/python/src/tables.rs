@@ -2,6 +2,7 @@
 
 use crate::RunError;
 use crate::scenario::{Scenario, cores};
+use crate::watch::wait;
 use numpy::PyReadonlyArray1;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
@@ -105,10 +106,9 @@ pub(crate) fn fit(
     let (contact, displacement, force) = channels;
     let asked = Asked { free, contact, displacement, force, noise, bootstrap };
     let job = scenario.job.clone();
-    py.detach(|| {
-        let fitted = search(&job, (&mut measured, &How::default()), &asked, cores(threads));
-        fitted.map(|fit| fit.json().to_string()).map_err(|error| PyValueError::new_err(error.to_string()))
-    })
+    wait(py, |flag| search(&job, (&mut measured, &How::default()), &asked, (cores(threads), flag)))?
+        .map(|fit| fit.json().to_string())
+        .map_err(|error| PyValueError::new_err(error.to_string()))
 }
 
 /// The comparison of two folders of results as JSON.

@@ -20,8 +20,9 @@ use nalgebra::{DMatrix, DVector};
 use serde_json::{Map, Value, json};
 use squares::{Found, Squares};
 use std::f64::consts::TAU;
-use stickslip_run::Job;
+use std::sync::atomic::{AtomicUsize, Ordering};
 use stickslip_run::measured::{How, Measured};
+use stickslip_run::{Job, Watcher};
 
 /// A direction of the numbers, as logarithms, is free along which the data leave more than so many e-folds, or in which they say so little
 /// beside the others.
@@ -99,14 +100,14 @@ pub struct Fit {
 /// Fits numbers of a scenario.
 ///
 /// # Errors
-/// Numbers or channels that are not there, data that the model cannot follow, numbers that the data cannot tell apart.
+/// Numbers or channels that are not there, data that the model cannot follow, numbers that the data cannot tell apart; the watcher's wish.
 pub fn fit(
     job: &Job,
     (measured, how): (&mut Measured, &How),
     asked: &Asked,
-    cores: usize,
+    (cores, watcher): (usize, &(dyn Watcher + Sync)),
 ) -> Result<Fit, FitError> {
-    let model = Model::new(job, asked)?;
+    let model = Model::new(job, asked, watcher)?;
     let data = model.data(measured, how)?;
     let squares = Squares { model: &model, data: &data, weights: data.weights(None) };
     let start = vec![0.0; asked.free.len()];
@@ -122,7 +123,7 @@ pub fn fit(
     let sigma = asked.noise.unwrap_or(own);
     told_apart(&slopes, sigma, &asked.free)?;
     let covariance = (slopes.transpose() * &slopes).try_inverse().ok_or(FitError::NoFit)? * sigma.powi(2);
-    let drawn = drawn(&squares, &found, (sigma, asked.bootstrap), cores);
+    let drawn = drawn(&squares, &found, (sigma, asked.bootstrap), cores)?;
     let largest = found.force.iter().fold(0.0_f64, |most, force| most.max(force.abs()));
     let noise = asked.noise.or(data.noise).unwrap_or(own).max(1e-9 * largest);
     let chi_squared = found.squares / noise.powi(2);
@@ -164,8 +165,14 @@ fn told_apart(slopes: &DMatrix<f64>, sigma: f64, free: &[String]) -> Result<(), 
     if groups.is_empty() { Ok(()) } else { Err(FitError::Undetermined(groups)) }
 }
 
-/// Places fitted to data that are drawn about the best ones.
-fn drawn(squares: &Squares<'_>, found: &Found, (sigma, count): (f64, usize), cores: usize) -> Vec<Vec<f64>> {
+/// Places fitted to data that are drawn about the best ones; the watcher is told how many there are.
+fn drawn(
+    squares: &Squares<'_>,
+    found: &Found,
+    (sigma, count): (f64, usize),
+    cores: usize,
+) -> Result<Vec<Vec<f64>>, FitError> {
+    let (watcher, done) = (squares.model.watcher, AtomicUsize::new(0));
     let one = |seed: usize| {
         let mut random = ChaCha8Rng::seed_from_u64(seed as u64);
         let mut uniform = || ((random.next_u64() >> 12) as f64 + 0.5) / (1_u64 << 52) as f64;
@@ -175,9 +182,12 @@ fn drawn(squares: &Squares<'_>, found: &Found, (sigma, count): (f64, usize), cor
             *force = found.force[row] + sigma / squares.weights[row].sqrt() * normal();
         }
         let squares = Squares { model: squares.model, data: &data, weights: squares.weights.clone() };
-        squares.least(&found.place).ok().map(|found| found.place)
+        let place = squares.least(&found.place).ok().map(|found| found.place);
+        watcher.reached((done.fetch_add(1, Ordering::Relaxed) + 1) as f64);
+        place
     };
-    each(count, cores, one).into_iter().flatten().collect()
+    let places = each(count, cores, one).into_iter().flatten().collect();
+    if watcher.goes_on() { Ok(places) } else { Err(FitError::Interrupted) }
 }
 
 /// Whether what is left lies in the first harmonics along the loop far more than noise would.

@@ -24,7 +24,7 @@ Intervals contain the true value in 95 of 100 cases if the model is right. The n
 Parameters that the data cannot distinguish are named, and the command fails: a loop at constant load determines \u{3bc}F_N and the stiffness \
 2G*a, and no more. If the residual is more than noise, the command reports that the model does not fit.
 
-Writes fit.json and the plot fit.png with the residual. Exit codes: 0 done, 2 bad input or parameters that cannot be distinguished, 3 a file cannot be written.";
+Writes fit.json and the plot fit.png with the residual. Exit codes: 0 done, 2 bad input or parameters that cannot be distinguished, 3 a file cannot be written, 130 interrupted.";
 
 pub(crate) const EXAMPLES: &str = "\
 Examples:

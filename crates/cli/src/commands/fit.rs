@@ -4,11 +4,13 @@ use super::output::{Output, OutputFailure};
 use crate::arguments::FitArguments;
 use std::path::Path;
 use stickslip_console::answer::{complain, say, say_json, warn};
+use stickslip_console::interrupt::Interrupt;
+use stickslip_console::progress::Progress;
 use stickslip_console::table;
 use stickslip_console::verdict::Verdict;
 use stickslip_figures::fit as picture;
 use stickslip_run::measured::{How, Measured, MeasuredError};
-use stickslip_run::{Job, Real, quantity};
+use stickslip_run::{Job, Real, Watcher, quantity};
 use stickslip_study::fit::{Asked, Fit, FitError, fit as search};
 use thiserror::Error;
 
@@ -35,6 +37,7 @@ pub(crate) fn fit(arguments: &FitArguments) -> Verdict {
         Err(failure) => {
             complain(format_args!("{failure}"));
             match failure {
+                FitFailure::Fit(FitError::Interrupted) => Verdict::Interrupted,
                 FitFailure::Fit(_) => Verdict::BadInput,
                 FitFailure::Output(failure) => failure.verdict(),
             }
@@ -61,7 +64,12 @@ fn answer(arguments: &FitArguments) -> Result<(), FitFailure> {
         noise: arguments.noise,
         bootstrap: arguments.bootstrap,
     };
-    let fit = search(&job, (&mut measured, &How::default()), &asked, arguments.threads.count())?;
+    let interrupt = Interrupt::install();
+    let progress = Progress::new(!arguments.quiet && asked.bootstrap > 0);
+    let bar = progress.budget(&job.name, asked.bootstrap as f64, &interrupt);
+    let work = (arguments.threads.count(), &bar as &(dyn Watcher + Sync));
+    let fit = search(&job, (&mut measured, &How::default()), &asked, work)?;
+    drop(bar);
     let output = Output::ready(arguments.out.as_deref(), &format!("{}-fit", job.name))?;
     let out = output.path.clone();
     let pictures = picture::draw((&job, &fit), &arguments.look.look()).map_err(OutputFailure::from)?;

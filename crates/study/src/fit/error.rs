@@ -51,6 +51,9 @@ pub enum FitError {
     /// A channel that says nothing.
     #[error("{0}: its {1} are constant: there is nothing to fit to")]
     Constant(String, &'static str),
+    /// Whoever asked wants no more.
+    #[error("interrupted")]
+    Interrupted,
     /// Too few rows.
     #[error("{0} rows are too few to fit {1} numbers")]
     Few(usize, usize),

@@ -6,8 +6,8 @@ use super::error::FitError;
 use serde_json::{Value, json};
 use stickslip_contact::{Apex, Segment};
 use stickslip_measure::series::extent;
-use stickslip_run::Job;
 use stickslip_run::measured::{How, Measured, MeasuredError};
+use stickslip_run::{Job, Watcher};
 use stickslip_scenario::{PlotName, Scenario};
 
 /// Periods of a scene that is led along a loop: the last one counts.
@@ -82,12 +82,18 @@ impl Way {
 /// A scenario with free numbers.
 pub(super) struct Model<'a> {
     job: &'a Job,
+    /// Is asked before each variant.
+    pub(super) watcher: &'a (dyn Watcher + Sync),
     pub(super) free: Vec<Free>,
     way: Way,
 }
 
 impl<'a> Model<'a> {
-    pub(super) fn new(job: &'a Job, asked: &Asked) -> Result<Self, FitError> {
+    pub(super) fn new(
+        job: &'a Job,
+        asked: &Asked,
+        watcher: &'a (dyn Watcher + Sync),
+    ) -> Result<Self, FitError> {
         if asked.free.is_empty() {
             return Err(FitError::Nothing);
         }
@@ -111,7 +117,7 @@ impl<'a> Model<'a> {
                 return Err(FitError::Undetermined(vec![vec![friction, normal]]));
             }
         }
-        Ok(Self { job, free, way })
+        Ok(Self { job, watcher, free, way })
     }
 
     /// The data as this model meets them.
@@ -140,6 +146,9 @@ impl<'a> Model<'a> {
 
     /// Forces of the model in the rows of the data; of a trajectory the displacements, in forces, after them.
     pub(super) fn force(&self, place: &[f64], data: &Data) -> Result<Vec<f64>, FitError> {
+        if !self.watcher.goes_on() {
+            return Err(FitError::Interrupted);
+        }
         match &self.way {
             Way::Contact(contact) => along(&self.variant(place, &[])?, *contact, data),
             Way::Led { body, force } => self.led(place, (body, force), data),
