@@ -78,13 +78,15 @@ pub fn draw_course(course: &Course<'_>, look: &Look) -> Result<Vec<Picture>, Fig
         let pen = Pen { look, provenance: provenance(), kept: None };
         pen.draw_as(plot, figure).map_err(|source| FigureError::Plot { plot, source })
     };
-    let mut pictures = draw(LOG, log_figure(course))?;
-    pictures.extend(draw(EVOLUTION, evolution_figure(course))?);
+    let mut pictures = draw(EVOLUTION, evolution_figure(course))?;
+    if let Some(log) = log_figure(course) {
+        pictures.extend(draw(LOG, log)?);
+    }
     Ok(pictures)
 }
 
-/// The force as colours over cycles and displacements.
-fn log_figure<'a>(course: &Course<'a>) -> Figure<'a> {
+/// The force as colours over cycles and displacements; none of displacements that have no range.
+fn log_figure<'a>(course: &Course<'a>) -> Option<Figure<'a>> {
     let count = course.loops.len().min(COLUMNS);
     let chosen: Vec<usize> = (0..count).map(|k| k * (course.loops.len() - 1) / (count - 1).max(1)).collect();
     let ends = |curve: &Curve<'_>| {
@@ -97,6 +99,9 @@ fn log_figure<'a>(course: &Course<'a>) -> Figure<'a> {
     let all = course.loops.iter().map(ends);
     let [low, high] = all.fold([f64::INFINITY, f64::NEG_INFINITY], |a, b| [a[0].min(b[0]), a[1].max(b[1])]);
     let ys: Vec<f64> = (0..LEVELS).map(|k| low + (high - low) * (k as f64 + 0.5) / LEVELS as f64).collect();
+    if !ys.is_sorted_by(|a, b| a < b && b.is_finite()) {
+        return None;
+    }
     let values = chosen.iter().flat_map(|k| falling(&course.loops[*k], &ys)).collect();
     let map = ResultMap {
         axes: [("cycle", "", false), ("displacement", "m", false)],
@@ -107,7 +112,7 @@ fn log_figure<'a>(course: &Course<'a>) -> Figure<'a> {
     let mut figure = map_figure(course.title, map);
     // Room for the bar in a narrow column, too.
     figure.panels.iter_mut().skip(1).for_each(|bar| bar.share = BAR);
-    figure
+    Some(figure)
 }
 
 /// The force of a loop on its way from the largest displacement to the smallest, at displacements; no number beyond.

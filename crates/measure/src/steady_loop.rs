@@ -76,8 +76,6 @@ pub struct SteadyLoop {
     pub force_drift: Interval,
     /// Period, in units of time.
     pub period: f64,
-    /// Rows of either channel that are spikes and were left out.
-    pub spikes: [usize; 2],
     /// What no branch of the family has of the forces: root of the mean square as a share of Q\*, 0 where it is not more than noise.
     pub misfit: f64,
     /// Whether the force resists the motion, so that it was turned round.
@@ -193,7 +191,6 @@ struct Part {
     forces: Harmonics,
     /// Phases and forces of rows without spikes and drift.
     rows: Vec<[f64; 2]>,
-    spikes: [usize; 2],
 }
 
 impl Part {
@@ -211,8 +208,7 @@ impl Part {
         let is_sound = |i: usize| forces.is_sound[i] && motion.harmonics.is_sound[i];
         let rows = (0..u.len()).filter(|i| is_sound(*i));
         let rows = rows.map(|i| [motion.phase[i].rem_euclid(TAU), force[i] - drift * time[i]]).collect();
-        let spikes = [&motion.harmonics, &forces].map(|fit| fit.is_sound.iter().filter(|is| !**is).count());
-        Some(Self { motion, forces, rows, spikes })
+        Some(Self { motion, forces, rows })
     }
 }
 
@@ -224,7 +220,6 @@ struct Together {
     period: f64,
     work: f64,
     drift: [[f64; 2]; 2],
-    spikes: [usize; 2],
 }
 
 impl Together {
@@ -247,7 +242,6 @@ impl Together {
             period: mean(&|part| TAU / part.motion.frequency),
             work: mean(&|part| part.forces.work(&part.motion.harmonics)),
             drift: [both(&|part| part.motion.harmonics.drift()), both(&|part| part.forces.drift())],
-            spikes: [0, 1].map(|k| parts.iter().map(|part| part.spikes[k]).sum()),
         })
     }
 
@@ -289,7 +283,6 @@ impl Together {
             displacement_drift: Interval::about(self.drift[0]),
             force_drift: Interval::about([sign * self.drift[1][0], self.drift[1][1]]),
             period: self.period,
-            spikes: self.spikes,
             misfit: 2.0 * misfit / median(values(&|sample| sample.height)),
             is_turned: sign < 0.0,
             is_sense_sure: surety > SURE,

@@ -105,7 +105,9 @@ fn numbers<'a>((name, unit): (&str, &str), values: &[f64], contours: &[(f64, Lin
         let text = quantity(*level, unit, 6);
         Some(Note { lines: vec![Label::plain(&text)], about: [(at[0], at[1]); 2], on: None, ink: None })
     });
-    let bar = (low < high).then(|| Panel {
+    // Of a range of a few roundings there are no shades.
+    let has_shades = (high - low).is_finite() && high - low > 1e-12 * high.abs().max(low.abs());
+    let bar = has_shades.then(|| Panel {
         x: Axis { unnumbered: true, tight: true, ..Axis::default() },
         y: Axis { tight: true, ..Axis::new(Label::plain(name), unit) },
         mosaic: Some(Mosaic {

@@ -289,6 +289,9 @@ impl Measured {
 
     /// Keeps the rows between two times.
     fn keep(&mut self, from: Option<f64>, to: Option<f64>) -> Result<(), MeasuredError> {
+        if from.is_none() && to.is_none() {
+            return Ok(());
+        }
         let start = from.map_or(0, |from| self.t.partition_point(|t| *t < from));
         let end = to.map_or(self.t.len(), |to| self.t.partition_point(|t| *t <= to));
         if start >= end {
