@@ -1,4 +1,4 @@
-//! `stickslip new`: a scenario that runs at once, and a schema by which an editor completes it.
+//! `stickslip new`: writes a scenario that can be run, and a schema for text editors.
 
 use crate::arguments::NewArguments;
 use std::io::{self, Write};
@@ -11,45 +11,45 @@ use stickslip_run::markdown::word;
 use stickslip_scenario::{Scenario, schema};
 use thiserror::Error;
 
-/// Templates by name: examples as they are, and drives of their own.
+/// Templates by name, from the examples and the folder `templates`.
 const TEMPLATES: [(&str, &str); 15] = [
-    ("drive", include_str!("../../../../scenarios/quickstart.json")),
-    ("datasheet", include_str!("../../../../templates/datasheet.json")),
-    ("piezo", include_str!("../../../../scenarios/piezo_stack.json")),
-    ("fretting", include_str!("../../../../templates/fretting.json")),
-    ("oblique", include_str!("../../../../scenarios/oblique_loading.json")),
-    ("vibration", include_str!("../../../../scenarios/vibrated_slider.json")),
-    ("linear", include_str!("../../../../scenarios/three_ball_stage.json")),
-    ("six_balls", include_str!("../../../../templates/six_balls.json")),
-    ("smooth_impact", include_str!("../../../../templates/smooth_impact.json")),
-    ("walking", include_str!("../../../../templates/walking.json")),
-    ("vertical", include_str!("../../../../scenarios/vertical_climber.json")),
-    ("assisted", include_str!("../../../../templates/assisted.json")),
-    ("rotary", include_str!("../../../../templates/rotary.json")),
-    ("hobby", include_str!("../../../../templates/hobby.json")),
-    ("oscillator", include_str!("../../../../templates/oscillator.json")),
+    ("drive", include_str!("../../scenarios/quickstart.json")),
+    ("datasheet", include_str!("../../templates/datasheet.json")),
+    ("piezo", include_str!("../../scenarios/piezo_stack.json")),
+    ("fretting", include_str!("../../templates/fretting.json")),
+    ("oblique", include_str!("../../scenarios/oblique_loading.json")),
+    ("vibration", include_str!("../../scenarios/vibrated_slider.json")),
+    ("linear", include_str!("../../scenarios/three_ball_stage.json")),
+    ("six_balls", include_str!("../../templates/six_balls.json")),
+    ("smooth_impact", include_str!("../../templates/smooth_impact.json")),
+    ("walking", include_str!("../../templates/walking.json")),
+    ("vertical", include_str!("../../scenarios/vertical_climber.json")),
+    ("assisted", include_str!("../../templates/assisted.json")),
+    ("rotary", include_str!("../../templates/rotary.json")),
+    ("hobby", include_str!("../../templates/hobby.json")),
+    ("oscillator", include_str!("../../templates/oscillator.json")),
 ];
-/// Where the examples look for their schema.
+/// Schema path in the examples.
 const SCHEMA_OF_EXAMPLES: &str = "../schema/scenario-1.json";
-/// Where a new scenario looks for it: beside it, in a folder of its own, so that `check *.json` meets scenarios only.
+/// Schema path in a new scenario: a separate folder, so that `check *.json` finds scenarios only.
 const SCHEMA: &str = "schema/scenario-1.json";
-/// What every version of this schema has in it.
+/// Text that every version of this schema contains.
 const SCHEMA_MARK: &str = "\"title\": \"stickslip scenario, version 1\"";
 
-/// Why no scenario was written.
+/// Error that stops the command.
 #[derive(Debug, Error)]
 enum NewError {
-    #[error("{}: is there already\n   help: give another name, or remove it first", .0.display())]
+    #[error("{}: exists already\n   help: give another name, or remove this file first", .0.display())]
     Exists(PathBuf),
-    #[error("{}: is there already and is no schema of stickslip\n   help: say with --schema where editors find the schema", .0.display())]
+    #[error("{}: exists already and is not a schema of stickslip\n   help: give the path of the schema with --schema", .0.display())]
     OtherSchema(PathBuf),
-    #[error("{}: expected the name of a file, such as motor or drives/motor", .0.display())]
+    #[error("{}: expected a file name, such as motor or drives/motor", .0.display())]
     NoName(PathBuf),
     #[error("{}: cannot be written: {}", .path.display(), words(.source))]
     Write { path: PathBuf, source: io::Error },
 }
 
-/// Names of the templates.
+/// Returns the names of the templates.
 pub(crate) fn templates() -> [&'static str; TEMPLATES.len()] {
     TEMPLATES.map(|(name, _)| name)
 }
@@ -65,7 +65,7 @@ pub(crate) fn new(arguments: &NewArguments) -> Verdict {
     let text = TEMPLATES.iter().find(|(name, _)| *name == arguments.template).map_or("", |(_, text)| text);
     match write(&arguments.name, text, arguments.schema.as_deref()) {
         Ok(file) => {
-            // What begins with a dash would be taken for an option.
+            // A name that starts with a dash would be taken for an option.
             let file = if file.as_os_str().as_encoded_bytes().starts_with(b"-") {
                 Path::new(".").join(file)
             } else {
@@ -82,16 +82,16 @@ pub(crate) fn new(arguments: &NewArguments) -> Verdict {
     }
 }
 
-/// A template's own line for people.
+/// Returns the title of a template.
 fn title(text: &str) -> String {
     Scenario::from_str(text, "template", "").map(|scenario| scenario.title).unwrap_or_default()
 }
 
-/// Writes a template as NAME.json, and the schema unless the user has one elsewhere. Overwrites nothing but an older
-/// schema.
+/// Writes a template as NAME.json, and the schema unless `at` gives another location. Only an older schema is
+/// overwritten.
 fn write(name: &Path, text: &str, at: Option<&str>) -> Result<PathBuf, NewError> {
     let mut file = name.to_owned();
-    // "drives/" is a folder, and ".json" an ending without a name.
+    // "drives/" is a folder, and ".json" has no name.
     let ends = |end: &str| name.as_os_str().as_encoded_bytes().ends_with(end.as_bytes());
     if name.file_name().is_none_or(|own| own == ".json") || ends("/") || ends(std::path::MAIN_SEPARATOR_STR) {
         return Err(NewError::NoName(file));
@@ -116,7 +116,7 @@ fn write(name: &Path, text: &str, at: Option<&str>) -> Result<PathBuf, NewError>
     Ok(file)
 }
 
-/// Writes the schema where there is none or an older one.
+/// Writes the schema if there is none or an older one.
 fn write_schema(path: &Path) -> Result<(), NewError> {
     match std::fs::read_to_string(path) {
         Ok(known) if known == schema() => Ok(()),
@@ -125,10 +125,10 @@ fn write_schema(path: &Path) -> Result<(), NewError> {
     }
 }
 
-/// Writes a whole file or nothing; into the place of another one only where `replace` allows it.
+/// Writes a complete file or nothing. Replaces an existing file only if `replace` is set.
 fn publish(path: &Path, text: &str, replace: bool) -> Result<(), NewError> {
     let failed = |source: io::Error| NewError::Write { path: path.to_owned(), source };
-    // The parent of a bare name is "", which stands for the current folder.
+    // The parent of a name without a folder is "", the current folder.
     let parent = match path.parent() {
         Some(parent) if parent != Path::new("") => parent,
         _ => Path::new("."),
