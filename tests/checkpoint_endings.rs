@@ -139,7 +139,7 @@ fn an_interrupted_run_goes_on_from_where_it_was() {
     assert_eq!(code(&output), 2);
     let said = stderr(&output);
     assert!(
-        said.contains(&format!("the run has come to t = {reached:e} s, it cannot end at 3e-3 s")),
+        said.contains(&format!("the run has reached t = {reached:e} s and cannot end at 3e-3 s")),
         "{said}"
     );
     resumed(&folder, &[]);

@@ -86,13 +86,13 @@ fn what_is_no_checkpoint_is_refused_word_for_word() {
     let journal = fs::read(kept.file("journal")).unwrap();
     let (long, half) = (state.len(), state.len() / 2);
     for (bytes, said) in [
-        (b"{}".to_vec(), "DIR/checkpoint/state: expected a checkpoint of stickslip, found something else\n".to_owned()),
-        (Vec::new(), "DIR/checkpoint/state: is cut short: 0 bytes of 33\n".to_owned()),
-        (state[..half].to_vec(), format!("DIR/checkpoint/state: is cut short: {half} bytes of {long}\n")),
+        (b"{}".to_vec(), "DIR/checkpoint/state: is not a checkpoint of stickslip\n".to_owned()),
+        (Vec::new(), "DIR/checkpoint/state: is truncated: 0 bytes of 33\n".to_owned()),
+        (state[..half].to_vec(), format!("DIR/checkpoint/state: is truncated: {half} bytes of {long}\n")),
         (
             signed(state.clone(), |bytes| bytes[21] = 9),
-            "DIR/checkpoint/state: written by stickslip 0.1.0, in a form that this program, stickslip 0.1.0, does not \
-             know\n"
+            "DIR/checkpoint/state: written by stickslip 0.1.0 in a format that this program, stickslip 0.1.0, does \
+             not know\n"
                 .to_owned(),
         ),
     ] {
@@ -102,24 +102,24 @@ fn what_is_no_checkpoint_is_refused_word_for_word() {
         let mut bytes = state.clone();
         bytes[place] ^= 4;
         let said = kept.refused_with("state", &bytes);
-        assert!(said.contains("state: is damaged") || said.contains("cut short"), "{place}: {said}");
+        assert!(said.contains("state: is damaged") || said.contains("truncated"), "{place}: {said}");
     }
     let length = journal.len();
     assert_eq!(
         kept.refused_with("journal", &journal[..length - 1]),
-        format!("DIR/checkpoint/journal: is cut short: {} bytes of {length}\n", length - 1)
+        format!("DIR/checkpoint/journal: is truncated: {} bytes of {length}\n", length - 1)
     );
     let mut bytes = journal.clone();
     bytes[length / 2] ^= 4;
     assert_eq!(
         kept.refused_with("journal", &bytes),
-        "DIR/checkpoint/journal: is damaged, or not the journal of the checkpoint beside it\n"
+        "DIR/checkpoint/journal: is damaged, or does not belong to the checkpoint in this folder\n"
     );
 }
 
 #[test]
 fn files_that_are_not_there_or_no_files_are_refused() {
-    let help = "   help: a run leaves one with `stickslip run FILE --checkpoint-every \"30 s\"`\n";
+    let help = "   help: `stickslip run FILE --checkpoint-every \"30 s\"` writes checkpoints\n";
     let none = format!("DIR: has no checkpoint\n{help}");
     let kept = Kept::new("p1", &["run.cycles=3"]);
     let moved = kept.folder.join("elsewhere");
@@ -153,8 +153,7 @@ fn files_that_are_not_there_or_no_files_are_refused() {
 #[test]
 fn a_checkpoint_of_another_run_is_refused() {
     let kept = Kept::new("p1", &["run.cycles=3"]);
-    let said = "DIR/checkpoint/scenario.json: is not the scenario of the checkpoint beside it: more than its end has \
-                changed\n";
+    let said = "DIR/checkpoint/scenario.json: is not the scenario of the checkpoint: more than its end has changed\n";
     for set in [&["run.cycles=3", "contacts.ball.friction=0.2"][..], &["run.cycles=3", "output.every=1 ms"]] {
         let other = Kept::new("p1", set);
         assert_eq!(kept.refused_with("scenario.json", &fs::read(other.file("scenario.json")).unwrap()), said);
@@ -169,19 +168,18 @@ fn a_checkpoint_of_another_run_is_refused() {
 #[test]
 fn only_the_end_and_the_limits_can_be_changed() {
     let kept = Kept::new("p1", &["run.cycles=3"]);
-    let help = "   help: run the scenario anew to change anything else\n";
+    let help = "   help: run the scenario again to change other keys\n";
     for set in ["contacts.ball.friction=0.2", "run.limitsx=9", "title=x"] {
         assert_eq!(
             kept.refused(&["--set", set]),
             format!(
-                "--set {set}  a run that goes on is the same run: only its end can be changed, by run.cycles, and \
-                 run.limits\n{help}"
+                "--set {set}  a resumed run can only change its end, by run.cycles, and run.limits\n{help}"
             )
         );
     }
     assert_eq!(
         kept.refused(&["--set", "run.duration=1 s"]),
-        "--set run.duration=1 s  the scenario of this run gives its end by run.cycles\n   help: --set run.cycles=…\n"
+        "--set run.duration=1 s  the end of this run is given by run.cycles\n   help: --set run.cycles=…\n"
     );
     let said = kept.refused(&["--set", "run.cycles=-1"]);
     assert!(said.starts_with("--set run.cycles=-1  run.cycles: expected a number above 0"), "{said}");
@@ -191,8 +189,8 @@ fn only_the_end_and_the_limits_can_be_changed() {
     assert_eq!(
         said,
         format!(
-            "DIR: the run has come to t = {reached} s, it cannot end at 1e-3 s\n   help: give a later end, or run the \
-             scenario anew\n"
+            "DIR: the run has reached t = {reached} s and cannot end at 1e-3 s\n   help: give a later end, or run the \
+             scenario again\n"
         )
     );
 }
@@ -207,8 +205,8 @@ fn an_end_that_asks_for_looks_at_what_has_passed_is_refused() {
     assert_eq!(
         said,
         format!(
-            "DIR: with this end the run would look into its contacts at t = {t} s, which it has passed without a look\n   \
-             help: give another end, or run the scenario anew with moments for output.memory and output.springs\n"
+            "DIR: with this end the run would write contact states at t = {t} s, which it has already passed\n   \
+             help: give another end, or run the scenario again with times for output.memory and output.springs\n"
         )
     );
 }
@@ -231,8 +229,8 @@ fn a_stepper_that_keeps_no_checkpoints_is_refused_at_once() {
     let output = command.output().unwrap();
     assert_eq!(code(&output), 2);
     let said = stderr(&output);
-    assert!(said.contains("run.stepper: the stepper \"dopri5\" keeps no checkpoints\n"), "{said}");
-    let help = "   help: take \"event\", \"verlet\" or \"rk4\", or run without --checkpoint-every\n";
+    assert!(said.contains("run.stepper: the stepper \"dopri5\" has no checkpoints\n"), "{said}");
+    let help = "   help: use \"event\", \"verlet\" or \"rk4\", or run without --checkpoint-every\n";
     assert!(said.ends_with(help), "{said}");
     assert!(listing(out.path()).is_empty());
 }
@@ -259,9 +257,6 @@ fn what_is_no_plain_file_is_not_waited_for() {
         let path = kept.file(name);
         fs::remove_file(&path).unwrap();
         assert!(std::process::Command::new("mkfifo").arg(&path).status().unwrap().success());
-        assert_eq!(
-            kept.refused(&[]),
-            format!("DIR/checkpoint/{name}: cannot be read: it is not a plain file\n")
-        );
+        assert_eq!(kept.refused(&[]), format!("DIR/checkpoint/{name}: cannot be read: not a regular file\n"));
     }
 }

@@ -175,7 +175,7 @@ fn rounding_is_equal_and_not_identical() {
     let (code, found) = compare(&pair.a, &b, &[]);
     assert_eq!((code, &found["verdict"]), (0, &json!("equal")));
     let text = stdout(&call(&pair.a, &b, &[]));
-    assert!(text.contains("\n  farthest apart: ") && text.ends_with(" s\nequal\n"), "{text}");
+    assert!(text.contains("\n  largest difference: ") && text.ends_with(" s\nequal\n"), "{text}");
     let (code, found) = compare(&pair.a, &b, &["--exact"]);
     assert_eq!((code, &found["verdict"]), (1, &json!("differs")));
     let (b, _out) = other(0.02 * (1.0 + 1e-9));
@@ -183,6 +183,21 @@ fn rounding_is_equal_and_not_identical() {
     // Another time taken is no other bit.
     let (b, _out) = other(0.02);
     assert_eq!(compare(&pair.a, &b, &["--exact"]).0, 0);
+}
+
+/// The scenario has the length of a frame, the summary has the time step: a whole fraction of the frame that depends on the model.
+#[test]
+fn runs_in_frames_can_be_compared() {
+    let pair = Pair::new("p1", &[r#"run.stepper={"frames": {"length": "30 us"}}"#, "run.cycles=2"]);
+    let (code, found) = pair.compare(&[]);
+    assert_eq!((code, &found["verdict"]), (0, &json!("identical")));
+    pair.edit_summary("/stepper/step_s", |step| json!(0.7 * step.as_f64().unwrap()));
+    let output = call(&pair.a, &pair.b, &[]);
+    assert!(
+        stderr(&output).contains("run.stepper differs from the stepper of summary.json"),
+        "{}",
+        stderr(&output)
+    );
 }
 
 #[test]
@@ -281,7 +296,8 @@ fn figures_are_compared_each_by_its_name() {
         assert_eq!((code, found["figures"]["differ"].as_array().unwrap().len()), (1, 1), "{name}");
         assert_eq!(found["figures"]["differ"][0]["name"], name);
         assert!(
-            pair.text(&[]).contains(&format!("\n  figure {name}: ")) && pair.text(&[]).ends_with("differs\n")
+            pair.text(&[]).contains(&format!("\n  summary value {name}: "))
+                && pair.text(&[]).ends_with("differs\n")
         );
         pair.edit_summary(pointer, |_| original);
     }
@@ -297,7 +313,7 @@ fn figures_are_compared_each_by_its_name() {
     // Whoever sends results may leave the steps out.
     std::fs::remove_file(pair.b.join("steps.csv")).unwrap();
     let (code, found) = pair.compare(&[]);
-    assert_eq!((code, &found["notes"]), (0, &json!(["B: not there, and not compared: steps.csv"])));
+    assert_eq!((code, &found["notes"]), (0, &json!(["B: missing, not compared: steps.csv"])));
     pair.edit_summary("/steps", |_| json!({}));
     let (code, found) = pair.compare(&[]);
     assert_eq!((code, &found["figures"]["missing"][0]), (1, &json!("steps.body")));
@@ -321,7 +337,7 @@ fn rows_on_other_grids_are_compared_where_they_meet() {
         );
         let note = found["notes"].as_array().unwrap().last().unwrap().as_str().unwrap();
         let left_out =
-            if at_events > 0 { format!(" ({at_events} more fall on events)") } else { String::new() };
+            if at_events > 0 { format!(" ({at_events} more are at events)") } else { String::new() };
         let numbers =
             format!("rows: 1501 in A and {rows} in B, compared at {common} common times{left_out}; ");
         assert_eq!(note, numbers + "nothing is interpolated");
@@ -356,7 +372,7 @@ fn runs_of_different_length_are_compared_until_the_shorter_ends() {
         let (code, found) = compare(a, b, &[]);
         assert_eq!((code, &found["until_s"], &found["rows"]["common"]), (0, &json!(2.5e-3), &json!(1251)));
         assert!(
-            found["notes"].to_string().contains("compared until t = 0.0025 s, where the shorter run ends")
+            found["notes"].to_string().contains("compared until t = 0.0025 s, the end of the shorter run")
         );
         assert!(found["figures"]["compared"].as_u64().unwrap() >= 2, "two whole steps");
     }
@@ -476,7 +492,7 @@ fn the_picture_ends_with_the_shorter_run() {
         assert!(code(&call(a, b, &["--plot", file.to_str().unwrap()])) < 2);
         let svg = std::fs::read_to_string(&file).unwrap();
         let texts = svg.lines().filter(|line| !line.starts_with('<') && !line.contains("/p1"));
-        let said = ["SHA-256", "the files differ", "the same bytes"];
+        let said = ["SHA-256", "the files differ", "byte-identical"];
         texts.filter(|line| !said.iter().any(|said| line.contains(said))).map(str::to_owned).collect()
     };
     let one = texts(&short, &short);
@@ -497,12 +513,12 @@ fn bad_input_is_said_and_is_no_difference() {
     refused(a, Path::new("nowhere"), &[], "nowhere: expected a folder of results");
     refused(a, &a.join("trace.csv"), &[], "expected a folder of results");
     refused(a, b, &["--absolute", "slidr.x_m=1 nm"], "did you mean \"slider.x_m\"?");
-    refused(a, b, &["--absolute", "slider.x_m=1 N"], "N is the unit of a force");
+    refused(a, b, &["--absolute", "slider.x_m=1 N"], "N is a unit of a force");
     refused(a, b, &["--absolute", "slider.x_m=-1 nm"], "expected a value of 0 or more");
     refused(a, b, &["--ignore", "bell"], "did you mean \"ball\"?");
     refused(a, b, &["--tolerance=-1"], "expected a value of 0 or more");
     refused(a, b, &["--tolerance", "-1"], "expected a value of 0 or more");
-    refused(a, b, &["--time-tolerance", "1 nm"], "nm is the unit of a length");
+    refused(a, b, &["--time-tolerance", "1 nm"], "nm is a unit of a length");
     pair.edit("trace.csv", |lines| lines.truncate(1));
     refused(a, b, &[], "trace.csv  has no rows");
     pair.edit("trace.csv", |lines| "x".clone_into(&mut lines[3][1]));
@@ -510,7 +526,7 @@ fn bad_input_is_said_and_is_no_difference() {
     pair.edit("trace.csv", |lines| "t".clone_into(&mut lines[0][0]));
     refused(a, b, &[], "trace.csv: there is no column \"time_s\"");
     std::fs::write(b.join("summary.json"), "{}").unwrap();
-    refused(a, b, &[], "summary.json: is no summary of a run: there is no simulated_s");
+    refused(a, b, &[], "summary.json: is not the summary of a run: simulated_s is missing");
     std::fs::write(b.join("summary.json"), "{").unwrap();
     refused(a, b, &[], "summary.json: cannot be read: ");
     std::fs::remove_file(b.join("summary.json")).unwrap();
@@ -518,7 +534,7 @@ fn bad_input_is_said_and_is_no_difference() {
         a,
         b,
         &[],
-        "b: incomplete: a run was ended while its results were published\n   help: run it again\n",
+        "b: incomplete: the run was killed while it published its results\n   help: run the scenario again\n",
     );
     for name in ["trace.csv", "events.csv", "scenario.json"] {
         std::fs::remove_file(b.join(name)).unwrap();

@@ -51,7 +51,12 @@ impl Loaded {
 
 fn contact(file: &Path, arguments: &[&str]) -> Value {
     let output = stickslip().arg("contact").arg(file).args(arguments).arg("--json").output().unwrap();
-    assert_eq!((code(&output), stderr(&output).as_str()), (0, ""), "{arguments:?}");
+    // A tip yields, which is a warning.
+    let warned = stderr(&output);
+    assert!(
+        code(&output) == 0 && (warned.is_empty() || warned.contains("begins to yield")),
+        "{arguments:?}: {warned}"
+    );
     serde_json::from_str(&stdout(&output)).unwrap()
 }
 
@@ -160,7 +165,7 @@ fn a_page_has_formulas_of_worn_profiles_and_what_their_pair_neglects() {
         let output =
             stickslip().arg("contact").arg(scenario("quickstart")).args(["--set", &set]).output().unwrap();
         assert!(stdout(&output).contains(formula), "{profile}: {}{}", stdout(&output), stderr(&output));
-        assert!(!stdout(&output).contains("by numbers"), "{profile}");
+        assert!(!stdout(&output).contains("numerical"), "{profile}");
     }
     let found = contact(&scenario("quickstart"), &[]);
     let beta = number(&found, "/constants/dundurs_beta");
@@ -260,7 +265,7 @@ fn a_history_beyond_a_hundred_contact_radii_is_warned_of() {
         assert_eq!(code(&output), 0, "{}", stderr(&output));
         stderr(&output)
     };
-    let words = "warning: corner 1 of the history is at a displacement of 20.00 m, 2203003 contact radii of 9.079 µm, beyond 100: ";
+    let words = "warning: corner 1 of the history is at a displacement of 20.00 m, 2203003 contact radii of 9.079 µm: the limit";
     assert!(
         said("20, -20").starts_with(words)
             && said("0, -909 um").starts_with("warning: corner 2 of the history")
@@ -288,7 +293,7 @@ fn an_open_contact_is_an_answer_and_a_list_of_springs_has_no_fields() {
     let text =
         stickslip().arg("contact").arg(scenario("quickstart")).args(["--force", "0 N"]).output().unwrap();
     assert_eq!(code(&text), 0);
-    assert!(stdout(&text).contains("nothing touches"), "{}", stdout(&text));
+    assert!(stdout(&text).contains("the contact is open"), "{}", stdout(&text));
     // Of a folder with fields nothing is left that the list does not have.
     let folder = tempdir().unwrap();
     written(&scenario("quickstart"), &["--displacement", "10 nm"], folder.path());
@@ -299,7 +304,9 @@ fn an_open_contact_is_an_answer_and_a_list_of_springs_has_no_fields() {
     assert!(!names.contains(&"fields.csv".to_owned()) && names.contains(&"line.csv".to_owned()), "{names:?}");
     let json: Value =
         serde_json::from_slice(&std::fs::read(folder.path().join("contact.json")).unwrap()).unwrap();
-    assert!(json["notes"][0].as_str().unwrap().contains("no fields"));
+    assert!(
+        json["notes"][0].as_str().unwrap().contains("fields and friction work per area are not computed")
+    );
     let springs = rows(folder.path(), "line.csv", 1.0, ["fz_N", "length_m"]);
     assert!((springs.iter().map(|row| row[0]).sum::<f64>() / 0.3 - 1.0).abs() < 1e-12);
     assert!(springs.iter().all(|row| (row[1] / 5e-6 - 1.0).abs() < 1e-12));
@@ -320,12 +327,12 @@ fn what_cannot_be_answered_is_refused_and_leaves_nothing() {
         ("quickstart", &["--force", "-1 N"], "", "--force  expected a normal force of at least 0 N"),
         ("quickstart", &["--radius", "-1 um"], "", "--radius  expected a contact radius"),
         ("quickstart", &["--radius", "9 um", "--stick-radius", "10 um"], "", "--stick-radius  expected"),
-        ("quickstart", &["--displacement", "1 s"], "", "s is the unit of a time"),
+        ("quickstart", &["--displacement", "1 s"], "", "s is a unit of a time"),
         ("quickstart", &["--force", "1 N", "--radius", "1 um"], "", "cannot be used with"),
         ("quickstart", &["--contact", "bal"], "", "did you mean \"ball\"?"),
-        ("fretting_sphere", &[], "", "expected --contact, for the scenario has 5"),
-        ("fretting_sphere", &["--contact", "200 nm", "--indentation", "1 m"], "", "beyond the profile"),
-        ("quickstart", &["--history", "1 um, , 2 um"], "", "expected a length or a force, got nothing"),
+        ("fretting_sphere", &[], "", "expected --contact, because the scenario has 5"),
+        ("fretting_sphere", &["--contact", "200 nm", "--indentation", "1 m"], "", "the range of the profile"),
+        ("quickstart", &["--history", "1 um, , 2 um"], "", "expected a length or a force, got an empty text"),
         ("quickstart", &["--history", "1 um, 3 s"], "", "--history  expected a length"),
         ("quickstart", &["--history", "10 mN, 70 mN"], "", "corner 2 of the history: expected a tangential"),
         ("quickstart", &["--history", "TABLE"], "u (s)\n1\n", "h.csv:1:1  expected the unit of a length"),
@@ -346,11 +353,11 @@ fn what_cannot_be_answered_is_refused_and_leaves_nothing() {
     }
 }
 
-/// The table of docs/handbook.md: item, command, and what of it answers.
+/// The table of docs/theory/contact_mechanics.md: item, command, and what of it answers.
 #[test]
 fn the_handbooks_list_is_answered_by_the_commands_that_the_page_names() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
-    let page = std::fs::read_to_string(root.join("docs/handbook.md")).unwrap();
+    let page = std::fs::read_to_string(root.join("docs/theory/contact_mechanics.md")).unwrap();
     let folder = tempdir().unwrap();
     let rows: Vec<Vec<&str>> = page
         .lines()

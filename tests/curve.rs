@@ -69,10 +69,11 @@ fn what_is_held_at_rest_is_written_for_both_ways() {
     assert_eq!(code(&output), 0, "{}", stderr(&output));
     assert!(stderr(&output).contains("quickstart: holding-force, 4 of 4 points done\n"));
     assert!(
-        stderr(&output)
-            .contains("2 of 8 loads are not found; at 100.0 mN: without a load slider slides away")
+        stderr(&output).contains(
+            "2 of 8 holding forces were not found; at 100.0 mN: without a load, slider slides away"
+        )
     );
-    assert!(stdout(&output).contains("load on slider that is held at rest"), "{}", stdout(&output));
+    assert!(stdout(&output).contains("holding force of slider"), "{}", stdout(&output));
     assert_eq!(listing(&out), ["curve.csv", "curve.json", "curve.png"]);
     let table = Table::read(&out.join("curve.csv"));
     let weight = 10e-3 * 9.81 * 20_f64.to_radians().sin();
@@ -135,7 +136,7 @@ fn what_a_value_does_not_allow_is_said_beside_the_others() {
     assert_eq!(code(&output), 0, "{}", stderr(&output));
     let said = stderr(&output);
     // The one without friction is dragged away by the load.
-    assert!(said.contains("2 of 3 points have no motion; at -0.2000: "), "{said}");
+    assert!(said.contains("2 of 3 points have no result; at -0.2000: "), "{said}");
     assert!(stdout(&output).contains("slides away"), "{}", stdout(&output));
     assert!(said.contains("expected a number between 0 and 1000, got -2e-1"), "{said}");
     assert!(stdout(&output).contains("refused"), "{}", stdout(&output));
@@ -184,20 +185,20 @@ fn bad_input_is_told_and_writes_nothing() {
     refused("quickstart", &["--curve", "preload", "--points", "1"], "expected 2 to 10000 points, got 1");
     let path = "contacts.ball.friction=0.1..0.2";
     refused("quickstart", &["--curve", "force-speed", "--vary", path], "only holding-force takes both");
-    refused("three_ball_stage", &["--curve", "holding-force"], "say over which number, such as --vary");
-    refused("worn_ball", &["--curve", "holding-force"], "no body is free along x, to be loaded");
+    refused("three_ball_stage", &["--curve", "holding-force"], "name a parameter, such as --vary");
+    refused("worn_ball", &["--curve", "holding-force"], "no body is free along x");
     refused("quickstart", &["--curve", "holding-force", "--both"], "--both  cannot be used with");
     let jumps = ["--curve", "step-load", "--both", "--set", "waveforms.drive.sawtooth.flyback=0"];
     refused("quickstart", &jumps, "a waveform that jumps cannot be reversed");
     let smooth = ["--curve", "holding-force", "--set", "contacts.ball.friction=0"];
-    refused("quickstart", &smooth, "nothing that could hold \"slider\" has friction");
+    refused("quickstart", &smooth, "no contact of \"slider\" has friction");
     refused("quickstart", &["--curve", "holding-force", "--range", "2 N..1 N"], "a range that rises");
     refused("quickstart", &["--curve", "holding-force", "--range", "1 m..2 m"], "--range  ");
     refused("quickstart", &["--vary", "contacts.ball.friction"], "PATH=FROM..TO");
     refused("quickstart", &["--vary", "contacts.bal.friction=0..1"], "did you mean \"ball\"?");
-    refused("quickstart", &["--vary", "contacts.ball.count=1..3"], "counts whole things");
-    refused("bouncing_ball", &["--curve", "step-amplitude"], "nothing here repeats itself");
-    refused("walking_drive", &["--curve", "preload"], "pressed by a constant force");
+    refused("quickstart", &["--vary", "contacts.ball.count=1..3"], "is a count");
+    refused("bouncing_ball", &["--curve", "step-amplitude"], "no waveform has a period");
+    refused("walking_drive", &["--curve", "preload"], "has a constant normal force");
 }
 
 #[test]
@@ -208,7 +209,7 @@ fn a_place_that_cannot_be_written_into_is_told_before_the_first_point() {
     let output = curve("quickstart", &out, &["--curve", "force-speed"]);
     let said = stderr(&output);
     assert_eq!(code(&output), 2, "{said}");
-    assert!(said.contains("cannot be written into: ") && !said.contains("points"), "{said}");
+    assert!(said.contains("this folder cannot be written: ") && !said.contains("points"), "{said}");
     assert_eq!(std::fs::read(&out).unwrap(), b"somebody's");
 }
 

@@ -168,27 +168,27 @@ fn damaged_summaries_and_scenarios_are_found() {
         "/simulated_s",
         json!(0.01),
         2,
-        "trace.csv:1003  time_s: expected a time until 0.01, where summary.json says",
+        "trace.csv:1003  time_s: expected a time up to the end of the run in summary.json, 0.01",
     );
     changed(
         "/simulated_s",
         json!(0.03),
         2,
-        "trace.csv:2102  time_s: the last row is at 0.021, and summary.json says",
+        "trace.csv:2102  time_s: the last row is at 0.021, but summary.json has the end",
     );
     changed("/simulated_s", json!(-1.0), 2, "simulated_s: expected a time of 0 or more");
-    changed("/simulated_s", Value::Null, 2, "there is no simulated_s");
+    changed("/simulated_s", Value::Null, 2, "simulated_s is missing");
     changed("/counts/rows", json!(1), 2, "counts.rows is 1, and trace.csv has 2101 rows");
     changed("/counts/events", json!(1), 2, "counts.events is 1, and events.csv has ");
     changed(
         "/tables/trace.csv/rows",
         json!(7),
         2,
-        "trace.csv:2102  expected 7 rows, as summary.json says, got 2101",
+        "trace.csv:2102  expected 7 rows by summary.json, got 2101",
     );
-    changed("/tables/trace.csv/sha256", json!("00"), 2, "trace.csv: is not the table that its run wrote");
-    changed("/tables/events.csv/sha256", json!("00"), 2, "events.csv: is not the table that its run wrote");
-    changed("/tables", json!({}), 2, "summary.json: does not say what is in trace.csv");
+    changed("/tables/trace.csv/sha256", json!("00"), 2, "trace.csv: is not the table of its run");
+    changed("/tables/events.csv/sha256", json!("00"), 2, "events.csv: is not the table of its run");
+    changed("/tables", json!({}), 2, "summary.json: has no checksum of trace.csv");
     changed("/scenario_sha256", json!("00"), 2, "scenario.json  is not the scenario of the run");
     changed("/status", json!("stopped"), 1, "status: done in A, stopped in B");
     changed("/energy/friction_J", json!(1e-9), 1, "energy.friction_J");
@@ -197,10 +197,15 @@ fn damaged_summaries_and_scenarios_are_found() {
         "/stepper/tolerance",
         json!(1.0),
         2,
-        "scenario.json  run.stepper is not the stepper of summary.json",
+        "scenario.json  run.stepper differs from the stepper of summary.json",
     );
-    changed("/stepper", json!({ "name": "verlet", "step_s": 1.0 }), 2, "run.stepper is not the stepper");
-    changed("/contacts", json!({}), 2, "its contacts are not those of summary.json");
+    changed(
+        "/stepper",
+        json!({ "name": "verlet", "step_s": 1.0 }),
+        2,
+        "run.stepper differs from the stepper",
+    );
+    changed("/contacts", json!({}), 2, "its contacts differ from those of summary.json");
 }
 
 /// A beginning that passes for the whole: its end, its counts and its hashes are those of the beginning.
@@ -211,7 +216,7 @@ fn a_beginning_does_not_pass_for_the_whole() {
         for (key, value, expected, message) in [
             ("status", json!("done"), 2, "b/scenario.json  the run ends at 0.0"),
             ("steady_after_periods", json!(1), 2, "has no run.until_steady"),
-            ("cut", json!(true), 2, "cut: only a run that was stopped"),
+            ("cut", json!(true), 2, "cut: only a stopped run"),
             // A run that was interrupted there is one like any other, and said to be.
             ("status", json!("interrupted"), 0, "B: the run was interrupted at t = 0.001 s"),
         ] {
@@ -229,7 +234,7 @@ fn a_beginning_does_not_pass_for_the_whole() {
             assert!(codes == [expected; 2] && said.contains(message), "{name} {key}: {codes:?} {said}");
             assert!(
                 expected != 0
-                    || (said.contains("% of A's time") && said.contains("where the shorter run ends")),
+                    || (said.contains("% of A's time") && said.contains("the end of the shorter run")),
                 "{said}"
             );
         }
@@ -258,14 +263,14 @@ fn a_scenario_of_another_run_is_found_also_with_its_hash_forged() {
         (
             "\"duration\": 0.021",
             "\"duration\": 0.02",
-            "the run ends at 0.02 s, and summary.json says that it was done at 0.021 s",
+            "the run ends at 0.02 s, but summary.json has the end at 0.021 s",
         ),
         (
             "\"every\": 0.00001",
             "\"every\": 0.00002",
-            "trace.csv:3  time_s: expected a row at 2e-5, as output.every asks for",
+            "trace.csv:3  time_s: expected a row at 2e-5 by output.every",
         ),
-        ("\"ball\": {", "\"bell\": {", "its contacts are not those of summary.json"),
+        ("\"ball\": {", "\"bell\": {", "its contacts differ from those of summary.json"),
     ] {
         pair.restore();
         let text = std::fs::read_to_string(pair.a.join("scenario.json")).unwrap();
@@ -298,11 +303,11 @@ fn an_excerpt_is_compared_with_and_not_judged() {
     let excerpt = |a: &Path, b: &Path| stickslip().arg("compare").args([a, b]).output().unwrap();
     let same = excerpt(&pair.b, &pair.a);
     assert_eq!(code(&same), 0, "{}{}", stdout(&same), stderr(&same));
-    assert!(stdout(&same).contains("A: an excerpt, 44 of 2101 rows"), "{}", stdout(&same));
+    assert!(stdout(&same).contains("A: an excerpt with 44 of 2101 rows"), "{}", stdout(&same));
     let judged = excerpt(&pair.a, &pair.b);
     assert_eq!(code(&judged), 2);
     assert!(
-        stderr(&judged).contains("b: is an excerpt of a run: it can be compared with as A"),
+        stderr(&judged).contains("b: is an excerpt of a run; give it as the reference A"),
         "{}",
         stderr(&judged)
     );
@@ -360,7 +365,7 @@ fn what_a_summary_says_of_its_tables_is_what_sha256sum_says() {
         let text = std::fs::read_to_string(folder.join(name)).unwrap();
         std::fs::write(folder.join(name), text.replacen(",0.0,", ",0.00,", 1)).unwrap();
         let refused =
-            format!("{name}: is not the table that its run wrote: its SHA-256 is not that in summary.json");
+            format!("{name}: is not the table of its run: its SHA-256 differs from that in summary.json");
         for arguments in [["compare", "--tolerance=0"], ["plot", "--plots=state,memory"]] {
             let folders = if arguments[0] == "compare" { vec![&folder, &folder] } else { vec![&folder] };
             let output = stickslip().args(arguments).args(folders).output().unwrap();

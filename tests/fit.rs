@@ -94,14 +94,14 @@ fn what_the_data_cannot_tell_is_refused_by_name() {
     for (free, said) in [
         (
             with("contacts.ball.normal.force"),
-            "cannot tell apart: contacts.ball.friction and contacts.ball.normal.force",
+            "cannot distinguish contacts.ball.friction and contacts.ball.normal.force",
         ),
         (
             "contacts.ball.profile.paraboloid.radius,contacts.ball.materials[0].young".to_owned(),
-            "there is nothing under this path",
+            "the scenario has no value at this path",
         ),
         (with("contacts.ball.profile.paraboloid.radiuss"), "did you mean \"radius\"?"),
-        (with("run.cycles"), "it says how a run is run"),
+        (with("run.cycles"), "this key sets execution or output of the run"),
     ] {
         let output = fit(folder.path(), &ball, &["--free", &free]);
         assert_eq!((code(&output), stdout(&output)), (2, String::new()), "{free}");
@@ -110,7 +110,7 @@ fn what_the_data_cannot_tell_is_refused_by_name() {
     }
     for (text, said) in [
         ("u (um),F (N)\n0,1\n1,1\n2,1\n1,1\n0,1\n1,1\n2,1\n1,1\n0,1\n", "its forces are constant"),
-        ("u (um),F (N)\n0,0\n1,1\n", "no cycle comes back"),
+        ("u (um),F (N)\n0,0\n1,1\n", "no cycle closes"),
     ] {
         let output = fit(folder.path(), text, &["--free", FREE]);
         assert_eq!(code(&output), 2);

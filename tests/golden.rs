@@ -139,13 +139,19 @@ fn a_golden_is_small_and_tells_one_in_1e9_from_rounding() {
         }
         assert_eq!(check(&specimen.root()), (0, "p1: identical\n".to_owned()));
         let (code, said) = specimen.with_mass(1.0 + 1e-14);
-        assert!(code == 0 && said.starts_with("p1: equal; farthest apart: "), "{said}");
+        assert!(code == 0 && said.starts_with("p1: equal; largest difference: "), "{said}");
         let (code, said) = specimen.with_mass(1.0 + 1e-9);
         assert!(code == 1 && said.starts_with("p1: differs; first difference at t = "), "{said}");
         assert!(specimen.file("difference.png").exists());
         check(&specimen.root());
         assert!(!specimen.file("difference.png").exists(), "a green check takes the picture away");
     }
+}
+
+#[test]
+fn a_golden_can_be_a_run_in_frames() {
+    let specimen = Specimen::of(&[r#"run.stepper={"frames": {"length": "30 us"}}"#]);
+    assert_eq!(check(&specimen.root()), (0, "p1: identical\n".to_owned()));
 }
 
 #[test]
@@ -169,18 +175,14 @@ fn a_falsified_golden_is_noticed() {
         assert!(code == 1 && said.contains(what), "{file}: {said}");
     };
     noticed("trace.csv", &digit, "slider.x_m");
-    noticed("events.csv", &event, "which is extra");
+    noticed("events.csv", &event, "is extra");
     noticed("summary.json", &length, "p1: differs; ");
     noticed("summary.json", &name, "p1: differs; ");
     noticed("recipe.json", &|text| text.replace("\"format\": 1", "\"format\": 2"), "this version reads 1");
     noticed("recipe.json", &|text| text[..20].to_owned(), "p1: damaged: ");
     noticed("summary.json", &|text| text[..200].to_owned(), "p1: damaged: ");
     noticed("trace.csv", &|text| text.replacen('0', "x", 1), "p1: damaged: ");
-    noticed(
-        "scenario.json",
-        &|text| text.replacen("0.02", "0.021", 1),
-        "is not the scenario that was recorded",
-    );
+    noticed("scenario.json", &|text| text.replacen("0.02", "0.021", 1), "was changed after recording");
     std::fs::write(specimen.file("scenario.json"), "{}").unwrap();
     let accepted = golden(&["accept", "--reason", "what was damaged is made again"], &specimen.root());
     assert_eq!((code(&accepted), check(&specimen.root()).0), (0, 0), "{}", stderr(&accepted));
@@ -203,7 +205,7 @@ fn a_changed_scenario_is_named_before_what_it_changes() {
     std::fs::remove_file(specimen.scenario()).unwrap();
     let (code, said) = check(&specimen.root());
     assert!(
-        code == 1 && said.starts_with("p1: gone: ") && said.ends_with("p1.json is not there\n"),
+        code == 1 && said.starts_with("p1: gone: ") && said.ends_with("p1.json does not exist\n"),
         "{said}"
     );
 }
@@ -219,7 +221,11 @@ fn what_has_changed_is_accepted_for_a_reason_and_logged() {
     for reason in ["", "...", "1"] {
         let output = golden(&["accept", "--reason", reason], &root);
         assert_eq!((code(&output), check(&root).0), (2, 1), "{reason:?}");
-        assert!(stderr(&output).contains("say why the results change"), "{}", stderr(&output));
+        assert!(
+            stderr(&output).contains("expected a reason of eight letters or more"),
+            "{}",
+            stderr(&output)
+        );
     }
     let before = log();
     let output = golden(&["accept", "--reason", "a heavier slider | of brass"], &root);
@@ -244,12 +250,16 @@ fn bad_input_is_refused_with_what_would_be_right() {
         assert!(code(&output) == 2 && stderr(&output).contains(what), "{}", stderr(&output));
     };
     let nowhere = specimen.room.path().join("nowhere");
-    refused(&["check"], &nowhere, "there is no golden\n   help: stickslip golden record FILE… --out ");
-    refused(&["check", "p2"], &specimen.root(), "there is no golden \"p2\"");
+    refused(
+        &["check"],
+        &nowhere,
+        "there is no reference result\n   help: stickslip golden record FILE… --out ",
+    );
+    refused(&["check", "p2"], &specimen.root(), "there is no reference result \"p2\"");
     refused(&["accept"], &specimen.root(), "--reason");
     let (file, out) = (specimen.scenario(), specimen.root());
     let again = ["record", file.to_str().unwrap(), "--out", out.to_str().unwrap()];
-    refused(&again, &out, "there is a golden already\n   help: stickslip golden accept ");
+    refused(&again, &out, "exists already\n   help: stickslip golden accept ");
     assert_eq!(check(&out).0, 0);
 }
 

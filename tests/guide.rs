@@ -1,6 +1,6 @@
-//! The guide: every command of its tutorials is run, and every line that a page shows is in what the program says.
+//! The pages "Start" and "How do I": every command in them is run, and every line of output that they show is in what the program prints.
 
-use crate::program::stickslip;
+use crate::program::{code, listing, stderr, stickslip};
 use std::fs;
 use std::path::Path;
 use tempfile::tempdir;
@@ -27,10 +27,9 @@ fn blocks(page: &str) -> Vec<(&str, &str)> {
     parts.filter_map(|block| block.split_once('\n')).collect()
 }
 
-/// Runs a page in an empty folder, as whoever has nothing but the program, and counts commands and lines that were found.
-fn follow(name: &str) -> (usize, usize) {
-    let root = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../.."));
-    let page = fs::read_to_string(root.join("docs/guide").join(name)).unwrap();
+/// Runs a page in an empty folder, as a reader who has nothing but the program, and counts commands and lines that were found.
+fn follow(page: &Path) -> (usize, usize) {
+    let (name, page) = (page.display(), fs::read_to_string(page).unwrap());
     let folder = tempdir().unwrap();
     let (mut commands, mut lines, mut said) = (0, 0, String::new());
     for (language, block) in blocks(&page) {
@@ -41,37 +40,43 @@ fn follow(name: &str) -> (usize, usize) {
             said = String::from_utf8([output.stdout, output.stderr].concat()).unwrap();
             assert!(!said.is_empty() && !said.contains("error: unrecognized"), "{name}: {block}\n{said}");
             commands += 1;
-        } else {
+        } else if language == "text" && commands > 0 {
             for line in block.lines() {
-                assert!(said.contains(line), "{name} shows\n{line}\nand the program says\n{said}");
+                assert!(said.contains(line.trim()), "{name} shows\n{line}\nand the program prints\n{said}");
                 lines += 1;
             }
+        } else if language == "json" && block.contains("\"stickslip\": 1") {
+            let file = folder.path().join("shown.json");
+            fs::write(&file, block).unwrap();
+            let output = stickslip().arg("check").arg(&file).output().unwrap();
+            assert_eq!(code(&output), 0, "{name}: {block}\n{}", stderr(&output));
         }
     }
-    // Folders that a page speaks of are there.
-    for place in
-        page.split('`').skip(1).step_by(2).filter(|word| word.ends_with(".png") || word.ends_with(".csv"))
-    {
-        let known = folder.path().join(place).exists() || !place.contains('/');
-        assert!(known, "{name}: there is no {place}");
+    // Files of results that a page names exist.
+    for place in page.split('`').skip(1).step_by(2).filter(|word| word.starts_with("results/")) {
+        let is_there = folder.path().join(place).exists() || place.contains(|c: char| c.is_uppercase());
+        assert!(is_there, "{name}: there is no {place}");
     }
     (commands, lines)
 }
 
-#[test]
-fn a_drive_designer_finds_what_the_page_shows() {
-    let (commands, lines) = follow("drive_designer.md");
-    assert!(commands >= 8 && lines >= 12, "{commands} {lines}");
+/// Runs all pages of a folder that have commands.
+fn follow_all(folder: &str, least: (usize, usize)) {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs").join(folder);
+    let (mut commands, mut lines) = (0, 0);
+    for name in listing(&folder) {
+        let (run, found) = follow(&folder.join(name));
+        (commands, lines) = (commands + run, lines + found);
+    }
+    assert!(commands >= least.0 && lines >= least.1, "{commands} {lines}");
 }
 
 #[test]
-fn a_tribologist_finds_what_the_page_shows() {
-    let (commands, lines) = follow("tribologist.md");
-    assert!(commands >= 5 && lines >= 13, "{commands} {lines}");
+fn the_pages_to_start_with_show_what_the_program_prints() {
+    follow_all("start", (20, 40));
 }
 
 #[test]
-fn a_student_finds_what_the_page_shows() {
-    let (commands, lines) = follow("student.md");
-    assert!(commands >= 4 && lines >= 10, "{commands} {lines}");
+fn the_pages_of_tasks_show_what_the_program_prints() {
+    follow_all("how", (40, 60));
 }

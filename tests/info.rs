@@ -166,7 +166,7 @@ fn a_load_that_varies_has_its_ranges() {
     // The stiffest state sets the longest step.
     let omega = TAU * number(&info, "/contacts/ball/largest/contact_resonance_Hz");
     is(&info, "/stepping/longest_verlet_step_s", 2.0 / omega, 1e-12);
-    assert!(tables(&file).contains("F_N, normal force of one             1.000 N (600.0 mN … 1.400 N)"));
+    assert!(tables(&file).contains("F_N, normal force per contact        1.000 N (600.0 mN … 1.400 N)"));
 }
 
 #[test]

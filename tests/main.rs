@@ -32,6 +32,7 @@ mod program;
 mod publishing;
 mod realtime;
 mod realtime_endings;
+mod reference;
 mod refusals;
 mod repro;
 mod reproducibility;

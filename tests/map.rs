@@ -43,7 +43,8 @@ fn a_border_is_written_drawn_and_told() {
     let asked = [&*format!("{FORCE}=1N..20N"), &*format!("{AMPLITUDE}=50nm..1.5um"), "contacts.ball.regime"];
     let told = output(&file, &out, asked, &["--overlay", table.to_str().unwrap(), "--format", "png,svg"]);
     assert_eq!(code(&told), 0, "{}", stderr(&told));
-    for said in ["border of partial and gross: ", "no run was needed", "map.csv, map.png, map.svg, map.json"]
+    for said in
+        ["border between partial and gross: ", "computed without runs", "map.csv, map.png, map.svg, map.json"]
     {
         assert!(stdout(&told).contains(said), "{}", stdout(&told));
     }
@@ -110,7 +111,7 @@ fn bad_input_is_refused() {
         (2, "did you mean \"force\"?", ["contacts.ball.normal.forse=1..2", &y, of], &[]),
         (2, "--x  expected a range that rises", ["contacts.ball.normal.force=2..1", &y, of], &[]),
         (2, "--x  expected FROM..TO", ["contacts.ball.normal.force=2", &y, of], &[]),
-        (2, "another number", [&x, &x, of], &[]),
+        (2, "another parameter", [&x, &x, of], &[]),
         (2, "did you mean \"ball\"?", [&x, &y, "contacts.bal.regime"], &[]),
         (2, "did you mean \"contacts.ball.peak_fx_N\"?", [&x, &y, "contacts.ball.peak_fx_n"], &[]),
         (2, "line 2, column y: expected a number", [&x, &y, of], &overlay),

@@ -87,7 +87,7 @@ fn a_noisy_loop_of_the_other_sign_has_them_too() {
     let names = ["--time", "clock", "--displacement", "LVDT", "--force", "load"];
     let output = measure(folder.path(), &text, &names);
     assert_eq!(code(&output), 0, "{}", stderr(&output));
-    assert_eq!(stderr(&output), "rig.csv: note: the force resists the motion; its sign is turned\n");
+    assert_eq!(stderr(&output), "rig.csv: note: the force opposes the motion; its sign is reversed\n");
     check(folder.path(), 4, 0.03);
 }
 
@@ -122,25 +122,25 @@ fn what_is_no_loop_is_refused_and_leaves_nothing() {
     for (text, arguments, said) in [
         ("", &[][..], "rig.csv: no rows of numbers were found: it is empty"),
         ("a story\nof words\n", &[], "rig.csv: no rows of numbers were found; it begins with \"a story\""),
-        ("t,u\n0,0\n", &[], "rig.csv: no column is a force by its name or unit"),
-        ("t,u,f\n0,0,nan\n1,1,nan\n", &[], "rig.csv: no column is a force by its name or unit"),
+        ("t,u\n0,0\n", &[], "rig.csv: no column is the force by its name or unit"),
+        ("t,u,f\n0,0,nan\n1,1,nan\n", &[], "rig.csv: no column is the force by its name or unit"),
         ("t,u,f\n0,0,0\n1,1,1\n", &["--force", "4"], "rig.csv: there is no column 4 for the force"),
-        ("t,u,f\n0,0,0\n1,1,1\n", &["--force", "3:um"], "rig.csv: \"um\" is no unit of a force"),
+        ("t,u,f\n0,0,0\n1,1,1\n", &["--force", "3:um"], "rig.csv: \"um\" is not a unit of a force"),
         (
             "t,u,f\n0,0,0\n1,1,1\n",
             &["--force", "u", "--displacement", "2"],
-            "rig.csv: column 2 stands for the displacement and for the force",
+            "rig.csv: column 2 is selected for the displacement and for the force",
         ),
         ("t,u,f\n0,0,0\n1,1,1\n", &["--recipe", "rig.csv"], "rig.csv: not a recipe: "),
-        ("t,u,f\n0,0,0\n2,1,1\n1,0,0\n", &[], "rig.csv: t[2] = 1 s comes after 2 s"),
-        ("t,u,f\n0,0,0\n1,1,1\n2,2,2\n", &[], "rig.csv: no cycle comes back to within a tenth of its range"),
+        ("t,u,f\n0,0,0\n2,1,1\n1,0,0\n", &[], "rig.csv: t[2] = 1 s follows 2 s"),
+        ("t,u,f\n0,0,0\n1,1,1\n2,2,2\n", &[], "rig.csv: no cycle closes within a tenth of its range"),
         (
             "u,f\n0,0\n1,1\n0,0\n",
             &["--period", "1 s"],
             "rig.csv: --period, --from and --to need a column of times",
         ),
         ("t,u,f\n0,0,0\n1,1,1\n", &["--time", "clock"], "rig.csv: there is no column \"clock\" for the time"),
-        ("t (um),u,f\n0,0,0\n1,1,1\n", &["--time", "t"], "rig.csv: \"um\" is no unit of a time"),
+        ("t (um),u,f\n0,0,0\n1,1,1\n", &["--time", "t"], "rig.csv: \"um\" is not a unit of a time"),
     ] {
         let output = measure(folder.path(), text, arguments);
         assert_eq!((code(&output), stdout(&output)), (2, String::new()), "{text}");
@@ -250,7 +250,7 @@ fn a_rig_is_taken_out() {
     for (arguments, said) in [
         (&["--rig-stiffness", "fit"][..], "expected --beside with a simulated contact"),
         (&["--rig-stiffness", "0 N/m"], "expected more than 0 N/m"),
-        (&["--beside", "rig", "--beside-displacement", "arm.x"], "has no cycle along arm.x"),
+        (&["--beside", "rig", "--beside-displacement", "arm.x"], "has no closed cycle along arm.x"),
     ] {
         let output = told(arguments);
         assert_eq!(code(&output), 2);
@@ -269,7 +269,7 @@ fn cycles_and_times_are_chosen() {
     }
     for (arguments, said) in [
         (["--cycles", "0.."], "expected numbers of cycles from 1"),
-        (["--cycles", "30.."], "no cycle comes back"),
+        (["--cycles", "30.."], "no cycle closes"),
         (["--from", "99 s"], "no rows between --from and --to"),
         (["--correct", "noise"], "[possible values: lag, drift]"),
     ] {
@@ -327,8 +327,8 @@ fn odd_channels_are_flagged() {
         assert_eq!(code(&output), 0, "{}", stderr(&output));
         String::from_utf8(output.stdout).unwrap()
     };
-    assert!(told(&record(&|_, _| 3.0)).contains("undecided: whether the loop dissipates anything"));
-    assert!(told(&record(&|_, u| u)).contains("undecided: whether the loop dissipates anything"));
+    assert!(told(&record(&|_, _| 3.0)).contains("the dissipated energy is not significantly above 0"));
+    assert!(told(&record(&|_, u| u)).contains("the dissipated energy is not significantly above 0"));
     let spiked = told(&record(&|row, u| if row % 150 == 70 { 9.0 } else { u }));
     assert!(spiked.contains("spikes left out: 0 of the displacement, 3 of the force"), "{spiked}");
 }

@@ -41,9 +41,13 @@ fn an_optimum_is_found_told_and_written() {
     let told = output(&file, &out, &[]);
     assert_eq!(code(&told), 0, "{}", stderr(&told));
     let text = stdout(&told);
-    for said in
-        ["maximum of slider.x_m", "within 1 %", "contacts.ball.friction", "limit: ", "take it with --set "]
-    {
+    for said in [
+        "maximum of slider.x_m",
+        "within 1 %",
+        "contacts.ball.friction",
+        "limit: ",
+        "options for `stickslip steady` and `run`: --set ",
+    ] {
         assert!(text.contains(said), "{said}\n{text}");
     }
     assert_eq!(listing(&out), ["evaluations.txt", "optimum.json", "optimum.png"]);
@@ -153,7 +157,7 @@ fn bad_input_is_refused() {
     for command in ["check", "run", "plan"] {
         let told = stickslip().args(["study", command]).arg(&file).output().unwrap();
         assert_eq!(code(&told), 2);
-        assert!(stderr(&told).contains("`stickslip study optimise` takes it"), "{}", stderr(&told));
+        assert!(stderr(&told).contains("run it with `stickslip study optimise`"), "{}", stderr(&told));
     }
     // All cases fail, and nothing but the journal is written.
     fs::write(&other, text.replace("[0.1,0.2]", "[-0.2,-0.1]")).unwrap();
@@ -164,7 +168,7 @@ fn bad_input_is_refused() {
     // Another search does not mix with it.
     let foreign = output(&file, &out, &[]);
     assert!(
-        code(&foreign) == 2 && stderr(&foreign).contains("belongs to another study"),
+        code(&foreign) == 2 && stderr(&foreign).contains("has parts of another study"),
         "{}",
         stderr(&foreign)
     );

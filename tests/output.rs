@@ -231,7 +231,7 @@ fn events_are_compared_where_both_runs_write_them() {
     for (a, b, share) in [(&whole, &last, 5.0 / 20.0), (&last, &longer, 2.0 / 20.0)] {
         let (some, notes) = compare(a, b);
         assert!((some - share * count).abs() < 0.05 * count, "{some} of {count}");
-        assert!(notes.contains("where both windows are"), "{notes}");
+        assert!(notes.contains("which both windows contain"), "{notes}");
     }
 }
 

@@ -101,7 +101,8 @@ fn a_killed_run_leaves_the_old_results_the_new_ones_or_a_mark() {
 
 /// Results without their summary are read by nobody.
 fn refused_by_all(folder: &Path) {
-    let message = "incomplete: a run was ended while its results were published\n   help: run it again";
+    let message =
+        "incomplete: the run was killed while it published its results\n   help: run the scenario again";
     let picture = listing(folder).into_iter().find(|name| name.ends_with(".png"));
     let mut calls =
         vec![vec!["plot".into(), folder.to_owned()], vec!["compare".into(), folder.into(), folder.into()]];
@@ -123,7 +124,7 @@ fn results_without_a_summary_are_refused_and_say_what_to_do() {
     fs::create_dir(folder.join("checkpoint")).unwrap();
     fs::write(folder.join("checkpoint/state"), "").unwrap();
     let help = format!(
-        "run it again, or go on from its checkpoint with `stickslip run --resume {}`\n",
+        "run the scenario again, or resume it from its checkpoint with `stickslip run --resume {}`\n",
         folder.display()
     );
     let output = stickslip().arg("plot").arg(&folder).output().unwrap();
@@ -133,7 +134,7 @@ fn results_without_a_summary_are_refused_and_say_what_to_do() {
     fs::create_dir(&begun).unwrap();
     fs::write(begun.join(".trace.csv-abc123"), "").unwrap();
     let output = stickslip().arg("plot").arg(&begun).output().unwrap();
-    let message = "there are no results: a run was ended before it had published them, or is under way";
+    let message = "no results: the run was killed before it published them, or is still running";
     assert!(code(&output) == 2 && stderr(&output).contains(message), "{}", stderr(&output));
 }
 
@@ -183,7 +184,7 @@ fn a_folder_into_which_another_command_is_writing_is_refused() {
     let refused = run();
     let said = stderr(&refused);
     assert_eq!(code(&refused), 2, "{said}");
-    assert!(said.contains("another command is writing into it") && said.contains("--out"), "{said}");
+    assert!(said.contains("another command is writing into this folder") && said.contains("--out"), "{said}");
     assert_eq!(listing(&folder), [".trace.csv-ab12cd"]);
     let file = scenario("p1");
     let curve = ["curve", file.to_str().unwrap(), "--curve", "step-amplitude", "--points", "3", "--out"];
@@ -215,8 +216,7 @@ fn a_file_whose_name_is_no_folder_is_refused() {
                 call.arg("--out").arg(&out);
             }
             let output = call.output().unwrap();
-            let message =
-                format!("{name}: its results would go to \"{stem}\", which is no folder of its own\n");
+            let message = format!("{name}: \"{stem}\" cannot be the name of its results folder\n");
             assert!(code(&output) == 2 && stderr(&output).contains(&message), "{}", stderr(&output));
         }
         assert_eq!(listing(root.path()), before);
@@ -247,7 +247,7 @@ fn a_full_disk_keeps_what_was_computed() {
         let output = run_with_small_files(2048, &out, more);
         assert_eq!((code(&output), stdout(&output)), (3, String::new()), "{}", stderr(&output));
         let said = stderr(&output);
-        let first = "quickstart: stopped: the results could not be written any further: File too large\n   help: make room";
+        let first = "quickstart: stopped: the results could not be written completely: File too large\n   help: free disk space";
         assert!(said.starts_with(first), "{said}");
         let folder = out.join("quickstart");
         assert!(said.contains(&format!("the results so far are in {}", folder.display())), "{said}");

@@ -113,7 +113,7 @@ fn what_a_clock_and_a_client_made_comes_again_without_either() {
     let output = command.output().unwrap();
     assert_eq!(code(&output), 2);
     assert!(
-        stderr(&output).contains("the recording has 3000 frames, 10000 are asked for"),
+        stderr(&output).contains("the recording has 3000 frames, 10000 are needed"),
         "{}",
         stderr(&output)
     );
@@ -150,19 +150,22 @@ fn what_cannot_be_is_refused_and_says_why() {
     let (once, twice) = (format!("--outputs=file:{log}"), format!("--outputs=file:{folder}/./log.csv"));
     let cases: [(&[&str], &str); 15] = [
         (&["--log", &folder], "is a directory"),
-        (&[&once, &twice], "asked for twice"),
-        (&[&once, "--log", &log], "asked for twice"),
-        (&["--channels", "stage.y_m"], "there is no channel \"stage.y_m\"; there are time_s, "),
+        (&[&once, &twice], "two options name this file"),
+        (&[&once, "--log", &log], "two options name this file"),
+        (&["--channels", "stage.y_m"], "there is no channel \"stage.y_m\"; channels: time_s, "),
         (&["--channels", "stage.x_m,stage.x_m"], "twice"),
         (&["--inputs", &in_use], "ddress already in use"),
-        (&["--inputs", &never, "--wait", "50 ms"], "no good input came within 0.05 s; nothing was computed"),
+        (
+            &["--inputs", &never, "--wait", "50 ms"],
+            "no valid input arrived within 0.05 s; nothing was computed",
+        ),
         (&["--inputs", "udp:nowhere"], "expected HOST:PORT"),
         (&["--inputs", &foreign], "not a recording of inputs"),
-        (&["--outputs", "udp"], "nobody speaks who could be answered"),
-        (&["--inputs", "shm:one", "--outputs", "shm:two"], "both lie in one"),
+        (&["--outputs", "udp"], "the destination is not known"),
+        (&["--inputs", "shm:one", "--outputs", "shm:two"], "give the same name for both"),
         (&["--stepper", "euler"], "expected frames"),
         (&["--stepper", "rk4:0"], "--stepper rk4:0: expected "),
-        (&["--for", "10 us"], "expected 1 to"),
+        (&["--for", "10 us"], "expected a time of 1 to"),
         (&["--period", "1 ns"], "used multiple times"),
     ];
     for (arguments, words) in cases {
@@ -170,9 +173,9 @@ fn what_cannot_be_is_refused_and_says_why() {
         assert!(said.contains(words), "{arguments:?}: {said}");
     }
     let said = refused(&["--inputs", &never], &scenario("p1"));
-    assert!(said.contains("--inputs: nothing in the scene is fed from outside"), "{said}");
+    assert!(said.contains("--inputs: the scenario has no waveform of kind"), "{said}");
     let said = refused(&["--record-inputs", &log], &scenario("p1"));
-    assert!(said.contains("--record-inputs: nothing in the scene is fed from outside"), "{said}");
+    assert!(said.contains("--record-inputs: the scenario has no waveform of kind"), "{said}");
 }
 
 #[test]
@@ -293,10 +296,10 @@ fn frames_on_damped_springs_under_a_moving_normal_are_warned_of() {
         stderr(&stickslip().arg("check").arg(&file).args(set).output().unwrap())
     };
     let (frames, damped) = ("run.stepper.frames.length=20 us", "contacts.ball.damping=0.1 ms");
-    let words = "contacts.ball.damping: springs of this contact are damped under a moving normal load";
+    let words = "contacts.ball.damping: springs of this contact are damped, under a varying normal load";
     assert!(check(&[frames, damped]).contains(words), "{}", check(&[frames, damped]));
     for quiet in [&[frames][..], &[damped], &[frames, "contacts.ball.damping=1 ns"]] {
-        assert!(!check(quiet).contains("under a moving normal load"), "{}", check(quiet));
+        assert!(!check(quiet).contains("under a varying normal load"), "{}", check(quiet));
     }
 }
 

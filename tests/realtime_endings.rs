@@ -67,12 +67,12 @@ fn a_step_that_makes_too_many_steps_a_frame_is_refused_before_the_start() {
     for more in [&["--unpaced"][..], &[]] {
         let output = step("rk4:0.999 us", more);
         assert_eq!((code(&output), stdout(&output), listing(out.path()).len()), (2, String::new(), 0));
-        let told = "--stepper rk4:0.999 us: steps of 999.0 ns make 100101 steps a frame of 100.0 ms, expected at most 100000\n   \
+        let told = "--stepper rk4:0.999 us: time steps of 999.0 ns give 100101 time steps per frame of 100.0 ms, expected at most 100000\n   \
                     help: a step of 1.000 µs or more, or a period of 99.90 ms or less\n";
         assert_eq!(stderr(&output), told);
     }
     let output = step("verlet:0.1 ns", &["--unpaced"]);
-    assert!(stderr(&output).contains("make 1000000000 steps a frame"), "{}", stderr(&output));
+    assert!(stderr(&output).contains("give 1000000000 time steps per frame"), "{}", stderr(&output));
     // As many as are allowed.
     let output = step("verlet:1 us", &["--unpaced"]);
     assert_eq!(code(&output), 0, "{}", stderr(&output));
@@ -198,7 +198,7 @@ fn an_address_beyond_this_machine_is_warned_of() {
         warnings(&["--inputs", &nothing, "--outputs", "udp:192.0.2.1:9", "--outputs", &at("127.0.0.9")]);
     assert!(code == 2 && told.len() == 1, "{told:?}");
     assert!(
-        told[0].starts_with("warning: --outputs udp:192.0.2.1:9: outputs go out to the network"),
+        told[0].starts_with("warning: --outputs udp:192.0.2.1:9: outputs are sent to the network"),
         "{told:?}"
     );
 }
@@ -227,7 +227,7 @@ fn shared_memory_that_another_process_cuts_ends_the_loop_with_a_sentence() {
         fs::OpenOptions::new().write(true).open(&memory).unwrap().set_len(*length).unwrap();
         let output = end_of(child, "the memory was cut");
         assert_eq!(code(&output), 3, "{k}: {}", stderr(&output));
-        let told = "another process made the shared memory shorter";
+        let told = "another process truncated the shared memory";
         assert!(stderr(&output).contains(told), "{k}: {}", stderr(&output));
         let report = report(&out.path().join("stage"));
         assert!(report["ended"] == "memory" && report["error"].as_str().unwrap().contains(told), "{report}");

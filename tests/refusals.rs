@@ -92,7 +92,7 @@ fn channels_that_nothing_has_are_refused() {
     let file = folder.path().join("mine.json");
     let text = std::fs::read_to_string(scenario("quickstart")).unwrap().replace(from, &to);
     std::fs::write(&file, text).unwrap();
-    check(&run(&file, folder.path(), &[]), &["output.channels[2]: this channel is in the list already"]);
+    check(&run(&file, folder.path(), &[]), &["output.channels[2]: this channel is already in the list"]);
 }
 
 #[test]
@@ -150,7 +150,7 @@ fn what_tips_off_its_foot_is_said_to_slide() {
     let file = folder.path().join("block.json");
     std::fs::write(&file, text).unwrap();
     let pull = 1.7e-4 * 9.81 * 0.0654_f64.sin();
-    let message = format!("`block` has no static equilibrium along x: -{pull:.3e} N stay unbalanced");
+    let message = format!("`block` has no static equilibrium along x: -{pull:.3e} N remain unbalanced");
     check(&run(&file, &folder.path().join("out"), &[]), &[&message]);
 }
 
@@ -179,7 +179,7 @@ fn a_block_that_tips_has_no_equilibrium() {
     std::fs::write(&file, text(2e-5)).unwrap();
     check(
         &run(&file, &out, &[]),
-        &["run.start: `b` has no static equilibrium in pitch: ", "\n   help: lower the load"],
+        &["run.start: `b` has no static equilibrium in pitch: ", "\n   help: reduce the load"],
     );
     assert_eq!(listing(folder.path()), ["block.json"]);
     std::fs::write(&file, text(-2e-5)).unwrap();
@@ -201,11 +201,10 @@ fn a_run_with_more_looks_than_fit_is_refused() {
     let from = "\"10 us\" },\n  \"plots\"";
     let with = |output: &str| format!("\"10 us\", {output} }},\n  \"plots\"");
     let springs = "{ \"every\": \"100 ns\" }";
-    let message =
-        "output.springs: 101 springs at 1.000e6 moments make 1.010e8 lines, expected at most 2.778e7";
+    let message = "output.springs: 101 springs at 1.000e6 times give 1.010e8 lines, expected at most 2.778e7";
     refused(from, &with(&format!("\"springs\": {springs}")), springs, message);
     let memory = "{ \"every\": \"1 us\" }";
-    let message = "output.memory: 1.000e5 curves of up to 16384 corners may make 1.638e9 lines, expected at most 4.167e7";
+    let message = "output.memory: 1.000e5 curves of up to 16384 corners may give 1.638e9 lines, expected at most 4.167e7";
     refused(from, &with(&format!("\"memory\": {memory}")), memory, message);
     // Asked for by a picture, with rows that are fine enough.
     let to = "\"100 ns\" },\n  \"plots\":  [ \"state\", \"loop\", \"trajectory\" ]";
@@ -277,7 +276,7 @@ fn files_of_one_name_do_not_overwrite_each_other() {
         .arg(out.path().join("results"));
     let output = command.output().unwrap();
     assert_eq!(code(&output), 2);
-    let place = format!("{}: its results would go to ", copy.display());
+    let place = format!("{}: its results folder ", copy.display());
     assert!(stderr(&output).starts_with(&place), "{}", stderr(&output));
 }
 

@@ -115,7 +115,7 @@ fn a_picture_whose_run_takes_too_long_is_not_waited_for() {
     assert_eq!((code(&output), stdout(&output)), (3, String::new()));
     let said = stderr(&output);
     assert!(said.contains("loop.png: the limit of 0.000000001 s of wall time was reached at t = "), "{said}");
-    assert!(said.contains("nothing compared\n   help: give it longer with --wall"), "{said}");
+    assert!(said.contains("nothing compared\n   help: allow more time with --wall"), "{said}");
     let output = repro(&picture, &["--wall", "10 min"]);
     assert_eq!((code(&output), stderr(&output)), (0, String::new()));
 }
@@ -220,28 +220,29 @@ fn pictures_of_something_else_are_refused() {
         stderr(&output).replace(&format!("{}/", out.path().display()), "")
     };
     let plain = draw_png(&Figure { panels: vec![Panel::default()], ..Figure::default() }).unwrap();
-    let help = "\n   help: pictures of `stickslip run` and `plot` carry theirs, unless another program has written them since\n";
-    let none = "plain.png: carries no scenario: there is no text \"Software\" in it";
+    let help = "\n   help: plots of `stickslip run` and `plot` contain their scenario, unless another program has written the file again\n";
+    let none = "plain.png: contains no scenario: the text \"Software\" is missing";
     assert_eq!(said("plain.png", &plain), format!("{none}{help}"));
     assert_eq!(
         said("text.png", b"no picture"),
-        "text.png: cannot be read as a picture: neither PNG nor SVG\n"
+        "text.png: is not a readable PNG or SVG file: neither PNG nor SVG\n"
     );
     assert!(said("empty.png", b"").contains("neither PNG nor SVG"));
     assert!(said("page.svg", b"<html></html>").contains("neither PNG nor SVG"));
-    assert!(said("cut.svg", b"<svg><metadata>").contains("cannot be read as a picture: SVG: "));
+    assert!(said("cut.svg", b"<svg><metadata>").contains("is not a readable PNG or SVG file: SVG: "));
     let folder = run_example("oblique_loading", out.path(), &[]);
     let mut picture = std::fs::read(folder.join("loop.png")).unwrap();
     let place = picture.windows(9).position(|w| w == b"Scenario\0").unwrap();
     picture[place + 40] ^= 1;
-    assert_eq!(said("broken.png", &picture), "broken.png: cannot be read as a picture: PNG: damaged\n");
+    assert_eq!(said("broken.png", &picture), "broken.png: is not a readable PNG or SVG file: PNG: damaged\n");
     assert!(
-        said("short.png", &picture[..place]).starts_with("short.png: cannot be read as a picture: PNG: ")
+        said("short.png", &picture[..place])
+            .starts_with("short.png: is not a readable PNG or SVG file: PNG: ")
     );
     let huge = std::fs::File::create(out.path().join("huge.png")).unwrap();
     huge.set_len(65 << 20).unwrap();
     let output = repro(&out.path().join("huge.png"), &[]);
-    assert!(stderr(&output).ends_with("huge.png: has more than 67108864 bytes\n"), "{}", stderr(&output));
+    assert!(stderr(&output).ends_with("huge.png: is larger than 67108864 bytes\n"), "{}", stderr(&output));
     let missing = repro(&out.path().join("none.png"), &[]);
     assert_eq!(code(&missing), 2);
     assert!(stderr(&missing).ends_with("none.png: cannot be read: No such file or directory\n"));
@@ -273,17 +274,20 @@ fn what_a_stranger_wrote_into_a_picture_passes_all_checks_or_is_refused() {
         let table = format!("\"file\": \"{file}\", \"time\": \"t\", \"value\": \"x\"");
         let why = refused(carried.with_scenario(&format!("\"points\": {points}"), &table));
         assert!(
-            why.contains("waveforms.slide.table.file: this scenario has no folder: it may name no files"),
+            why.contains("waveforms.slide.table.file: this scenario has no folder, so it cannot name files"),
             "{why}"
         );
     }
     let why = refused(carried.with("Scenario", &carried.get("Scenario").replace("0.3", "0.31")));
-    assert_eq!(why, "PICTURE: its \"Scenario\" is damaged: it is not the one of its \"Scenario SHA-256\"\n");
+    assert_eq!(
+        why,
+        "PICTURE: its \"Scenario\" is damaged: it does not match the \"Scenario SHA-256\" in the file\n"
+    );
     let why = refused(carried.with("Fingerprint", "{}"));
     assert!(why.starts_with("PICTURE: its \"Fingerprint\" is damaged: missing field"), "{why}");
     let why = refused(carried.with("Simulated/s", "later"));
     assert_eq!(why, "PICTURE: its \"Simulated/s\" is damaged: expected a number, got \"later\"\n");
     // 65 megabytes in as many kilobytes.
     let why = refused(carried.with("Scenario", &" ".repeat(65 << 20)));
-    assert!(why.starts_with("PICTURE: cannot be read as a picture: PNG: "), "{why}");
+    assert!(why.starts_with("PICTURE: is not a readable PNG or SVG file: PNG: "), "{why}");
 }

@@ -117,7 +117,9 @@ fn a_journal_is_of_its_scenario_and_can_be_left_out() {
     cut.args(["curve", "--vary", "contacts.ball.friction=0.1..0.3", "--points", "2000", "--quiet", "--out"]);
     let mut child = cut.arg(&out).arg(scenario("p1")).stdout(Stdio::null()).spawn().unwrap();
     let journal = out.join("curve.journal");
-    while !std::fs::read_to_string(&journal).is_ok_and(|text| text.lines().count() > 3 && text.contains("\"1e-1\"")) {
+    while !std::fs::read_to_string(&journal)
+        .is_ok_and(|text| text.lines().count() > 3 && text.contains("\"1e-1\""))
+    {
         std::thread::sleep(Duration::from_millis(5));
         assert!(child.try_wait().unwrap().is_none(), "it has come to its end");
     }

@@ -68,7 +68,7 @@ fn a_driver_at_its_window_is_told_from_both_sides() {
         said.contains("waveforms.drive.sawtooth.stroke, below") && said.contains("stroke, above"),
         "{said}"
     );
-    assert!(said.contains("other events; above: stack voltage at upper end 0 → 2"), "{said}");
+    assert!(said.contains("the events differ; above: stack voltage at upper end 0 → 2"), "{said}");
     let answer: Value =
         serde_json::from_slice(&std::fs::read(root.path().join("out/sensitivity.json")).unwrap()).unwrap();
     let rows = answer["figures"][0]["derivatives"].as_array().unwrap();
@@ -87,15 +87,15 @@ fn bad_input_is_told_and_writes_nothing() {
         assert!(!out.exists(), "{arguments:?}");
     };
     refused("p1", &["--of", "steps.lst_m"], (2, "did you mean \"steps.last_m\"?"));
-    refused("p1", &["--of", "drivers.stack.peak_current_A"], (2, "have no such figure"));
-    refused("p1", &["--of", "steps.periods"], (2, "counts whole things"));
-    refused("p1", &["--to", "contacts.ball.count"], (2, "counts whole things"));
+    refused("p1", &["--of", "drivers.stack.peak_current_A"], (2, "have no such result"));
+    refused("p1", &["--of", "steps.periods"], (2, "is a count"));
+    refused("p1", &["--to", "contacts.ball.count"], (2, "is a count"));
     refused("p1", &["--to", "contacts.bal.friction"], (2, "did you mean \"ball\"?"));
-    refused("p1", &["--to", "run.cycles"], (2, "changes no motion"));
+    refused("p1", &["--to", "run.cycles"], (2, "has no effect on the motion"));
     refused("p1", &["--set", "contacts.ball.friction=-1"], (2, "expected a number between"));
     refused("p1", &["--tolerance", "1"], (2, "'--tolerance <SHARE>': expected 1e-13 to 1e-6"));
-    refused("p1", &["--set", "run.limits.steps=100"], (3, "its own run stopped"));
-    refused("bouncing_ball", &["--steady"], (2, "nothing to be steady with"));
+    refused("p1", &["--set", "run.limits.steps=100"], (3, "the run of the scenario stopped early"));
+    refused("bouncing_ball", &["--steady"], (2, "there is no periodic orbit"));
 }
 
 /// Finished derivatives are not lost to those that somebody ends, which stand beside them until the next are finished.

@@ -31,7 +31,7 @@ fn found(name: &str, out: &Path, options: &[&str]) -> Value {
     let output = steady(name, out, options);
     assert_eq!(code(&output), 0, "{name}: {}", stderr(&output));
     let said: Vec<String> = stderr(&output).lines().map(str::to_owned).collect();
-    assert_eq!((said.len(), &said[0]), (2, &format!("{name}: looking for its steady motion")), "{said:?}");
+    assert_eq!((said.len(), &said[0]), (2, &format!("{name}: searching for the periodic orbit")), "{said:?}");
     assert!(said[1].starts_with(&format!("{name}: found in ")), "{said:?}");
     serde_json::from_slice(&fs::read(out.join("steady.json")).unwrap()).unwrap()
 }
@@ -65,10 +65,10 @@ fn the_table_is_for_people_and_the_line_for_machines() {
     let out = tempdir().unwrap();
     let said = stdout(&steady("vertical_climber", out.path(), &["--periods", "100"]));
     for words in [
-        "STEADY MOTION",
+        "PERIODIC ORBIT",
         "284.8 nm ±",
         "a period, climber",
-        "no: a run leaves this motion",
+        "no: a run leaves this orbit",
         "not settled after 100 periods",
         "oscillates with a period of 7.52 drive periods and grows by 0.131 % per",
     ] {
@@ -121,11 +121,11 @@ fn what_cannot_be_found_is_said_and_leaves_nothing() {
     let root = tempdir().unwrap();
     let out = root.path().join("steady");
     let cases: [(&str, &[&str], i32, &str); 5] = [
-        ("bouncing_ball", &[], 2, "bouncing_ball: no waveform of the scene has a period"),
-        ("commanded", &[], 2, "commanded: the waveform \"drive\" follows what a caller commands"),
-        ("fretting_sphere", &[], 2, "fretting_sphere: nothing is free in this scene"),
-        ("impact_drive", &["--periods", "12"], 3, "impact_drive: no steady motion found in "),
-        ("p1", &["--set", STUCK, "--periods", "60"], 3, "help: ball never slips grossly"),
+        ("bouncing_ball", &[], 2, "bouncing_ball: no waveform has a period"),
+        ("commanded", &[], 2, "commanded: a calling program commands the waveform \"drive\""),
+        ("fretting_sphere", &[], 2, "fretting_sphere: no coordinate is free"),
+        ("impact_drive", &["--periods", "12"], 3, "impact_drive: no periodic orbit found in "),
+        ("p1", &["--set", STUCK, "--periods", "60"], 3, "help: ball is never in gross slip"),
     ];
     for (name, options, expected, words) in cases {
         let output = steady(name, &out, options);
@@ -138,7 +138,7 @@ fn what_cannot_be_found_is_said_and_leaves_nothing() {
     assert_eq!((code(&output), stdout(&output)), (2, String::new()), "{}", stderr(&output));
     // Before anything is looked for.
     let said = stderr(&output);
-    assert!(said.contains("cannot be written into: ") && !said.contains("looking"), "{said}");
+    assert!(said.contains("this folder cannot be written: ") && !said.contains("looking"), "{said}");
     let refused = steady("p1", root.path(), &["--tolerance", "1e-3"]);
     assert_eq!(code(&refused), 2);
 }
@@ -150,7 +150,7 @@ fn a_stepper_without_checkpoints_leaves_none_and_says_so() {
     let found = found("p1", out.path(), &["--set", dopri5]);
     assert_eq!(listing(out.path()), ["steady.json", "steady.png"]);
     let note = found["notes"][0].as_str().unwrap();
-    assert!(note.ends_with("the stepper \"dopri5\" keeps none"), "{note}");
+    assert!(note.ends_with("the stepper \"dopri5\" has no checkpoints"), "{note}");
 }
 
 #[cfg(unix)]
@@ -212,7 +212,7 @@ fn the_steady_motion_beside_a_run_is_not_that_of_its_stepper() {
 fn what_takes_too_long_beside_a_run_is_said_and_what_is_not_asked_is_not_there() {
     let said = line(&["info"], "piezo_hysteresis");
     let fault = said["steady_motion"]["fault"].as_str().unwrap();
-    assert!(fault.starts_with("no steady motion found within") && !fault.contains('\n'), "{fault}");
+    assert!(fault.starts_with("no periodic orbit found within") && !fault.contains('\n'), "{fault}");
     let said = line(&["info"], "oblique_impact");
     assert!(said.get("steady_motion").is_none(), "{said}");
 }
@@ -232,8 +232,8 @@ fn a_branch_is_written_and_told() {
     let said = stdout(&output);
     for words in [
         "36.04 nm",
-        "above, gross slip of ball appears (1 a period)",
-        "end at 36.04 nm: beyond, ball never slips grossly",
+        "gross slip of ball appears above (1 per period)",
+        "end at 36.04 nm: no gross slip in ball beyond this value",
     ] {
         let lines = said.split_whitespace().collect::<Vec<_>>().join(" ");
         assert!(lines.contains(words), "{words} in\n{said}");
@@ -262,21 +262,16 @@ fn a_branch_that_cannot_be_followed_is_told_and_leaves_nothing() {
     refused("p1", &["--vary", &range("1 um")], 2, "expected FROM..TO, such as 0.1..0.6, got \"1 um\"");
     refused("p1", &["--vary", &range("1 um..2 N")], 2, "--vary  ");
     refused("p1", &["--vary", &range("1 um..0.1 um")], 2, "a range that rises");
-    refused("p1", &["--vary", &range("1 um..2 um")], 2, "the branch starts there");
-    refused("p1", &["--vary", "contacts.ball.count=1..3"], 2, "counts whole things");
+    refused("p1", &["--vary", &range("1 um..2 um")], 2, "the branch starts at the value of the scenario");
+    refused("p1", &["--vary", "contacts.ball.count=1..3"], 2, "this is a count");
     refused("p1", &["--vary", "contacts.bal.friction=0..1"], 2, "did you mean \"ball\"?");
     refused("p1", &["--accuracy", "1e-6"], 2, "--vary");
     refused("p1", &["--vary", &range("10 nm..1 um"), "--accuracy", "1"], 2, "expected 1e-12 to 1e-3");
-    refused(
-        "bouncing_ball",
-        &["--vary", "gravity.acceleration=5..15"],
-        2,
-        "no waveform of the scene has a period",
-    );
+    refused("bouncing_ball", &["--vary", "gravity.acceleration=5..15"], 2, "no waveform has a period");
     let stuck = ["--set", STUCK, "--periods", "60", "--vary", "contacts.ball.friction=0.1..0.2"];
-    refused("p1", &stuck, 3, "help: ball never slips grossly");
+    refused("p1", &stuck, 3, "help: ball is never in gross slip");
     fs::write(&out, "a file").unwrap();
     let output = branch("p1", &out, &["--vary", &range("30 nm..1 um")]);
     assert_eq!((code(&output), stdout(&output)), (2, String::new()), "{}", stderr(&output));
-    assert!(stderr(&output).contains("cannot be written into: "), "{}", stderr(&output));
+    assert!(stderr(&output).contains("this folder cannot be written: "), "{}", stderr(&output));
 }

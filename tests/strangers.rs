@@ -100,8 +100,12 @@ fn words_and_numbers_without_end_are_refused_at_once() {
     );
     refused("trace.csv", &"a,".repeat(300_000), "expected at most 200000 cells, got 300001");
     refused("summary.json", &"[".repeat(100_000), "recursion limit");
-    refused("summary.json", &format!("[{}0]", "0,".repeat(3_000_000)), "it has more than 2500000 values");
-    refused("summary.json", &format!("\"{}\"", long.repeat(7)), "it has more than 67108864 bytes");
+    refused(
+        "summary.json",
+        &format!("[{}0]", "0,".repeat(3_000_000)),
+        "the file has more than 2500000 values",
+    );
+    refused("summary.json", &format!("\"{}\"", long.repeat(7)), "the file has more than 67108864 bytes");
     refused(
         "summary.json",
         &format!("{{\"status\": \"{long}\"}}"),
@@ -111,7 +115,7 @@ fn words_and_numbers_without_end_are_refused_at_once() {
     let name = "x".repeat(1000);
     let deep =
         format!("{}[{}0]{}", format!("{{\"{name}\":").repeat(100), "0,".repeat(100_000), "}".repeat(100));
-    refused("summary.json", &deep, "the full names of its figures have more than 134217728 bytes");
+    refused("summary.json", &deep, "the full names of its results have more than 134217728 bytes");
 }
 
 /// What was printed, in which there is nothing that a terminal would obey.
@@ -140,9 +144,7 @@ fn nothing_that_a_terminal_obeys_is_printed() {
             for call in calls {
                 let output = answer(call);
                 assert_eq!(code(&output), 2);
-                assert!(
-                    clean(&output).contains("summary.json: has control characters in its names or words")
-                );
+                assert!(clean(&output).contains("summary.json: has control characters in names or words"));
             }
         }
     }

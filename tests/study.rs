@@ -104,7 +104,7 @@ fn bad_input_is_refused_before_anything_is_written() {
     assert_eq!(code(&output("run", &file, &out, &["--shard", "4/3"])), 2);
     let alone =
         study("run", &file, &out, &["--shard", "auto"]).env_remove("SLURM_ARRAY_TASK_ID").output().unwrap();
-    assert!(code(&alone) == 2 && stderr(&alone).contains("no array job"), "{}", stderr(&alone));
+    assert!(code(&alone) == 2 && stderr(&alone).contains("not an array job"), "{}", stderr(&alone));
     assert!(!out.exists());
     let array = |id: &str| {
         let mut shard = study("run", &file, &out, &["--shard", "auto", "--json"]);
@@ -125,7 +125,7 @@ fn bad_input_is_refused_before_anything_is_written() {
     for command in [&["run"][..], &["run", "--fresh"], &["status"], &["indices"]] {
         let refused = output(command[0], &file, &out, &command[1..]);
         assert_eq!(code(&refused), 2, "{command:?}");
-        assert!(stderr(&refused).contains("belongs to another study"), "{}", stderr(&refused));
+        assert!(stderr(&refused).contains("has parts of another study"), "{}", stderr(&refused));
     }
     assert_eq!(bytes(&out), before);
     let text = fs::read_to_string(&file).unwrap().replace("[\"20 g\",\"-1 g\"]", "[\"-2 g\",\"-1 g\"]");

@@ -38,8 +38,10 @@ fn open_energy_books_are_said_and_strictness_lets_them_not_pass() {
         let output = run(&scenario("quickstart"), out.path(), &[stepper]);
         assert_eq!(code(&output), 0, "{stepper}");
         let said = stderr(&output);
-        let words = format!("warning: quickstart: the energy books miss {share} of what went through them, ");
-        assert!(said.contains(&words) && said.contains("   help: take a shorter step"), "{said}");
+        let words = format!(
+            "warning: quickstart: the energy balance has an error of {share} of the energy throughput, "
+        );
+        assert!(said.contains(&words) && said.contains("   help: use a shorter time step"), "{said}");
         let told = summary(&folder);
         let warning = &told["warnings"][told_of.len() - 1];
         assert_eq!((&warning["kind"], warning.get("path")), (&Value::from("energy_balance"), None));
@@ -92,7 +94,7 @@ fn what_a_reference_does_not_see_of_its_energies_is_said() {
         said.push(stderr(&output));
     }
     assert!(
-        said[0].contains(" times the tolerance of 1e-9\n   help: its error estimate sees"),
+        said[0].contains(" times the tolerance of 1e-9\n   help: its error estimate covers"),
         "{}",
         said[0]
     );
@@ -108,7 +110,7 @@ fn steps_taken_in_spite_of_their_estimate_are_counted() {
     let fine = "run.stepper.event.tolerance=1e-9";
     let output = run(&file, out.path(), &[fine]);
     assert_eq!(code(&output), 0);
-    assert!(stderr(&output).contains(" steps miss their tolerance: damped springs"), "{}", stderr(&output));
+    assert!(stderr(&output).contains(" steps exceed their tolerance: damped springs"), "{}", stderr(&output));
     let folder = out.path().join("flat_damped");
     assert_eq!(kinds(&folder), ["error_estimate"]);
     assert!(number(&summary(&folder), "/counts/missed_tolerance") >= 1.0);
@@ -134,7 +136,7 @@ fn a_resumed_run_is_told_of_and_judged_alike() {
     command.args(["run", "--resume"]).arg(&folder).args(["--strict", "--set", "run.duration=100 ms"]);
     let output = command.output().unwrap();
     assert_eq!(code(&output), 3, "{}", stderr(&output));
-    assert!(stderr(&output).contains("the energy books miss 20.21 %"), "{}", stderr(&output));
+    assert!(stderr(&output).contains("the energy balance has an error of 20.21 %"), "{}", stderr(&output));
     let resumed = summary(&folder)["warnings"].clone();
     run(&scenario("quickstart"), out.path(), &set);
     assert_eq!(summary(&folder)["warnings"], resumed);
@@ -205,7 +207,10 @@ fn motions_beyond_the_model_are_said_of_the_run_and_explained() {
     command.args(["run", "--strict"]).arg(&file).arg("--out").arg(out.path());
     let output = command.output().unwrap();
     let said = stderr(&output);
-    assert!(code(&output) == 3 && said.starts_with("warning: spins_30_rad: b turns by 30.00 rad"), "{said}");
+    assert!(
+        code(&output) == 3 && said.starts_with("warning: spins_30_rad: b rotates by 30.00 rad"),
+        "{said}"
+    );
     assert_eq!(kinds(&out.path().join("spins_30_rad")), ["angle", "through_ground"]);
     for kind in ["angle", "rolling", "through_ground", "flank", "damping_time"] {
         let explained = stickslip().args(["explain", kind]).output().unwrap();

@@ -100,8 +100,8 @@ fn assert_page(page: &str, folder: &Path) {
     let links = page.split("](").skip(1).map(|rest| rest.split_once(')').unwrap().0);
     let sources = page.split("src=\"").skip(1).map(|rest| rest.split_once('"').unwrap().0);
     let places: Vec<&str> = links.chain(sources).collect();
-    // Four tables and an SVG, two scenes, a picture.
-    assert_eq!(places.len(), 8);
+    // Four tables, an SVG, a picture.
+    assert_eq!(places.len(), 6);
     assert!(places.iter().all(|place| folder.join(place).exists()), "{places:?}");
     assert_eq!(page.lines().filter(|line| line.starts_with("| `contacts_3` |")).count(), 4 + 4 + 2);
 }

@@ -31,12 +31,11 @@ fn the_gallery_has_the_pictures_of_run_and_a_page_that_names_their_commands() {
     std::fs::write(out.join("quickstart/phase-dark.png"), "of an earlier scenario").unwrap();
     let output = gallery(&scenarios, &out);
     assert_eq!((code(&output), stderr(&output)), (0, String::new()));
-    assert!(
-        stdout(&output).ends_with("plots: 5 pictures of 2 scenarios, README.md\n"),
-        "{}",
-        stdout(&output)
+    assert!(stdout(&output).ends_with("plots: 5 pictures of 2 scenarios, index.md\n"), "{}", stdout(&output));
+    assert_eq!(
+        listing(&out),
+        ["index.md", "oblique_loading", "oblique_loading.md", "quickstart", "quickstart.md"]
     );
-    assert_eq!(listing(&out), ["README.md", "oblique_loading", "quickstart"]);
     // Small ones as SVG, too.
     let names =
         ["loop-dark.png", "loop.png", "loop.svg", "trajectory-dark.png", "trajectory.png", "trajectory.svg"];
@@ -46,13 +45,21 @@ fn the_gallery_has_the_pictures_of_run_and_a_page_that_names_their_commands() {
         let [drawn, shown] = [&ran, &out.join("quickstart")].map(|f| std::fs::read(f.join(name)).unwrap());
         assert!(drawn == shown, "{name}");
     }
-    let page = std::fs::read_to_string(out.join("README.md")).unwrap();
+    let read = |name: &str| std::fs::read_to_string(out.join(name)).unwrap();
+    let (index, page) = (read("index.md"), read("oblique_loading.md"));
+    assert!(
+        index.contains(
+            "[`oblique_loading`](oblique_loading.md): Oblique &#42;loading&#42; &lt;b&gt;, then normal"
+        ),
+        "{index}"
+    );
     for text in [
-        "\n## Oblique &#42;loading&#42; &lt;b&gt;, then normal",
-        "\n[`quickstart`](../my%20scenarios/quickstart.json): `stickslip run \"",
-        "**state** – what every spring under a contact does over time: `stickslip plot results/oblique_loading --plots state`",
-        "<source media=\"(prefers-color-scheme: dark)\" srcset=\"quickstart/loop-dark.png\">\n  <img src=\"quickstart/loop.png\"",
-        "([dark](oblique_loading/loop-dark.png), [SVG](oblique_loading/loop.svg))",
+        "# Oblique &#42;loading&#42; &lt;b&gt;, then normal",
+        "\nstickslip run \"",
+        "\n## State\n\nStick and slip of each spring of a contact over time. `stickslip plot results/oblique_loading --plots state`",
+        "srcset=\"oblique_loading/state-dark.png\"><img src=\"oblique_loading/state.png\"",
+        "([SVG](oblique_loading/loop.svg))",
+        "{{#include ../my scenarios/oblique_loading.json}}",
     ] {
         assert!(page.contains(text), "{text} in {page}");
     }
@@ -60,7 +67,7 @@ fn the_gallery_has_the_pictures_of_run_and_a_page_that_names_their_commands() {
     let before = std::fs::read(out.join("oblique_loading/state-dark.png")).unwrap();
     assert_eq!(code(&gallery(&scenarios, &out)), 0);
     assert!(before == std::fs::read(out.join("oblique_loading/state-dark.png")).unwrap());
-    assert_eq!(page, std::fs::read_to_string(out.join("README.md")).unwrap());
+    assert_eq!((index, page), (read("index.md"), read("oblique_loading.md")));
 }
 
 #[test]
@@ -72,9 +79,9 @@ fn a_gallery_that_is_not_complete_has_no_page() {
         let output = gallery(&scenarios, &out);
         assert_eq!((code(&output), stdout(&output)), (want, String::new()));
         assert!(stderr(&output).contains(message), "{}", stderr(&output));
-        assert!(!out.join("README.md").exists());
+        assert!(!out.join("index.md").exists());
     };
-    refused(2, "scenarios: has no scenarios, files NAME.json");
+    refused(2, "scenarios: contains no scenario files NAME.json");
     put(&scenarios, "quickstart", &[("\"friction\": 0.2", "\"friction\": -0.2")]);
     put(&scenarios, "oblique_loading", &[]);
     refused(2, "contacts.ball.friction");
@@ -91,37 +98,31 @@ fn a_gallery_that_is_not_complete_has_no_page() {
 fn the_gallery_of_the_project_is_whole() {
     let scenarios = scenario("p1");
     let scenarios = scenarios.parent().unwrap();
-    let plots = scenarios.join("../plots");
-    let page = std::fs::read_to_string(plots.join("README.md")).unwrap();
-    let (mut kinds, mut pictures) = (Vec::new(), 0);
+    let gallery = scenarios.join("../docs/examples");
+    let index = std::fs::read_to_string(gallery.join("index.md")).unwrap();
+    let mut kinds = std::collections::BTreeSet::new();
     for file in listing(scenarios).iter().filter(|file| file.ends_with(".json")) {
         let name = file.strip_suffix(".json").unwrap();
-        assert!(
-            page.contains(&format!("[`{name}`](../scenarios/{file})")),
-            "run stickslip-lab gallery: no {name}"
-        );
+        assert!(index.contains(&format!("[`{name}`]({name}.md)")), "run stickslip-lab gallery: no {name}");
+        let page = std::fs::read_to_string(gallery.join(format!("{name}.md"))).unwrap();
         let text = std::fs::read_to_string(scenarios.join(file)).unwrap();
         let scenario: serde_json::Value = serde_json::from_str(&text).unwrap();
         for plot in scenario["plots"].as_array().unwrap() {
-            let plot = plot.as_str().unwrap().to_owned();
+            let plot = plot.as_str().unwrap_or("xy").to_owned();
             assert!(
                 page.contains(&format!("`stickslip plot results/{name} --plots {plot}`")),
                 "run stickslip-lab gallery"
             );
-            pictures += 1;
-            kinds.push(plot);
+            kinds.insert(plot);
+        }
+        for link in
+            page.split(['"', '(', ')']).filter(|link| link.ends_with(".png") || link.ends_with(".svg"))
+        {
+            assert!(gallery.join(link).is_file(), "run stickslip-lab gallery: no {link}");
         }
     }
-    kinds.sort();
-    kinds.dedup();
-    assert_eq!(
-        kinds,
-        ["drive", "energy", "events", "layout", "loop", "memory", "phase", "state", "trajectory"]
-    );
-    assert!(pictures >= 10);
-    for link in page.split(['"', '(', ')']).filter(|link| link.ends_with(".png") || link.ends_with(".svg")) {
-        assert!(plots.join(link).is_file(), "run stickslip-lab gallery: no {link}");
-    }
+    let all = ["drive", "energy", "events", "layout", "loop", "memory", "phase", "state", "trajectory", "xy"];
+    assert!(kinds.iter().eq(all.iter()), "{kinds:?}");
 }
 
 #[test]
@@ -131,7 +132,7 @@ fn a_folder_without_scenarios_is_bad_input_and_nothing_is_written() {
     std::fs::create_dir(&empty).unwrap();
     for (folder, message) in [
         (&none, "none: expected a folder of scenarios: No such file or directory\n   help: "),
-        (&empty, "empty: has no scenarios, files NAME.json\n   help: "),
+        (&empty, "empty: contains no scenario files NAME.json\n   help: "),
     ] {
         let output = gallery(folder, &root.path().join("out"));
         assert!(code(&output) == 2 && stderr(&output).contains(message), "{}", stderr(&output));

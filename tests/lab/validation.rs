@@ -23,7 +23,7 @@ fn the_pages_of_the_project_say_what_the_program_computes() {
     for out in &outs {
         let output = validate(&[], out);
         assert_eq!((code(&output), stderr(&output)), (0, String::new()));
-        let said = format!("{}: 7 pages, 20 of 20 tolerances kept\n", out.display());
+        let said = format!("{}: 7 pages, 20 of 20 tolerances met\n", out.display());
         assert_eq!(stdout(&output), said);
     }
     let names = listing(&outs[0]);
@@ -75,7 +75,7 @@ fn a_page_that_is_not_there_and_a_folder_that_cannot_be_written_are_named() {
     std::fs::write(&file, "not a folder").unwrap();
     let output = validate(&["contact"], &file.join("pages"));
     assert_eq!((code(&output), stdout(&output)), (3, String::new()));
-    for text in ["file/pages: cannot be written: ", "help: choose another place with --out"] {
+    for text in ["file/pages: cannot be written: ", "help: choose another folder with --out"] {
         assert!(stderr(&output).contains(text), "{text}: {}", stderr(&output));
     }
     assert_eq!(std::fs::read_to_string(&file).unwrap(), "not a folder");

@@ -1,7 +1,7 @@
-//! The benchmark drive by the program and by the least code that simulates it, for a profiler to count.
+//! Runs the benchmark drive by the program and by the minimal code, under a profiler.
 //!
-//! `floor NODES PERIODS` runs the least code with 4, 10, 16 or 32 nodes, `floor TOLERANCE PERIODS` the event stepper with a record
-//! that keeps nothing, as in `valgrind --tool=callgrind --toggle-collect='*measured*' BINARY 1e-6 200`.
+//! `floor NODES PERIODS` runs the minimal code with 4, 10, 16 or 32 nodes. `floor TOLERANCE PERIODS` runs the event stepper with a
+//! recorder that discards everything. Example: `valgrind --tool=callgrind --toggle-collect='*measured*' BINARY 1e-6 200`.
 
 #![allow(clippy::unwrap_used, clippy::print_stdout, reason = "a benchmark prints, and fails by panicking")]
 
@@ -21,7 +21,7 @@ fn measured_run(model: &Model, plan: &Plan, state: &mut State) {
     run(model, plan, state, &mut ()).unwrap();
 }
 
-/// Place of the slider by the event stepper, m.
+/// Returns the position of the slider by the event stepper, m.
 fn stepped(tolerance: &str, periods: u32) -> f64 {
     let cycles = periods.to_string();
     let set = [("run.stepper.event.tolerance", tolerance), ("run.cycles", cycles.as_str())];

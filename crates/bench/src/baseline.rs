@@ -1,8 +1,8 @@
-//! What others would do: the loops of a researcher, over rows of springs or on the exact contact, and an outside integrator with
-//! events by hand.
+//! Reference implementations that a user might write. These are fixed-step loops over rows of springs or with the exact contact law, and
+//! an external integrator with its own event location.
 //!
-//! All know a scene as a [`Mechanism`], made here from its description; they share no force, no step and no event with the
-//! program's own engines and steppers, but take moduli, profiles and the memory at the start from it.
+//! All use a [`Mechanism`], which is made from a model. The reference implementations share no force law, time integration or event
+//! location with the program. Moduli, profiles and the initial memory come from the program.
 
 mod events;
 mod fixed;
@@ -17,51 +17,51 @@ use stickslip_contact::{Curve, Interface, Memory};
 use stickslip_drive::scene::{Axis, Direction, Named, Normal, Varying};
 use stickslip_drive::{Model, Scene, State, Waveform};
 
-/// A scene as the baselines see it: masses, constant forces, contacts.
+/// Model as the reference implementations see it: masses, constant forces, contacts.
 #[derive(Debug, Clone)]
 pub(crate) struct Mechanism {
-    /// In the order of the free coordinates.
+    /// Free coordinates in their order.
     free: Vec<Free>,
     ties: Vec<Tie>,
-    /// What is driven: first the waveforms in the scene's order, then indentations that follow one.
+    /// Prescribed quantities: first the waveforms in the order of the model, then indentations that follow a waveform.
     tracks: Vec<Track>,
 }
 
-/// Something driven: a waveform, or the indentation that it prescribes.
+/// Prescribed quantity: a waveform, or an indentation that follows it.
 #[derive(Debug, Clone)]
 struct Track {
     waveform: Waveform,
-    /// Whose indentation, and what of it follows.
+    /// Contact law and normal load, if the quantity is an indentation.
     pressed: Option<(Interface, Normal)>,
 }
 
-/// A free coordinate.
+/// Free coordinate.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Free {
-    /// kg, or kg m².
+    /// Mass, kg, or moment of inertia, kg m².
     mass: f64,
-    /// N, or N m.
+    /// Constant force, N, or moment, N m.
     force: f64,
-    /// Where it starts, and how fast.
+    /// Initial position and velocity.
     start: (f64, f64),
 }
 
-/// A contact.
+/// Contact.
 #[derive(Debug, Clone)]
 struct Tie {
     law: Interface,
     /// Number of identical contacts.
     count: f64,
-    /// u.
+    /// Tangential displacement u.
     slide: Form,
-    /// d, from the bodies or from a track of its own; none where it is constant.
+    /// Indentation d, from the bodies or a prescribed quantity; `None` if constant.
     press: Option<Form>,
-    /// What it remembers at the start.
+    /// Initial slip memory.
     start: Curve,
 }
 
 impl Mechanism {
-    /// The mechanism of a scene in its state at t = 0; or what the baselines do not know.
+    /// Converts a model in its initial state. The error names a feature that the reference implementations do not support.
     pub(crate) fn new(scene: &Scene, model: &Model, start: &State) -> Result<Self, String> {
         refuse(scene)?;
         let coordinates = norm::coordinates(scene);
@@ -101,7 +101,8 @@ impl Mechanism {
         Ok(Self { free, ties, tracks })
     }
 
-    /// A row of so many springs for each contact, a multiple of 64, over `spans` (m; none: the contact's width at the start).
+    /// Returns a row of springs for each contact. The number of springs is a multiple of 64. `spans` are the lengths of the rows, m; the
+    /// default is the initial width of the contact.
     pub(crate) fn rows(&self, springs: usize, spans: &[Option<f64>]) -> Vec<Half> {
         let width = |tie: &Tie| 2.0 * tie.law.profile().radius(tie.start.apex().d);
         let row =
@@ -109,18 +110,18 @@ impl Mechanism {
         self.ties.iter().zip(spans).map(row).collect()
     }
 
-    /// Each contact exactly; or what is not known of them.
+    /// Returns the exact law of each contact. The error names an unsupported feature.
     pub(crate) fn exact(&self) -> Result<Vec<Exact>, String> {
         self.ties.iter().map(Exact::new).collect()
     }
 
-    /// Whether no indentation ever changes.
+    /// Returns whether all indentations are constant.
     pub(crate) fn has_constant_loads(&self) -> bool {
         self.ties.iter().all(|tie| tie.press.is_none())
     }
 }
 
-/// The waveform that presses a contact.
+/// Returns the waveform of the normal load.
 fn follows(normal: Normal) -> Option<usize> {
     match normal {
         Normal::Force(Varying::Follows(w))
@@ -131,7 +132,7 @@ fn follows(normal: Normal) -> Option<usize> {
 }
 
 impl Track {
-    /// Where it stands at t, m.
+    /// Returns the value at time t, m.
     fn place(&self, t: f64) -> f64 {
         let value = self.waveform.sample(&self.waveform.piece_at(t), t).value;
         match &self.pressed {
@@ -142,7 +143,7 @@ impl Track {
     }
 }
 
-/// What lies outside of the baselines.
+/// Refuses features that the reference implementations do not support.
 fn refuse(scene: &Scene) -> Result<(), String> {
     let varies = |value: Varying| matches!(value, Varying::Follows(_));
     let outside = [
@@ -150,15 +151,15 @@ fn refuse(scene: &Scene) -> Result<(), String> {
         (!scene.actuators.is_empty(), "actuators"),
         (
             scene.loads.iter().any(|load| [load.x, load.z, load.pitch].into_iter().any(varies)),
-            "loads that vary",
+            "varying loads",
         ),
         (scene.contacts.iter().any(|contact| contact.part.interface.damping() != 0.0), "damped contacts"),
-        (scene.waveforms.iter().any(|waveform| waveform.part.has_jumps()), "waveforms that jump"),
+        (scene.waveforms.iter().any(|waveform| waveform.part.has_jumps()), "waveforms with jumps"),
     ];
     outside.into_iter().find(|(is, _)| *is).map_or(Ok(()), |(_, what)| Err(what.to_owned()))
 }
 
-/// Gravity and constant loads on a free coordinate, N or N m.
+/// Returns gravity and constant loads on a free coordinate, N or N m.
 fn force(scene: &Scene, body: usize, axis: Axis, mass: f64) -> f64 {
     let weight = -mass * scene.gravity.acceleration;
     let (along, normal) = math::sin_cos(scene.gravity.incline);

@@ -1,17 +1,17 @@
-//! What a run takes.
+//! Run times.
 
 use std::time::Instant;
 
 /// Times of one run, s.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Times {
-    /// Of the processor, spent on this thread: on a busy machine, wall time counts what others do meanwhile.
+    /// Processor time of this thread, which other processes on the machine do not increase.
     pub(crate) processor: f64,
-    /// On the wall.
+    /// Wall time.
     pub(crate) wall: f64,
 }
 
-/// A stopwatch, running.
+/// Running stopwatch.
 pub(crate) struct Stopwatch {
     wall: Instant,
     processor: Option<f64>,
@@ -22,7 +22,7 @@ impl Stopwatch {
         Self { wall: Instant::now(), processor: processor() }
     }
 
-    /// Times since the start, each of one of so many runs.
+    /// Returns the times since the start, divided by the number of runs.
     pub(crate) fn each(&self, runs: u32) -> Times {
         let spent = processor().zip(self.processor).map(|(now, then)| now - then);
         let wall = self.wall.elapsed().as_secs_f64();
@@ -32,13 +32,13 @@ impl Stopwatch {
 }
 
 impl Times {
-    /// The shorter ones of two runs.
+    /// Returns the smaller of both times.
     pub(crate) fn shorter(self, other: Self) -> Self {
         Self { processor: self.processor.min(other.processor), wall: self.wall.min(other.wall) }
     }
 }
 
-/// Processor time of this thread so far, s, where the system tells.
+/// Returns the processor time of this thread, s, if the system provides it.
 #[cfg(unix)]
 fn processor() -> Option<f64> {
     let time = rustix::time::clock_gettime(rustix::time::ClockId::ThreadCPUTime);

@@ -1,4 +1,4 @@
-//! Who takes part in a measurement: the program's own steppers on either engine.
+//! Methods in a benchmark, and the time integrators of the program.
 
 use crate::clock::{Stopwatch, Times};
 use crate::problem::Problem;
@@ -8,23 +8,23 @@ use stickslip_drive::{Accuracy, Counts, Limits, Model, Plan, RunError, Scene, St
 use stickslip_run::Unrecorded;
 use stickslip_run::Watcher;
 
-/// A method that solves a problem at a tolerance or by a step.
+/// Method that solves a problem at a tolerance or with a step.
 pub(crate) trait Contestant {
-    /// Runs once; where the free coordinates were, and what it took. Stops after `wall` s.
+    /// Runs once. Returns samples of the free coordinates, and counts. Fails after `wall` s.
     fn sample(&self, value: f64, wall: f64, watcher: &dyn Watcher) -> Result<(Samples, Counts), Stop>;
 
-    /// Runs some times without output; times of one run.
+    /// Runs several times without output. Returns the times of one run.
     fn time(&self, value: f64, times: u32, watcher: &dyn Watcher) -> Result<Times, Stop>;
 }
 
-/// Why a contestant has no result.
+/// Reason why a method has no result.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) enum Stop {
-    /// It takes longer than there is time.
+    /// The time limit was reached.
     Slow,
-    /// Somebody interrupted it.
+    /// Interrupted by the watcher.
     Interrupted,
-    /// It stopped itself.
+    /// Error of the run.
     Failed(String),
 }
 
@@ -38,7 +38,7 @@ impl From<RunError> for Stop {
     }
 }
 
-/// A stepper of the program.
+/// Time integrator of the program.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Stepping {
     Event,
@@ -54,7 +54,7 @@ impl Stepping {
         self.at(0.0).name()
     }
 
-    /// Whether it takes a fixed step instead of a tolerance.
+    /// Returns whether the integrator has a fixed step instead of a tolerance.
     pub(crate) fn is_fixed(self) -> bool {
         matches!(self.at(0.0).accuracy(), Accuracy::Step(_))
     }
@@ -69,7 +69,7 @@ impl Stepping {
     }
 }
 
-/// The scene with all contacts on the exact curve, or on rows of as many springs over these spans.
+/// Returns the model with all contacts on the exact memory curve, or on rows of springs with these lengths.
 pub(crate) fn with_engine(scene: &Scene, springs: Option<(usize, &[Option<f64>])>) -> Scene {
     let mut scene = scene.clone();
     for (c, contact) in scene.contacts.iter_mut().enumerate() {
@@ -81,7 +81,7 @@ pub(crate) fn with_engine(scene: &Scene, springs: Option<(usize, &[Option<f64>])
     scene
 }
 
-/// A stepper of the program on one of its engines.
+/// Time integrator of the program with one of its contact engines.
 pub(crate) struct Own<'p> {
     problem: &'p Problem,
     model: Model,

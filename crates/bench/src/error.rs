@@ -1,4 +1,4 @@
-//! Why there is no measurement.
+//! Errors of a benchmark.
 
 use crate::contestant::Stop;
 use crate::problem::ProblemError;
@@ -8,43 +8,43 @@ use stickslip_plot::PlotError;
 use stickslip_run::complaint::words;
 use thiserror::Error;
 
-/// Why there is no measurement.
+/// Error of a benchmark.
 #[derive(Debug, Error)]
 pub enum BenchError {
-    /// A scenario that cannot be measured by.
+    /// Scenario that is not suitable for a benchmark.
     #[error(transparent)]
     Problem(#[from] ProblemError),
-    /// A run that stopped without output, but not with it.
+    /// Error of a run.
     #[error("{name}: {why}")]
     Stopped {
-        /// What was measured.
+        /// Name of the benchmark.
         name: String,
-        /// What the run says.
+        /// Error message of the run.
         why: String,
     },
-    /// The watcher ended it.
+    /// Interrupted by the watcher.
     #[error("{0}: interrupted; nothing is written of it")]
     Interrupted(String),
-    /// A picture.
+    /// Error while drawing a plot.
     #[error("{name}: {source}")]
     Picture {
-        /// What was measured.
+        /// Name of the benchmark.
         name: String,
-        /// What cannot be drawn.
+        /// Error of the plot.
         source: PlotError,
     },
-    /// Reading or writing.
+    /// Error of reading or writing.
     #[error("{}: {}", .path.display(), words(.source))]
     File {
-        /// Which file or folder.
+        /// File or folder.
         path: PathBuf,
-        /// What the system says.
+        /// Error of the system.
         source: io::Error,
     },
 }
 
 impl BenchError {
-    /// What became of a scenario whose runs were stopped.
+    /// Converts the reason why the runs of a scenario stopped.
     pub(crate) fn of_stop(stop: Stop, name: &str) -> Self {
         let name = name.to_owned();
         match stop {

@@ -1,4 +1,4 @@
-//! Methods, each with its runs from coarse to fine.
+//! Methods of a benchmark, each with runs from coarse to fine.
 
 use crate::baseline::{Fixed, Mechanism, Outside};
 use crate::clock::Times;
@@ -9,70 +9,70 @@ use crate::problem::Problem;
 use crate::steps;
 use stickslip_drive::{Counts, Model, Stepper};
 
-/// Springs of a row.
+/// Numbers of springs of a row.
 pub(crate) const ROWS: [usize; 3] = [64, 256, 1024];
-/// Springs of the rows of the loop, whose runs are short enough for more.
+/// Numbers of springs of a row in the fixed-step loops, which are fast enough for more.
 pub(crate) const LOOPS: [usize; 4] = [64, 256, 1024, 4096];
 
-/// A way to solve a problem.
+/// Method of solution.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Method {
-    /// A stepper of the program on the exact curve, or on rows of so many springs.
+    /// Time integrator of the program with the exact memory curve, or with rows of `springs` springs.
     Own { stepping: Stepping, springs: Option<usize> },
-    /// The loop of a researcher over rows of so many springs, or on the exact contact; `staged`: by Runge and Kutta's method of order 4,
-    /// otherwise by Verlet's.
+    /// Fixed-step loop over rows of `springs` springs, or with the exact contact law. `staged`: Runge–Kutta of order 4, otherwise
+    /// velocity Verlet.
     Loop { springs: Option<usize>, staged: bool },
-    /// The least code for the benchmark drive alone, with so many nodes.
+    /// Minimal code for the benchmark drive, with this number of quadrature nodes.
     Floor { nodes: u32 },
-    /// An outside integrator with the exact contact and events by hand.
+    /// External integrator with the exact contact law and event location.
     Outside,
 }
 
-/// By what the runs of a method differ.
+/// Parameter that is varied between the runs of a method.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Setting {
-    /// A tolerance.
+    /// Tolerance.
     Tolerance,
-    /// A step, s.
+    /// Step, s.
     Step,
-    /// Nothing: there is one.
+    /// None: there is a single run.
     Nothing,
 }
 
-/// A method with its runs, from coarse to fine.
+/// Method with its runs, from coarse to fine.
 pub(crate) struct Family<'p> {
     pub(crate) method: Method,
     pub(crate) contestant: Box<dyn Contestant + 'p>,
     pub(crate) runs: Vec<Run>,
 }
 
-/// A method at one tolerance or step.
+/// Run of a method at one tolerance or step.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Run {
-    /// Tolerance, or step in s; nothing of a method with a single run.
+    /// Tolerance, or step in s; without meaning for a method with a single run.
     pub(crate) value: f64,
-    /// What came of it; none of a run that was left out.
+    /// Result; `None` if the run was omitted or failed.
     pub(crate) result: Option<Measured>,
-    /// Why there is no result.
+    /// Reason why there is no result.
     pub(crate) note: String,
 }
 
-/// What came of a run.
+/// Result of a run.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Measured {
     pub(crate) errors: Errors,
-    /// Error at the end against what is known from elsewhere.
+    /// Error at the end relative to a known value.
     pub(crate) known: Option<f64>,
     pub(crate) counts: Counts,
-    /// Times of one run: the shortest of all turns.
+    /// Times of one run: the minimum of all rounds.
     pub(crate) cost: Times,
-    /// Turns that the time was measured in, and runs in each.
+    /// Number of rounds of the time measurement, and of runs in each round.
     pub(crate) turns: u32,
     pub(crate) times: u32,
 }
 
 impl Method {
-    /// Name of the method proper.
+    /// Returns the name of the method.
     pub(crate) fn name(self) -> &'static str {
         match self {
             Self::Own { stepping, .. } => stepping.name(),
@@ -87,12 +87,12 @@ impl Method {
         }
     }
 
-    /// How the contact is computed.
+    /// Returns the name of the contact engine.
     pub(crate) fn engine(self) -> &'static str {
         if self.springs().is_some() { "springs" } else { "curve" }
     }
 
-    /// Springs of a row.
+    /// Returns the number of springs of a row.
     pub(crate) fn springs(self) -> Option<usize> {
         match self {
             Self::Own { springs, .. } | Self::Loop { springs, .. } => springs,
@@ -100,7 +100,7 @@ impl Method {
         }
     }
 
-    /// By what its runs differ.
+    /// Returns the parameter that is varied between runs.
     pub(crate) fn setting(self) -> Setting {
         match self {
             Self::Own { stepping, .. } if stepping.is_fixed() => Setting::Step,
@@ -117,13 +117,13 @@ impl<'p> Family<'p> {
         Self { method, contestant, runs: values.iter().map(run).collect() }
     }
 
-    /// Name and, where measured, result of each run.
+    /// Returns the runs that have a result.
     pub(crate) fn measured(&self) -> impl Iterator<Item = (&Run, &Measured)> {
         self.runs.iter().filter_map(|run| run.result.as_ref().map(|result| (run, result)))
     }
 }
 
-/// All families of a problem.
+/// Returns all methods for a problem.
 pub(crate) fn families(problem: &Problem) -> Vec<Family<'_>> {
     let longest = problem.model.longest_step(Stepper::Verlet { step: 0.0 }).unwrap_or(f64::INFINITY);
     let tolerances = steps::tolerances();
@@ -131,7 +131,7 @@ pub(crate) fn families(problem: &Problem) -> Vec<Family<'_>> {
     let mut families = Vec::new();
     for springs in [None].into_iter().chain(ROWS.map(Some)) {
         let scene = with_engine(&problem.scene, springs.map(|count| (count, problem.spans.as_slice())));
-        // The exact scene was found good, and a row of springs asks for nothing but a count and a span.
+        // The exact model is valid, and a row of springs needs only a count and a length.
         let Ok(model) = Model::new(&scene) else { continue };
         for stepping in Stepping::ALL {
             let contestant = Box::new(Own::new(problem, model.clone(), stepping));
@@ -143,7 +143,7 @@ pub(crate) fn families(problem: &Problem) -> Vec<Family<'_>> {
     families
 }
 
-/// What others would do, where they know the scene.
+/// Returns the reference implementations that support the model.
 fn baselines<'p>(problem: &'p Problem, steps: &[f64], tolerances: &[f64]) -> Vec<Family<'p>> {
     let Ok(mechanism) = &problem.mechanism else { return Vec::new() };
     let mut families = Vec::new();
@@ -163,14 +163,14 @@ fn baselines<'p>(problem: &'p Problem, steps: &[f64], tolerances: &[f64]) -> Vec
     families
 }
 
-/// The loop on the exact contact.
+/// Returns the fixed-step loop with the exact contact law.
 fn exact<'p>(mechanism: &Mechanism, (duration, staged): (f64, bool), steps: &[f64]) -> Option<Family<'p>> {
     let contacts = mechanism.exact().ok()?;
     let contestant = Fixed::new(mechanism.clone(), contacts, (duration, staged)).ok()?;
     Some(Family::new(Method::Loop { springs: None, staged }, Box::new(contestant), steps))
 }
 
-/// The least code with N nodes, over some periods.
+/// Returns the minimal code with N nodes.
 fn ground<'p, const N: usize>((floor, periods): (Floor, u32)) -> Family<'p> {
     let contestant = Ground { floor, periods, rule: Rule::<N>::default() };
     Family::new(Method::Floor { nodes: N as u32 }, Box::new(contestant), &[N as f64])

@@ -1,17 +1,19 @@
-//! P1 and nothing else, from event to event: how little its motion could cost.
+//! Minimal code that simulates the benchmark drive P1 only, from event to event. The code shows how fast a simulation of this drive can
+//! be.
 //!
-//! A slider of mass m on a foot that follows a sawtooth, between them one Hertzian contact under a constant load. In units of u_c,
-//! μF_N and √(m u_c/μF_N) the displacement u = foot - slider obeys ü = -φ(u) wherever the foot goes at a constant rate, with φ by
-//! Mindlin's curve and Masing's rules. On a branch φ = φᵣ + sσ(1 - z^{3/2}), z = 1 - σ(u - uᵣ)/s, and the energy gives
-//! ν² = u̇² = A + Bz - Dz^{5/2} with B = 2s(s + σφᵣ), D = 4s²/5; a quadrature gives the time. With the roots z₁ < z₂ of ν²,
-//! z = z₂ - (z₂-z₁) sin²(θ/2) leaves dt = s dθ/√(2K) with K = ν²/[2(z-z₁)(z₂-z)], smooth and without a difference; t = tan(θ/4)
-//! spares the sine.
+//! A slider of mass m stands on a foot that follows a sawtooth, with one Hertzian contact under constant load. The units are u_c, μF_N
+//! and √(m u_c/μF_N). The displacement u = foot - slider satisfies ü = -φ(u) while the velocity of the foot is constant. The force φ
+//! follows Mindlin's curve and Masing's rules.
 //!
-//! No friction, no work, no rows, no error estimate: the number of nodes is given.
+//! On a branch φ = φᵣ + sσ(1 - z^{3/2}) with z = 1 - σ(u - uᵣ)/s. The energy integral gives ν² = u̇² = A + Bz - Dz^{5/2} with B = 2s(s +
+//! σφᵣ) and D = 4s²/5; a quadrature gives the time. With the roots z₁ < z₂ of ν², the substitution z = z₂ - (z₂-z₁) sin²(θ/2) gives dt =
+//! s dθ/√(2K) with K = ν²/[2(z-z₁)(z₂-z)]. This integrand is smooth and has no cancellation. The variable t = tan(θ/4) avoids the sine.
+//!
+//! The code has no friction work, rows or error estimate; the number of nodes is given.
 //!
 //! Source: Mindlin, Deresiewicz, J. Appl. Mech. 20 (1953) 327; Landau, Lifshitz, *Mechanics*, 3rd ed., section 11.
 //!
-//! In reading order: `arc`, a slide on one branch; `rule`, nodes; `beside`, the floor beside the program.
+//! Reading order: `arc` (motion on one branch), `rule` (quadrature), `beside` (comparison with the program).
 
 mod arc;
 mod beside;
@@ -23,31 +25,32 @@ pub use rule::Rule;
 use crate::masing::Masing;
 use arc::Arc;
 
-/// p of a paraboloid.
+/// Exponent p of a paraboloid.
 const PARABOLOID: f64 = 1.5;
 
-/// The drive: the numbers of `scenarios/p1.json`.
+/// Drive with the parameters of `scenarios/p1.json`, or similar ones.
 #[derive(Debug, Clone, Copy)]
 pub struct Floor {
     /// Mass of the slider, kg.
     pub mass: f64,
-    /// μF_N, N.
+    /// Friction limit μF_N, N.
     pub limit: f64,
-    /// u_c, m.
+    /// Gross slip displacement u_c, m.
     pub length: f64,
     /// Stroke of the foot, m.
     pub stroke: f64,
     /// Period, s.
     pub period: f64,
-    /// How long the foot takes back, s.
+    /// Duration of the flyback, s.
     pub flyback: f64,
 }
 
 impl Floor {
-    /// P1: steel on steel, R = 1 mm, μ = 0.15, F_N = 1 N; 20 g; 0.5 µm in 1 ms, 0.1 ms of it back.
+    /// Returns the drive P1: steel on steel, R = 1 mm, μ = 0.15, F_N = 1 N, mass 20 g. The stroke is 0.5 µm, the period 1 ms, the flyback
+    /// 0.1 ms.
     ///
-    /// d = (3F_N/(4E\*√R))^{2/3} (Hertz), u_c = μ(E\*/G\*)d (Cattaneo, Mindlin), E\* = E/(2(1-ν²)), G\* = E/((1+ν)(2-ν)) of equal
-    /// bodies.
+    /// d = (3F_N/(4E\*√R))^{2/3} (Hertz), u_c = μ(E\*/G\*)d (Cattaneo, Mindlin). For equal bodies E\* = E/(2(1-ν²)) and G\* =
+    /// E/((1+ν)(2-ν)).
     pub fn p1() -> Self {
         let (young, poisson, radius, friction, normal) = (210e9, 0.3_f64, 1e-3_f64, 0.15, 1.0);
         let pressing = young / (2.0 * (1.0 - poisson * poisson));
@@ -57,13 +60,13 @@ impl Floor {
         Self { mass: 0.02, limit: friction * normal, length, stroke: 0.5e-6, period: 1e-3, flyback: 1e-4 }
     }
 
-    /// Place of the slider after so many periods, m.
+    /// Returns the position of the slider after a number of periods, m.
     pub fn place<const N: usize>(&self, periods: u32, rule: &Rule<N>) -> f64 {
-        // The foot is back where it began.
+        // At the end of a period the foot is at 0.
         -self.slide(periods, rule, &[], |_| ()).memory.at * self.length
     }
 
-    /// So many periods of the slide; `tell` has the place of the slider, m, at each of some moments, s, that ascend.
+    /// Simulates a number of periods. Calls `tell` with the position of the slider, m, at each of the ascending times, s.
     fn slide<const N: usize>(
         &self,
         periods: u32,
@@ -98,17 +101,17 @@ impl Floor {
     }
 }
 
-/// How fast the slide goes, and what the contact remembers.
+/// State of the motion: velocity and contact memory.
 struct Slide {
-    /// u̇.
+    /// Velocity u̇.
     rate: f64,
     memory: Masing,
-    /// Slides on one branch so far.
+    /// Number of branches passed so far.
     arcs: u64,
 }
 
 impl Slide {
-    /// The foot changes its rate.
+    /// Changes the velocity of the foot by a jump.
     fn turn_corner(&mut self, jump: f64) {
         self.rate += jump;
         if self.rate * self.memory.sense < 0.0 {
@@ -116,7 +119,7 @@ impl Slide {
         }
     }
 
-    /// A piece of the waveform.
+    /// Advances by a time with constant velocity of the foot.
     fn pass<const N: usize>(&mut self, duration: f64, rule: &Rule<N>) {
         let mut left = duration;
         loop {

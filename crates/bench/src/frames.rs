@@ -1,10 +1,10 @@
-//! Frames of drives in real time: how long they take by both steppers, what is counted in them, and what they lose.
+//! Benchmark of real-time frames: computing times, counts and errors of both real-time steppers.
 //!
-//! [`measure`] computes frames of every scene, of every period, by the stepper of [`Stepper::Frames`] and by the event stepper, as
-//! many as asked for without waiting, and some seconds after a clock; inputs of a scene change in every frame. Beside them
-//! the empty loop shows what the machine takes by itself. Errors are against the event stepper at 1e-11.
+//! [`measure`] computes frames of all scenarios and frame lengths with [`Stepper::Frames`] and with the event stepper. A number of frames
+//! is computed without waiting, then frames paced by a clock for some seconds. Inputs change in every frame. An empty loop measures the
+//! machine itself. Errors are relative to the event stepper at 1e-11.
 //!
-//! In reading order: `walk` (inputs), `turn` (frames), `accuracy` (errors), `sheet` (tables), `picture`, `page`.
+//! Reading order: `walk` (inputs), `turn` (frames), `accuracy` (errors), `sheet` (tables), `picture`, `page`.
 
 mod accuracy;
 mod page;
@@ -30,97 +30,97 @@ use turn::Works;
 
 /// Name of the table of all loops.
 pub const TABLE: &str = "frames.csv";
-/// Name of the table of the worst frames.
+/// Name of the table of the slowest frames.
 pub const WORST: &str = "worst_frames.csv";
-/// Name of the table of counts.
+/// Name of the table of histograms.
 pub const HISTOGRAMS: &str = "histograms.csv";
 /// Name of the table of errors.
 pub const ACCURACY: &str = "accuracy.csv";
-/// Name of the picture's files, without ending; it stands for the whole in messages, too.
+/// Name of the plot files without extension, also used in messages.
 pub const PICTURE: &str = "frames";
-/// What `frames` may lose of a stroke in a stroke: as `stickslip realtime` has it by default.
+/// Accuracy of `frames`: error per stroke relative to the stroke, the default of `stickslip realtime`.
 const LOSS: f64 = 1e-3;
-/// Tolerance of the event stepper in frames: as `stickslip realtime` has it by default.
+/// Tolerance of the event stepper in frames, the default of `stickslip realtime`.
 const TOLERANCE: f64 = 1e-8;
-/// Most frames over which the error of a loop is measured.
+/// Maximum number of frames over which the error of a loop is measured.
 const COMPARED: u64 = 50_000;
 /// Names of the steppers, in the order of all pairs.
 pub(crate) const STEPPERS: [&str; 2] = ["frames", "event"];
 
-/// What is asked to be measured, and where to.
+/// Request for a benchmark of frames.
 #[derive(Debug, Clone, PartialEq)]
 pub struct FramesRequest {
     /// Scenario files.
     pub files: Vec<PathBuf>,
-    /// Values put into every scenario: key path and value.
+    /// Overrides of all scenarios: key path and value.
     pub set: Vec<(String, String)>,
-    /// Lengths of frames, s.
+    /// Frame lengths, s.
     pub periods: Vec<f64>,
-    /// Frames of every loop that nothing paces.
+    /// Number of frames of each loop without pacing.
     pub frames: u64,
-    /// How long each paced loop goes on, s; none where 0.
+    /// Duration of each paced loop, s; 0 for none.
     pub paced: f64,
-    /// Folder of what is measured.
+    /// Output folder.
     pub out: PathBuf,
-    /// A page in Markdown with the tables and the picture, where one is wanted.
+    /// Markdown page with tables and plot, if requested.
     pub page: Option<PathBuf>,
 }
 
-/// A scene made ready.
+/// Scenario with its inputs and outputs.
 struct FramesScene<'a> {
     job: &'a Job,
     inputs: Vec<Input>,
-    /// Whether each value is held, and not led: those that command a generator are.
+    /// Whether each input is held; otherwise it is interpolated. Commands of generators are held.
     held: Vec<bool>,
     outputs: Vec<Output>,
 }
 
-/// Frames of a scene, of a length, by a stepper.
+/// Measurement of a scenario, a frame length and a stepper.
 struct Loop {
-    /// Place of the scene.
+    /// Index of the scenario.
     scene: usize,
-    /// Place of the period.
+    /// Index of the frame length.
     period: usize,
-    /// Place of the stepper.
+    /// Index of the stepper.
     stepper: usize,
-    /// Steps of a frame where nothing happens in it; none by the event stepper.
+    /// Number of steps of a frame without events; `None` for the event stepper.
     steps: Option<f64>,
     timing: Timing,
     works: Works,
-    /// The same after a clock.
+    /// Times of the paced loop.
     paced: Option<Timing>,
     off: Off,
 }
 
-/// What was measured.
+/// Results of the benchmark.
 struct Findings<'a> {
     request: &'a FramesRequest,
     scenes: Vec<FramesScene<'a>>,
     loops: Vec<Loop>,
-    /// Errors over lengths, of each scene.
+    /// Errors at several frame lengths, for each scenario.
     ladders: Vec<Vec<Rung>>,
-    /// The empty loop, unpaced.
+    /// Times of the empty loop without pacing.
     empty: Timing,
-    /// The empty loop of each period, paced.
+    /// Times of the paced empty loop, for each frame length.
     floors: Vec<Timing>,
 }
 
-/// How many times a watcher is told that something is done.
+/// Returns the number of progress reports that a watcher receives.
 pub fn turns(request: &FramesRequest) -> f64 {
     (request.files.len() * (1 + STEPPERS.len() * request.periods.len())) as f64
 }
 
-/// Measures and writes tables, picture and page; the watcher is told what is done, of [`turns`].
+/// Runs the benchmark and writes tables, plot and page. The watcher receives the number of finished parts; [`turns`] is their total.
 ///
 /// # Errors
-/// A scene in which nothing is free, a run that stops itself, a file that cannot be written, or the watcher's wish.
+/// A model without free coordinates, a run that fails, a file that cannot be written, or an interruption by the watcher.
 pub fn measure(jobs: &[Job], request: &FramesRequest, watcher: &dyn Watcher) -> Result<(), BenchError> {
     let scenes = jobs.iter().map(FramesScene::new).collect::<Result<Vec<_>, _>>()?;
-    // Nothing else stops what computes nothing.
+    // The empty loop can only be stopped by the watcher.
     let empty = |period: f64, asked: (u64, bool)| {
         turn::empty(period, asked, watcher).map_err(|_| BenchError::Interrupted("the empty loop".to_owned()))
     };
-    // What the system does not grant shows in the times of the empty loop.
+    // A real-time priority that the system refuses appears in the times of the empty loop.
     let _ = Favours::default().ask();
     let paced = |period: f64| ((request.paced / period).round() as u64, true);
     let mut findings = Findings {
@@ -158,12 +158,12 @@ pub fn measure(jobs: &[Job], request: &FramesRequest, watcher: &dyn Watcher) -> 
     findings.write()
 }
 
-/// Both steppers for frames of a length.
+/// Returns both steppers for a frame length.
 fn steppers(length: f64) -> [Stepper; 2] {
     [Stepper::Frames { length, accuracy: LOSS }, Stepper::Event { tolerance: TOLERANCE }]
 }
 
-/// A scene that says why it does not go on.
+/// Returns the error of a scenario whose run failed.
 fn stopped(job: &Job, error: &dyn Display) -> BenchError {
     BenchError::Stopped { name: job.name.clone(), why: error.to_string() }
 }
@@ -182,7 +182,7 @@ impl<'a> FramesScene<'a> {
         Ok(Self { job, inputs, held, outputs })
     }
 
-    /// The drive at its start.
+    /// Returns the drive in its initial state.
     fn drive(&self, stepper: Stepper, length: f64) -> Result<Drive<'_>, BenchError> {
         let plan = Plan { stepper, ..self.job.scenario.plan };
         let start = self.job.model.start(&plan).map_err(|error| stopped(self.job, &error))?;
@@ -190,7 +190,7 @@ impl<'a> FramesScene<'a> {
             .map_err(|error| stopped(self.job, &error))
     }
 
-    /// Frames of a length by a stepper, unpaced and paced, and their error.
+    /// Measures frames of one length with one stepper: times without and with pacing, and errors.
     fn measure(
         &self,
         (scene, period, stepper): (usize, usize, usize),
@@ -240,17 +240,17 @@ impl Findings<'_> {
         page::write(self, file).map_err(|source| BenchError::File { path: file.clone(), source })
     }
 
-    /// Name of a loop's scene.
+    /// Returns the name of a loop's scenario.
     fn name(&self, of: &Loop) -> &str {
         &self.scenes[of.scene].job.name
     }
 
-    /// Length of a loop's frames, s.
+    /// Returns the frame length of a loop, s.
     fn length(&self, of: &Loop) -> f64 {
         self.request.periods[of.period]
     }
 
-    /// The file of a scene.
+    /// Returns the file of a scenario.
     fn file(&self, scene: usize) -> &Path {
         &self.request.files[scene]
     }
@@ -260,7 +260,7 @@ impl Findings<'_> {
 mod tests {
     use super::*;
 
-    /// Somebody who has had enough after so many looks.
+    /// Watcher that interrupts after a number of calls.
     pub(super) struct After(std::cell::Cell<u64>);
 
     impl Watcher for After {

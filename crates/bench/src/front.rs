@@ -1,26 +1,26 @@
-//! What an error costs: the lower left edge of a cloud of runs.
+//! Pareto front of error and run time.
 
 use crate::family::Family;
 use crate::norm::Errors;
 
-/// Runs that no other run beats in both error and time, from coarse to fine.
+/// Runs that no other run surpasses in both error and time, from coarse to fine.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub(crate) struct Front {
-    /// Errors and seconds.
+    /// Errors and times, s.
     points: Vec<(f64, f64)>,
 }
 
 /// Time for an error, s.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Cost {
-    /// Between measured runs.
+    /// Interpolated between measured runs.
     Measured(f64),
-    /// More than this: the longest of the runs that gain anything has a larger error.
+    /// More than this time: no run reaches the error.
     Above(f64),
 }
 
 impl Front {
-    /// The front of some runs.
+    /// Returns the front of runs (error, time).
     pub(crate) fn new(mut runs: Vec<(f64, f64)>) -> Self {
         runs.sort_by(|a, b| a.1.total_cmp(&b.1).then(a.0.total_cmp(&b.0)));
         let mut points: Vec<(f64, f64)> = Vec::new();
@@ -32,7 +32,7 @@ impl Front {
         Self { points }
     }
 
-    /// The front of families together.
+    /// Returns the common front of several methods.
     pub(crate) fn of<'f, 'p: 'f>(
         families: impl Iterator<Item = &'f Family<'p>>,
         error: impl Fn(&Errors) -> f64,
@@ -41,13 +41,13 @@ impl Front {
         Self::new(runs.map(|(_, result)| (error(&result.errors), result.cost.processor)).collect())
     }
 
-    /// Points in order of time.
+    /// Returns the points in order of time.
     #[cfg(test)]
     pub(crate) fn points(&self) -> &[(f64, f64)] {
         &self.points
     }
 
-    /// Time for an error, s: straight between neighbours in the logarithms. None without runs.
+    /// Returns the time for an error, s, by linear interpolation in the logarithms. Returns `None` without runs.
     pub(crate) fn cost(&self, error: f64) -> Option<Cost> {
         let (_, coarsest) = *self.points.first()?;
         let Some(place) = self.points.iter().position(|(reached, _)| *reached <= error) else {

@@ -1,7 +1,7 @@
-//! What more of something costs: springs, contacts, coordinates, simulated time, output, memory.
+//! Scaling of the run time with springs, contacts, coordinates, simulated time, rows and memory.
 //!
-//! The benchmark drive P1 with more of one thing at a time, by the event stepper at a tolerance of 1e-6; springs by velocity
-//! Verlet, which visits all of them in every step. All sizes take turns, the shortest turn counts.
+//! The model is the benchmark drive P1 with one size increased, computed by the event stepper at 1e-6. Rows of springs are computed by
+//! velocity Verlet, which visits all springs in every step. All sizes are measured alternately, and the minimum of all rounds counts.
 
 mod kinds;
 mod scenes;
@@ -20,22 +20,22 @@ use stickslip_run::provenance;
 
 /// Name of the table.
 pub const TABLE: &str = "growth.csv";
-/// Name of the picture's files, without ending; it stands for the whole in messages, too.
+/// Name of the plot files without extension, also used in messages.
 pub const PICTURE: &str = "growth";
-/// Turns of every size.
+/// Number of rounds.
 pub const TURNS: u32 = 9;
-/// A turn repeats its run until it takes about so long, s.
+/// Target time of a round of one size, s; runs are repeated accordingly.
 const TURN: f64 = 4e-3;
-/// What is drawn and written of the costs.
+/// Axis label of the costs.
 const COST: &str = "time per simulated second";
 
-/// Something of a size.
+/// Measurement of one size.
 struct Point {
-    /// How much there is.
+    /// Size: number of springs, contacts or coordinates, or another increased quantity.
     size: f64,
     model: Model,
     plan: Plan,
-    /// Where the measurement begins.
+    /// State at the start of the measurement.
     start: State,
     /// Simulated time of the measurement, s.
     span: f64,
@@ -44,16 +44,17 @@ struct Point {
     counts: Counts,
 }
 
-/// All sizes of something.
+/// Measurements of all sizes of one kind.
 struct Curve {
     kind: Kind,
     points: Vec<Point>,
 }
 
-/// Measures and writes `growth.csv` and the picture into a folder; the watcher is told the turns that are done, of [`TURNS`].
+/// Runs the benchmark and writes `growth.csv` and the plot into a folder. The watcher receives the number of finished rounds, of
+/// [`TURNS`].
 ///
 /// # Errors
-/// A run that stops itself, a file that cannot be written, or the watcher's wish.
+/// A run that fails, a file that cannot be written, or an interruption by the watcher.
 pub fn measure(out: &Path, watcher: &dyn Watcher) -> Result<(), BenchError> {
     let stopped = |error: RunError| match error {
         RunError::Interrupted { .. } => BenchError::Interrupted(PICTURE.to_owned()),
@@ -80,13 +81,13 @@ pub fn measure(out: &Path, watcher: &dyn Watcher) -> Result<(), BenchError> {
 }
 
 impl Point {
-    /// A scene from its beginning.
+    /// Returns a measurement that starts at t = 0.
     fn new(size: f64, model: Model, plan: Plan) -> Result<Self, String> {
         let start = model.start(&plan).map_err(|error| error.to_string())?;
         Ok(Self::from(size, model, plan, start))
     }
 
-    /// A scene from a state on.
+    /// Returns a measurement that starts from a state.
     fn from(size: f64, model: Model, plan: Plan, start: State) -> Self {
         let span = plan.duration - start.time();
         let cost = Times { processor: f64::INFINITY, wall: f64::INFINITY };
@@ -143,7 +144,7 @@ fn table(curves: &[Curve]) -> String {
     text
 }
 
-/// Draws the picture light, dark and as SVG.
+/// Draws the plot as light and dark PNG and as SVG.
 fn draw(curves: &[Curve]) -> Result<Vec<(String, Vec<u8>)>, PlotError> {
     let series: Vec<(Vec<f64>, Vec<f64>)> = curves
         .iter()
@@ -158,7 +159,7 @@ fn draw(curves: &[Curve]) -> Result<Vec<(String, Vec<u8>)>, PlotError> {
             GrowthCurve { name, unit, sizes, costs, per_size }
         })
         .collect();
-    let mut figure = growth_figure("What more costs: P1 with more of one thing at a time", COST, &curves);
+    let mut figure = growth_figure("Run time of P1 versus the size of the model", COST, &curves);
     figure.provenance = vec![(provenance::PROGRAM.to_owned(), this_program())];
     let dark = Figure { theme: Theme::dark(), ..figure.clone() };
     Ok(vec![

@@ -1,7 +1,7 @@
-//! Instructions of a run: a measure that does not depend on what else a machine does.
+//! Number of instructions of a run, which does not depend on the load of the machine.
 //!
-//! The program starts itself under valgrind's callgrind, which counts what happens in [`counted`] and nothing else: no reading, no
-//! building, no output. Without valgrind there are none.
+//! The program starts itself under callgrind of valgrind, which counts only inside [`counted`]: no reading, model building or output.
+//! Without valgrind there is no count.
 
 use crate::floor::{Floor, Rule};
 use std::env;
@@ -12,15 +12,15 @@ use std::str::FromStr;
 use stickslip_drive::{Plan, RunError, Stepper};
 use stickslip_run::Job;
 
-/// The words by which the program is asked to run something once.
+/// Argument with which the program starts itself for a counted run.
 pub const ARGUMENT: &str = "--counted";
 
-/// What is counted.
+/// Code whose instructions are counted.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Counted {
-    /// A run of the event stepper at a tolerance, with a record that keeps nothing.
+    /// Run of the event stepper at a tolerance, with a recorder that discards everything.
     Event(f64),
-    /// The least code that simulates a scene like the benchmark drive, with 4, 10 or 16 nodes.
+    /// Minimal code for a model like the benchmark drive, with 4, 10 or 16 nodes.
     Floor(u32),
 }
 
@@ -44,9 +44,9 @@ impl Counted {
         }
     }
 
-    /// Its instructions, by this program under valgrind; none where that is not installed, or does not come to an end.
+    /// Returns the number of instructions, or `None` if valgrind is not installed or fails.
     pub(crate) fn instructions(self, file: &Path, set: &[(String, String)]) -> Option<u64> {
-        // One processor: parts of a scene would share several of them, and threads are counted apart.
+        // One processor only: with several, contacts would be computed on threads, which callgrind counts separately.
         let mut command = Command::new("taskset");
         command.args(["-c", "0", "valgrind", "--tool=callgrind", "--callgrind-out-file=/dev/null"]);
         command
@@ -63,10 +63,10 @@ impl Counted {
     }
 }
 
-/// Runs what is counted, once.
+/// Executes the counted code once.
 ///
 /// # Errors
-/// A run that stops itself, or a scene that has no floor.
+/// A run that fails. A model for which there is no minimal code gives `Ok`.
 pub fn counted(job: &Job, what: Counted) -> Result<(), RunError> {
     match what {
         Counted::Event(tolerance) => {
@@ -89,13 +89,13 @@ pub fn counted(job: &Job, what: Counted) -> Result<(), RunError> {
     }
 }
 
-/// All that is counted.
+/// Function in which callgrind counts.
 #[inline(never)]
 fn counted_run(run: &mut dyn FnMut() -> Result<(), RunError>) -> Result<(), RunError> {
     run()
 }
 
-/// The floor by a rule that is there.
+/// Runs the minimal code with a given quadrature.
 fn of_floor<const N: usize>(floor: &Floor, periods: u32, rule: &Rule<N>) -> Result<(), RunError> {
     counted_run(&mut || {
         black_box(floor.place(black_box(periods), rule));

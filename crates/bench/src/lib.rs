@@ -1,17 +1,18 @@
-//! What accuracy costs: every stepper on both engines and what others would do, errors over time and evaluations; and whether
-//! every sensible scene runs to its end and to its tolerance: [`soak`].
+//! Benchmarks: error versus run time of all time integrators and reference implementations, and random tests of robustness ([`soak`]).
 //!
-//! Nothing depends on this crate but the commands `stickslip-lab bench` and `stickslip-lab soak`: it brings a second simulator, an outside integrator and
-//! a processor's clock, which no library of the others should carry.
+//! Only the commands `stickslip-lab bench` and `stickslip-lab soak` depend on this crate. The crate contains a second simulator, an
+//! external integrator and processor clocks, which other libraries should not contain.
 //!
-//! [`measure`] measures one scenario and writes its table and pictures, [`growth::measure`] what more of something costs,
-//! [`frames::measure`] how long frames of drives take in real time, [`write_page`] tells of both; a [`Request`] says what is asked.
+//! [`measure`] benchmarks one scenario and writes its table and plots. [`growth::measure`] measures the scaling of the run time,
+//! [`frames::measure`] real-time frames. [`write_page`] writes the page. A [`Request`] contains the options.
 //!
-//! In reading order: `request`; `problem` (a scenario with its reference), `norm` and `samples` (how far off a run is);
-//! `contestant`, `family` and `steps` (who runs, at what tolerances and steps), `baseline` (what others would do); `turns` and
-//! `clock` (the measurement), [`instructions`]; `front` (what an error costs); `sheet`, [`picture`] and `page` (what is written), `machine`;
-//! [`growth`]; [`frames`], which are drives in real time; `masing`, the memory under a constant load; [`floor`], how little the benchmark
-//! drive could cost.
+//! Reading order of the modules:
+//!
+//! * `request`; `problem` (scenario with its reference solution), `norm` and `samples` (errors).
+//! * `contestant`, `family` and `steps` (methods, tolerances and steps), `baseline` (reference implementations).
+//! * `turns` and `clock` (time measurement), [`instructions`] (instruction counts), `front` (time versus error).
+//! * `sheet`, [`picture`], `page` and `machine` (output).
+//! * [`growth`], [`frames`], `masing` (contact memory under constant load), [`floor`] (minimal code for the benchmark drive).
 
 mod baseline;
 mod clock;
@@ -39,7 +40,7 @@ mod turns;
 mod work;
 
 pub use error::BenchError;
-pub use measurement::{TABLE, measure};
+pub use measurement::{TABLE, measure, redraw};
 pub use page::{Chapter, write_page};
 pub use problem::{Known, ProblemError};
 pub use request::Request;

@@ -1,6 +1,6 @@
-//! The machine that measured.
+//! Description of the machine.
 
-/// Processor, cores and system, in words.
+/// Returns processor, number of cores and operating system.
 pub(crate) fn words() -> String {
     let cores = std::thread::available_parallelism().map_or(1, usize::from);
     let (system, kind) = (std::env::consts::OS, std::env::consts::ARCH);
@@ -10,7 +10,7 @@ pub(crate) fn words() -> String {
     format!("{processor}, {cores} core{plural}, {system} {kind}")
 }
 
-/// The processor's name in Linux' list.
+/// Returns the name of the processor in `/proc/cpuinfo`.
 fn processor(text: &str) -> Option<String> {
     let line = text.lines().find(|line| line.starts_with("model name"))?;
     let name = line.split_once(':')?.1.split_whitespace().collect::<Vec<_>>().join(" ");

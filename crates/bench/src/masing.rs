@@ -1,45 +1,45 @@
-//! What a contact under a constant load remembers, by Masing's rules: where it has turned round, and nothing else.
+//! Memory of a contact under constant load, by Masing's rules. The memory consists of the reversals.
 //!
-//! In units of u_c and μF_N the force is φ = σ[1 - z^p], z = 1 - σu, on first loading (Mindlin), and φ = φᵣ + 2σ[1 - z^p],
-//! z = 1 - σ(u - uᵣ)/2, after a turn at (uᵣ, φᵣ); p = 3/2 for a paraboloid, (n+1)/n for |x|ⁿ. A branch ends where it meets the
-//! turn before, or at z = 0, where all springs slip.
+//! In units of u_c and μF_N the force on first loading is φ = σ[1 - z^p] with z = 1 - σu (Mindlin). After a reversal at (uᵣ, φᵣ) the
+//! force is φ = φᵣ + 2σ[1 - z^p] with z = 1 - σ(u - uᵣ)/2. The exponent p is 3/2 for a paraboloid and (n+1)/n for |x|ⁿ. A branch ends at
+//! the reversal before, or at z = 0, where all springs slip.
 //!
 //! Source: Mindlin, Deresiewicz, J. Appl. Mech. 20 (1953) 327.
 
-/// Turns that fit without asking for room.
+/// Number of reversals for which memory is allocated at the start.
 const ROOM: usize = 64;
 
-/// A contact, where it stands and what it remembers.
+/// Contact with its displacement and memory.
 #[derive(Debug, Clone)]
 pub(crate) struct Masing {
-    /// p.
+    /// Exponent p.
     power: f64,
-    /// u.
+    /// Displacement u.
     pub(crate) at: f64,
-    /// σ, the sense of sliding, ±1.
+    /// Direction of sliding σ, ±1.
     pub(crate) sense: f64,
-    /// Whether all springs slip, and whether they never have.
+    /// Whether the contact is in gross slip, and whether it never has been.
     pub(crate) gross: bool,
     virgin: bool,
-    /// Turns (u, φ) that are not passed yet; of first loading also the opposite one.
+    /// Reversals (u, φ) of open loops. The first reversal is stored with its opposite point.
     turns: Vec<[f64; 2]>,
     branch: Branch,
 }
 
-/// A smooth piece of the curve.
+/// Smooth branch of the force.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Branch {
-    /// 1 on first loading, otherwise 2.
+    /// Scale: 1 on first loading, otherwise 2.
     pub(crate) scale: f64,
     /// uᵣ.
     from: f64,
     /// σφᵣ.
     pub(crate) start: f64,
-    /// φ at z = 0, σ times and over the scale.
+    /// Force φ at z = 0; σ times the scale; σ divided by the scale.
     top: f64,
     swing: f64,
     lean: f64,
-    /// z where it ends.
+    /// z at the end of the branch.
     pub(crate) end: f64,
 }
 
@@ -57,7 +57,7 @@ impl Branch {
         }
     }
 
-    /// z; below 0 beyond gross slip.
+    /// Returns z, which is negative beyond gross slip.
     #[inline]
     pub(crate) fn height(&self, u: f64) -> f64 {
         1.0 - self.lean * (u - self.from)
@@ -70,19 +70,19 @@ impl Branch {
 }
 
 impl Masing {
-    /// A contact at u = 0 that has never been moved.
+    /// Returns a contact at u = 0 without loading history.
     pub(crate) fn new(power: f64) -> Self {
         let branch = Branch::new(1.0, [0.0; 2], 1.0);
         let turns = Vec::with_capacity(ROOM);
         Self { power, at: 0.0, sense: 1.0, gross: false, virgin: true, turns, branch }
     }
 
-    /// The present branch.
+    /// Returns the current branch.
     pub(crate) fn branch(&self) -> Branch {
         self.branch
     }
 
-    /// φ where it stands.
+    /// Returns the current force φ.
     fn force(&self) -> f64 {
         if self.gross {
             self.sense
@@ -91,7 +91,7 @@ impl Masing {
         }
     }
 
-    /// φ at u, of which nothing is remembered.
+    /// Returns the force φ at u without a change of the memory.
     #[inline]
     pub(crate) fn look(&self, u: f64) -> f64 {
         if (u - self.at) * self.sense < 0.0 {
@@ -109,7 +109,7 @@ impl Masing {
         if height >= self.branch.end { self.branch.force(height, self.power) } else { self.beyond(u) }
     }
 
-    /// The same beyond the end of the branch.
+    /// Returns the force beyond the end of the branch.
     #[cold]
     fn beyond(&self, u: f64) -> f64 {
         let mut gone = self.clone();
@@ -117,7 +117,7 @@ impl Masing {
         gone.force()
     }
 
-    /// Goes to u.
+    /// Moves to u and updates the memory.
     #[inline]
     pub(crate) fn slide(&mut self, u: f64) {
         if (u - self.at) * self.sense < 0.0 {
@@ -129,7 +129,7 @@ impl Masing {
         self.at = u;
     }
 
-    /// The sense of sliding turns round here.
+    /// Adds a reversal at the current displacement.
     pub(crate) fn turn(&mut self) {
         let force = self.force();
         if self.turns.is_empty() && !self.gross {
@@ -140,17 +140,17 @@ impl Masing {
         self.follow();
     }
 
-    /// The present branch is used up: the one before it goes on, or all springs slip.
+    /// Ends the current branch: the previous branch continues, or gross slip begins.
     pub(crate) fn close(&mut self) {
         let passed = self.turns.len();
         self.turns.truncate(passed.saturating_sub(2));
-        // Beyond the outermost loop lies first loading, or the gross slip from which it turned back.
+        // Beyond the outermost loop lies first loading, or the gross slip before the reversal.
         self.gross = passed < 2 || passed == 2 && !self.virgin;
         self.virgin &= !self.gross;
         self.follow();
     }
 
-    /// Finds the branch that the turns leave.
+    /// Sets the branch that follows from the reversals.
     fn follow(&mut self) {
         let (scale, from) = self.turns.last().map_or((1.0, [0.0; 2]), |turn| (2.0, *turn));
         self.branch = Branch::new(scale, from, self.sense);
@@ -160,7 +160,7 @@ impl Masing {
     }
 }
 
-/// z^p: by square roots where they do.
+/// Returns z^p, by square roots for common exponents.
 #[inline]
 fn raised(z: f64, p: f64) -> f64 {
     if p == 1.5 {
@@ -178,7 +178,7 @@ fn raised(z: f64, p: f64) -> f64 {
 mod tests {
     use super::*;
 
-    /// Mindlin's curve, Masing's rules, and back to what was before a loop.
+    /// Mindlin's curve, Masing's rules and return-point memory.
     #[test]
     fn turns_are_remembered_until_they_are_passed() {
         let first = |u: f64| 1.0 - (1.0 - u).powf(1.5);
@@ -188,14 +188,14 @@ mod tests {
         };
         near(&contact, 0.6, first(0.6));
         contact.slide(0.6);
-        // A whole loop, and a small one within it.
+        // A large loop with a small one inside.
         let back = |u: f64| first(0.6) - 2.0 * first(0.5 * (0.6 - u));
         near(&contact, 0.2, back(0.2));
         contact.slide(-0.1);
         let again = |u: f64| back(-0.1) + 2.0 * first(0.5 * (u + 0.1));
         contact.slide(0.3);
         near(&contact, 0.3, again(0.3));
-        // Back beyond where the small one began, and beyond where the large one did.
+        // Back beyond the start of the small loop, then beyond the start of the large one.
         near(&contact, -0.2, back(-0.2));
         near(&contact, -0.7, -first(0.7));
         contact.slide(-0.2);
@@ -203,7 +203,7 @@ mod tests {
         contact.slide(-1.5);
         assert_eq!((contact.gross, contact.look(-2.0)), (true, -1.0));
         near(&contact, -0.5, -1.0 + 2.0 * first(0.5));
-        // What has slipped grossly comes to the other side as far from where it turned.
+        // After gross slip, the opposite gross slip begins at a distance of 2u_c from the reversal.
         contact.slide(0.4);
         near(&contact, 0.5, 1.0);
     }

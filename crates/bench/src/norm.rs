@@ -1,43 +1,44 @@
-//! How far off a run is, as one number.
+//! Norm of the error of a run.
 
 use crate::samples::Samples;
 use stickslip_drive::Scene;
 use stickslip_drive::scene::{Axis, Freedom, Side, Varying};
 use stickslip_scenario::Figures;
 
-/// A free coordinate of the scene.
+/// Free coordinate of the model.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Coordinate {
-    /// Place of its body in the scene.
+    /// Index of the body in the model.
     pub(crate) body: usize,
     pub(crate) axis: Axis,
-    /// Name of its channel, such as `slider.x_m`.
+    /// Name of the channel, such as `slider.x_m`.
     pub(crate) channel: String,
-    /// 1, or what turns an angle into a way: the distance of the farthest contact point from the reference point, m.
+    /// Factor that converts the coordinate to a length: 1, or for an angle the distance of the farthest contact point from the reference
+    /// point, m.
     arm: f64,
 }
 
-/// The norm: the largest error of any free coordinate, in parts of a length. An angle counts as the way it makes at the
-/// farthest contact point.
+/// Norm: the largest error of any free coordinate, relative to a length. An angle counts as the displacement of the farthest contact
+/// point.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Norm {
     pub(crate) coordinates: Vec<Coordinate>,
-    /// m.
+    /// Length, m.
     pub(crate) length: f64,
-    /// What the length is.
+    /// Description of the length.
     pub(crate) of: String,
 }
 
 /// Errors of a run.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(crate) struct Errors {
-    /// At the end.
+    /// Error at the end.
     pub(crate) end: f64,
-    /// The largest over the common moments.
+    /// Largest error at the sample times.
     pub(crate) trajectory: f64,
 }
 
-/// The free coordinates of a scene.
+/// Returns the free coordinates of a model.
 pub(crate) fn coordinates(scene: &Scene) -> Vec<Coordinate> {
     let mut coordinates = Vec::new();
     for (body, named) in scene.bodies.iter().enumerate() {
@@ -53,7 +54,7 @@ pub(crate) fn coordinates(scene: &Scene) -> Vec<Coordinate> {
     coordinates
 }
 
-/// Distance of the farthest contact point of a body from its reference point, m; 1 where all lie in it.
+/// Returns the distance of the farthest contact point of a body from its reference point, m, or 1 if all coincide with it.
 fn arm(scene: &Scene, body: usize) -> f64 {
     let contacts = scene.contacts.iter().map(|contact| &contact.part);
     let ends = contacts.flat_map(|contact| contact.between.into_iter().zip(contact.at));
@@ -63,28 +64,24 @@ fn arm(scene: &Scene, body: usize) -> f64 {
 }
 
 impl Norm {
-    /// In parts of the stroke of the scenario's waveform where bodies or actuators follow it, otherwise of the largest travel
-    /// of the reference. None where nothing moves.
+    /// Returns the norm. The length is the stroke of the evaluated waveform if a body or actuator follows it; otherwise the largest
+    /// displacement of the reference. Returns `None` if nothing moves.
     pub(crate) fn new(
         scene: &Scene,
         figures: Figures,
         coordinates: Vec<Coordinate>,
         reference: &Samples,
     ) -> Option<Self> {
-        let stroke = figures.waveform.filter(|w| drives(scene, *w)).map(|w| {
-            let (low, high) = scene.waveforms[w].part.range();
-            (high - low, format!("the stroke of \"{}\"", scene.waveforms[w].name))
-        });
         let travel = |(i, coordinate): (usize, &Coordinate)| {
             let (low, high) = reference.range(i);
             coordinate.arm * (high - low)
         };
         let travelled = coordinates.iter().enumerate().map(travel).fold(0.0, f64::max);
-        let (length, of) = stroke.unwrap_or((travelled, "the largest travel".to_owned()));
+        let (length, of) = stroke(scene, figures).unwrap_or((travelled, "the largest travel".to_owned()));
         (length > 0.0).then_some(Self { coordinates, length, of })
     }
 
-    /// Errors of a run that came to its end.
+    /// Returns the errors of a complete run.
     pub(crate) fn errors(&self, samples: &Samples, reference: &Samples) -> Errors {
         let moments = samples.moments().zip(reference.moments());
         let trajectory = moments.map(|(a, b)| self.distance(a, b)).fold(0.0, f64::max);
@@ -96,13 +93,20 @@ impl Norm {
         ways.map(|(coordinate, (a, b))| coordinate.arm * (a - b).abs()).fold(0.0, f64::max) / self.length
     }
 
-    /// Error of a coordinate against a value known from elsewhere.
+    /// Returns the error of a coordinate relative to a known value.
     pub(crate) fn against(&self, coordinate: usize, value: f64, known: f64) -> f64 {
         self.coordinates[coordinate].arm * (value - known).abs() / self.length
     }
 }
 
-/// Whether a body or an actuator follows a waveform.
+/// Returns the stroke of the evaluated waveform, m, and its description, if a body or an actuator follows it.
+pub(crate) fn stroke(scene: &Scene, figures: Figures) -> Option<(f64, String)> {
+    let waveform = figures.waveform.filter(|w| drives(scene, *w))?;
+    let (low, high) = scene.waveforms[waveform].part.range();
+    Some((high - low, format!("the stroke of \"{}\"", scene.waveforms[waveform].name)))
+}
+
+/// Returns whether a body or an actuator follows a waveform.
 fn drives(scene: &Scene, waveform: usize) -> bool {
     let follows = Freedom::Follows(waveform);
     let bodies = scene.bodies.iter().flat_map(|body| body.part.coordinates());

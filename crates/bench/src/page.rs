@@ -28,13 +28,25 @@ const RIVALS: [Rival; 6] = [
         method == own(Stepping::Verlet) || method == Method::Loop { springs: None, staged: false }
     }),
     ("dopri5", |method| method == own(Stepping::Dopri5)),
-    ("floor", |method| matches!(method, Method::Floor { .. })),
+    (FLOOR, |method| matches!(method, Method::Floor { .. })),
 ];
+
+/// The least code, which simulates nothing but P1 and its like.
+const FLOOR: &str = "floor";
 
 type Rival = (&'static str, fn(Method) -> bool);
 
 const fn own(stepping: Stepping) -> Method {
     Method::Own { stepping, springs: None }
+}
+
+/// Time of the event stepper for an error.
+#[derive(Debug, Clone, Copy)]
+struct Speed {
+    /// ms per simulated second.
+    own: f64,
+    /// The least ratio of all others but the floor; a bound where none has the error.
+    least: f64,
 }
 
 /// What the page says of one scenario.
@@ -43,8 +55,10 @@ pub struct Chapter {
     work: Work,
     /// Lines of the table of ratios.
     ratios: String,
-    /// Where others are faster, in words.
-    losses: Vec<String>,
+    /// Lines of the table of those that are faster.
+    losses: String,
+    /// By the errors of [`ERRORS`], where the event stepper has them.
+    speeds: [Option<Speed>; 3],
     /// Everything else.
     text: String,
 }
@@ -58,30 +72,29 @@ impl Chapter {
         page: &Path,
     ) -> io::Result<Self> {
         let folder = relative(&job.folder, parent(page))?;
-        let scenario = link(&relative(file, parent(page))?);
         let at = |name: &str| link(&folder.join(name));
         let (title, name) = (plain(job.title()), job.name.replace('`', "'"));
         let (light, dark) =
             (at(&format!("{}.png", picture::NAME)), at(&format!("{}-dark.png", picture::NAME)));
         let svg = at(&format!("{}.svg", picture::NAME));
-        let mut text = format!("\n## {title}\n\n[`{name}`]({scenario}), {} of it; ", time(problem.duration));
+        let mut text = format!("\n## {title}\n\n`{name}` (`{}`), {}. ", word(file), time(problem.duration));
         // Writing to a string cannot fail.
         let _ = write!(
             text,
-            "errors in parts of {}, {}. {} [All runs]({}), [SVG]({svg}).\n\n{}\n",
+            "Errors are relative to {}, {}. {} [All runs]({}), [SVG]({svg}).\n\n{}\n",
             plain(&problem.norm.of),
             length(problem.norm.length),
             trust(problem),
             at(TABLE),
-            shown((&light, &dark), &format!("work-precision: {title}")),
+            shown((&light, &dark), &format!("work–precision: {title}")),
         );
         runs(&mut text, problem, families);
         if let Err(what) = &problem.mechanism {
-            let _ = writeln!(text, "\nThe loops and ode_solvers are not here: they know no {what}.");
+            let _ = writeln!(text, "\nThe loops and ode_solvers do not support {what}.");
         }
         text.push_str(&work.against_floor(digits));
-        let (ratios, losses) = ratios(&name, problem, families);
-        Ok(Self { ratios, losses, name, work, text })
+        let Ratios { lines: ratios, losses, speeds } = Ratios::of(&name, problem, families);
+        Ok(Self { ratios, losses, speeds, name, work, text })
     }
 }
 
@@ -89,14 +102,17 @@ impl Chapter {
 fn trust(problem: &Problem) -> String {
     let doubt = problem.doubt;
     let mut words = format!(
-        "The reference differs from a run at {CHECK:e} by {:.0e} at the end and {:.0e} along the way.",
+        "The reference differs from a run at {CHECK:e} by {:.0e} at the end and by {:.0e} at most.",
         doubt.end, doubt.trajectory
     );
     for (i, known) in &problem.known {
         let coordinate = &problem.norm.coordinates[*i];
         let off = problem.norm.against(*i, problem.reference.end()[*i], *known);
-        let _ =
-            write!(words, " `{}` at the end is known from elsewhere: off by {off:.0e}.", coordinate.channel);
+        let _ = write!(
+            words,
+            " `{}` at the end differs by {off:.0e} from an independent value.",
+            coordinate.channel
+        );
     }
     words
 }
@@ -104,7 +120,7 @@ fn trust(problem: &Problem) -> String {
 /// The runs of the event stepper on the exact curve.
 fn runs(text: &mut String, problem: &Problem, families: &[Family<'_>]) {
     text.push_str(
-        "| tolerance | error at the end | along the way | ms per simulated second | evaluations | steps | rejected | \
+        "| tolerance | end error | maximum error | ms per simulated second | evaluations | steps | rejected | \
          events |\n| ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: |\n",
     );
     let event = families.iter().filter(|family| family.method == own(Stepping::Event));
@@ -125,35 +141,58 @@ fn runs(text: &mut String, problem: &Problem, families: &[Family<'_>]) {
     }
 }
 
-/// What the event stepper needs for errors along the way, and how many times as long others take.
-///
-/// The second list has those that take less.
-fn ratios(name: &str, problem: &Problem, families: &[Family<'_>]) -> (String, Vec<String>) {
-    let front = |is: &dyn Fn(Method) -> bool| {
-        Front::of(families.iter().filter(|family| is(family.method)), |errors| errors.trajectory)
-    };
-    let event = front(&|method| method == own(Stepping::Event));
-    let rivals = RIVALS.map(|(_, is)| front(&is));
-    let (mut lines, mut losses) = (String::new(), Vec::new());
-    for error in ERRORS {
-        let Some(Cost::Measured(best)) = event.cost(error) else { continue };
-        let _ = write!(lines, "| `{name}` | {error:e} | {} ms |", digits(1e3 * best / problem.duration));
-        for (rival, (who, _)) in rivals.iter().zip(RIVALS) {
-            if let Some(Cost::Measured(cost)) = rival.cost(error)
-                && cost < best
-            {
-                losses.push(format!("`{name}` at {error:e} ({who} {} ×)", digits(cost / best)));
+/// What the event stepper needs for an error, and how many times as long others take.
+struct Ratios {
+    /// Of the table of ratios.
+    lines: String,
+    /// Of the table of those that take less.
+    losses: String,
+    speeds: [Option<Speed>; 3],
+}
+
+impl Ratios {
+    fn of(name: &str, problem: &Problem, families: &[Family<'_>]) -> Self {
+        let front = |is: &dyn Fn(Method) -> bool| {
+            Front::of(families.iter().filter(|family| is(family.method)), |errors| errors.trajectory)
+        };
+        let event = front(&|method| method == own(Stepping::Event));
+        let rivals = RIVALS.map(|(_, is)| front(&is));
+        let mut faster = RIVALS.map(|_| [None; 3]);
+        let (mut lines, mut speeds) = (String::new(), [None; 3]);
+        for (at, error) in ERRORS.into_iter().enumerate() {
+            let Some(Cost::Measured(best)) = event.cost(error) else { continue };
+            let _ = write!(lines, "| `{name}` | {error:e} | {} ms |", digits(1e3 * best / problem.duration));
+            let mut least = f64::INFINITY;
+            for ((rival, (who, _)), faster) in rivals.iter().zip(RIVALS).zip(&mut faster) {
+                let cost = rival.cost(error);
+                if let Some(Cost::Measured(cost)) = cost
+                    && cost < best
+                {
+                    faster[at] = Some(cost / best);
+                }
+                if let (Some(Cost::Measured(cost) | Cost::Above(cost)), true) = (cost, who != FLOOR) {
+                    least = least.min(cost / best);
+                }
+                let ratio = match cost {
+                    Some(Cost::Measured(cost)) => format!("{} ×", digits(cost / best)),
+                    Some(Cost::Above(cost)) => format!("> {} ×", digits(cost / best)),
+                    None => "–".to_owned(),
+                };
+                let _ = write!(lines, " {ratio} |");
             }
-            let ratio = match rival.cost(error) {
-                Some(Cost::Measured(cost)) => format!("{} ×", digits(cost / best)),
-                Some(Cost::Above(cost)) => format!("> {} ×", digits(cost / best)),
-                None => "–".to_owned(),
-            };
-            let _ = write!(lines, " {ratio} |");
+            speeds[at] = Some(Speed { own: 1e3 * best / problem.duration, least });
+            lines.push('\n');
         }
-        lines.push('\n');
+        let mut losses = String::new();
+        for ((who, _), faster) in RIVALS.iter().zip(faster) {
+            if faster.iter().any(Option::is_some) {
+                let cells = faster
+                    .map(|ratio| ratio.map_or("–".to_owned(), |ratio| format!("{} ×", digits(ratio))));
+                let _ = writeln!(losses, "| `{name}` | {who} | {} |", cells.join(" | "));
+            }
+        }
+        Self { lines, losses, speeds }
     }
-    (lines, losses)
 }
 
 /// Writes the page of all chapters.
@@ -169,22 +208,25 @@ pub fn write_page(chapters: &[Chapter], request: &Request, file: &Path) -> Resul
 /// The page.
 fn text(chapters: &[Chapter], request: &Request, file: &Path) -> io::Result<String> {
     let mut page = format!(
-        "# Performance\n\nWhat accuracy costs: every stepper on the exact curve and on rows of 64, 256 and 1 024 springs, \
-         and what others would do.\nThis page and its pictures are written by\n\n```sh\n{}\n```\n\non {}, by {}, built with \
-         `--release`.\n\n{}{TIMES}\n\n{NORM}\n\n{OTHERS}\n\n",
-        command(request),
-        machine::words(),
-        this_program(),
-        faster(chapters),
+        "# Performance\n\nThis page is generated by `stickslip-lab bench`. The section *Measurement* has the full command.\n{}",
+        summary(chapters),
     );
     if !chapters.is_empty() {
-        page.push_str(&work_table(chapters));
+        page.push_str(&faster(chapters));
         page.push_str(&ratio_table(chapters));
+        page.push_str(&work_table(chapters));
     }
-    chapters.iter().for_each(|chapter| page.push_str(&chapter.text));
     if request.growth {
         page.push_str(&grown(&relative(&request.out, parent(file))?));
     }
+    let _ = write!(
+        page,
+        "\n{METHOD}\n\nMeasured on {}, by {}, built with `--release`:\n\n```sh\n{}\n```\n",
+        machine::words(),
+        this_program(),
+        command(request),
+    );
+    chapters.iter().for_each(|chapter| page.push_str(&chapter.text));
     Ok(page)
 }
 
@@ -192,19 +234,19 @@ fn text(chapters: &[Chapter], request: &Request, file: &Path) -> io::Result<Stri
 fn work_table(chapters: &[Chapter]) -> String {
     let first = chapters.iter().find(|chapter| chapter.name == FIRST).map(|chapter| &chapter.work);
     let lines = chapters.iter().map(|chapter| chapter.work.lines(&chapter.name, first, digits));
-    WORK.to_owned() + &lines.collect::<String>() + "\n"
+    WORK.to_owned() + &lines.collect::<String>()
 }
 
 /// The scene whose instructions those of others are told in.
 const FIRST: &str = "p1";
 
-const WORK: &str = "\
-## What it takes
+const WORK: &str = "
+## Work of the event stepper
 
-The event stepper on the exact contact. **Instructions** are those of a run with a record that keeps nothing, counted by
-valgrind's callgrind: they do not depend on what else the machine does. Beside them those per simulated second in parts of P1's.
+The contact law is the exact one. Valgrind's callgrind counts the instructions of a run without output; they do not depend on the load of the
+machine. The column `× P1 per second` gives the instructions per simulated second relative to P1.
 
-| scenario | tolerance | error at the end | along the way | million instructions | × P1 per second | ms per simulated second | steps | events |
+| scenario | tolerance | end error | maximum error | million instructions | × P1 per second | ms per simulated second | steps | events |
 | --- | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: |
 ";
 
@@ -215,19 +257,52 @@ fn ratio_table(chapters: &[Chapter]) -> String {
     let rule = RIVALS.map(|_| " ---: |").concat();
     let _ = writeln!(table, "\n\n| scenario | error | event |{head}\n| --- | ---: | ---: |{rule}");
     chapters.iter().for_each(|chapter| table.push_str(&chapter.ratios));
-    table.push('\n');
     table
+}
+
+/// Work and precision in three sentences; nothing where the event stepper has not both errors of some scenario.
+fn summary(chapters: &[Chapter]) -> String {
+    let pairs = chapters.iter().filter_map(|chapter| chapter.speeds[0].zip(chapter.speeds[1]));
+    let pairs: Vec<(Speed, Speed)> = pairs.collect();
+    if pairs.is_empty() {
+        return String::new();
+    }
+    let least = pairs.iter().map(|(_, fine)| fine.least).fold(f64::INFINITY, f64::min);
+    let others = if least.is_finite() {
+        format!(" At this error every other general method takes at least {} times as long.", digits(least))
+    } else {
+        String::new()
+    };
+    format!(
+        "\n**Work–precision.** The event stepper reaches a relative error of {:e} in {} ms per simulated second.{others} A reduction \
+         of the error from {:e} to {:e} multiplies its run time by {}.\n",
+        ERRORS[1],
+        range(pairs.iter().map(|(_, fine)| fine.own)),
+        ERRORS[0],
+        ERRORS[1],
+        range(pairs.iter().map(|(coarse, fine)| fine.own / coarse.own)),
+    )
+}
+
+/// From the least to the largest.
+fn range(values: impl Iterator<Item = f64> + Clone) -> String {
+    let (low, high) = (values.clone().fold(f64::INFINITY, f64::min), values.fold(0.0, f64::max));
+    let (low, high) = (digits(low), digits(high));
+    if low == high { low } else { format!("{low} to {high}") }
 }
 
 /// Where others are faster.
 fn faster(chapters: &[Chapter]) -> String {
-    if chapters.is_empty() {
-        return String::new();
+    let losses: String = chapters.iter().map(|chapter| chapter.losses.as_str()).collect();
+    if losses.is_empty() {
+        return "\n**Where simpler code is faster** than the event stepper: in none of these scenarios.\n"
+            .to_owned();
     }
-    let losses: Vec<&str> = chapters.iter().flat_map(|chapter| &chapter.losses).map(String::as_str).collect();
-    let told = if losses.is_empty() { "nowhere here".to_owned() } else { losses.join("; ") };
+    let heads = ERRORS.map(|error| format!(" error {error:e} |")).concat();
     format!(
-        "**Where simpler code is faster** than the event stepper, at the same error along the way: {told}.\n\n"
+        "\n**Where simpler code is faster** than the event stepper: run time relative to it at the same error. The sign – means \
+         that it is not faster.\n\n| scenario | method |{heads}\n| --- | --- |{}\n{losses}",
+        ERRORS.map(|_| " ---: |").concat(),
     )
 }
 
@@ -236,10 +311,10 @@ fn grown(folder: &Path) -> String {
     let at = |name: &str| link(&folder.join(name));
     let name = |end: &str| at(&format!("{}{end}", growth::PICTURE));
     format!(
-        "\n## What more costs\n\n{GROWTH} [Table]({}), [SVG]({}).\n\n{}",
+        "\n## Scaling\n\n{GROWTH} [Table]({}), [SVG]({}).\n\n{}",
         at(growth::TABLE),
         name(".svg"),
-        shown((&name(".png"), &name("-dark.png")), "what more of something costs"),
+        shown((&name(".png"), &name("-dark.png")), "run time versus size"),
     )
 }
 
@@ -252,38 +327,41 @@ pub(crate) fn shown((light, dark): (&str, &str), words: &str) -> String {
 }
 
 const GROWTH: &str = "\
-P1 with more of one thing at a time: springs of its row, by velocity Verlet with 1 000 steps a period; all others by the event
-stepper at 1e-6: contacts under the slider, no two alike, that share its load; sliders, no two alike, on the foot; simulated
-time; rows written per period; corners of a memory, left by ever smaller swings of the foot, while a still smaller one goes on.
-Events of things that are not alike do not coincide: twice as many contacts make twice as many events, each with the work of
-twice as many.";
+Each curve increases one quantity of P1. The row of springs uses velocity Verlet with 1 000 steps per period, all others use the event
+stepper at 1e-6. The contacts share the load of the slider. Contacts and sliders are all different, so their events do not
+coincide. Twice as many contacts have twice as many events, each with twice the work. The corners (reversals) of the memory come
+from a foot motion of decreasing amplitude; the time is that of a smaller motion after it.";
 
-const TIMES: &str = "\
-**Times** are processor times of the run alone, without building and output; on an idle machine they are wall times, which are
-in the tables of all runs, too. All runs take turns, several rounds, and the shortest turn counts. On another machine they
-differ; their ratios differ less.";
+const METHOD: &str = "\
+## Measurement
 
-const NORM: &str = "\
-**Errors** are the largest of any free coordinate, at the end or along the way (1 001 moments of the run), in parts of the
-stroke of the scenario's waveform, or of the largest travel where nothing follows one; an angle counts as the way it makes at
-the farthest contact point. They are against the event stepper at a tolerance of 1e-14, two orders finer than the finest run.";
+**Times** are processor times of the run alone, without set-up and output; the tables of all runs also give wall times. All runs are
+repeated in several rounds, and the shortest time counts. Ratios depend less on the machine than times.
 
-const OTHERS: &str = "\
-**What others would do**, in code that shares nothing with the program's rows and steppers. **loop** is what a researcher writes: a
-fixed step over a row of springs, by velocity Verlet (`loop` in the tables of all runs) or by Runge and Kutta's method of order 4
-(`loop-rk4`); tuned: half of the symmetric row, the widest vectors of the machine, driven places from a table. **rk4** and **verlet**
-are the faster ones of the program's own and of a plain loop on the exact contact by memory of its turns (`exact-rk4`,
-`exact-verlet`), which is there for powers under constant loads. **ode_solvers** is that crate's Dopri5 with the exact contact and
-events by hand: looked for after every step, located on its dense output, then started anew with the last step. It is there where
-all loads are constant. **floor** is the least code for P1 and its like alone, from event to event.";
+**Errors** are the maximum over all free coordinates, at the end or over 1 001 instants of the run. They are relative to the stroke of the
+waveform, or to the maximum travel if nothing follows a waveform. An angle counts as the displacement of the farthest contact
+point. The reference is the event stepper at a tolerance of 1e-14.
 
-const RATIOS: &str = "\
-## How many times as long
+**Pictures** show the best runs of each method. The curve `dopri5` includes ode_solvers, `springs` the loops over springs. A dashed line
+with a number is a fitted slope.
 
-Time per simulated second of the event stepper for an error along the way, and how many times as long the others take: between
-measured runs by the straight line through their logarithms, and nothing beyond; > where the longest run that gains anything has a
-larger error; – where others do not know the scene: the loops have up to six free coordinates, the events by hand up to three and
-constant loads, and none of them springs, stacks or damped contacts.";
+| method | description |
+| --- | --- |
+| event, rk4, verlet, dopri5 | steppers of stickslip, on the exact contact law and on rows of 64, 256 and 1 024 springs |
+| loop over springs | fixed step over a row of 64 to 4 096 springs by velocity Verlet (`loop`) or RK4 (`loop-rk4`), vectorised, with the symmetry of the row |
+| `exact-rk4`, `exact-verlet` | fixed step with the exact law of power-law profiles at constant load; the columns rk4 and verlet show the faster code |
+| ode_solvers with events | Dopri5 of the crate `ode_solvers`; events are located on its dense output, and the integration restarts there |
+| floor | minimal code for P1 and similar drives, from event to event; all other methods are general |
+
+The loops support up to six free coordinates, ode_solvers up to three under constant loads. Neither supports springs, stacks or damped
+contacts.";
+
+const RATIOS: &str = "
+## Run time at equal error
+
+The column `event` gives the time of the event stepper per simulated second for a maximum error. The other columns give the run time of
+other methods relative to it, interpolated between runs in logarithms. The sign > means that the method does not reach the error; its
+longest useful run then gives the value. The sign – marks scenarios that the method does not support.";
 
 /// The command that writes the page.
 fn command(request: &Request) -> String {

@@ -1,8 +1,6 @@
-//! The work-precision diagram of a scenario.
+//! The work–precision diagram of a scenario, drawn from the table of its runs.
 
-use crate::contestant::Stepping;
-use crate::family::{Family, Method};
-use crate::problem::Problem;
+use crate::norm;
 use stickslip_plot::{Figure, PlotError, Theme, WorkCurve, draw_png, draw_svg, work_precision_figure};
 use stickslip_run::Job;
 use stickslip_run::provenance;
@@ -10,27 +8,56 @@ use stickslip_run::provenance;
 /// Name of the picture's files, without ending.
 pub const NAME: &str = "work-precision";
 
-/// Series of one family.
-struct Points {
-    name: String,
-    group: String,
-    method: Method,
-    error: Vec<f64>,
-    seconds: Vec<f64>,
-    evaluations: Vec<f64>,
-}
+/// The curves of the diagram, and the methods and engine of each: of several the best run for every error counts.
+const CURVES: [(&str, &[&str], &str); 5] = [
+    ("event", &["event"], "curve"),
+    ("rk4", &["rk4", "exact-rk4"], "curve"),
+    ("verlet", &["verlet", "exact-verlet"], "curve"),
+    ("dopri5", &["dopri5", "ode_solvers"], "curve"),
+    ("springs", &["loop", "loop-rk4"], "springs"),
+];
 
-/// Draws the diagram light, dark and as SVG.
-pub(crate) fn draw(
-    job: &Job,
-    problem: &Problem,
-    families: &[Family<'_>],
-) -> Result<Vec<(String, Vec<u8>)>, PlotError> {
-    let points: Vec<Points> = families.iter().map(|family| Points::new(family, problem.duration)).collect();
-    let curves: Vec<WorkCurve<'_>> = points.iter().map(Points::curve).collect();
-    // Short: it stands along the height of a panel.
-    let error = format!("error / {}", problem.norm.of.trim_start_matches("the ").replace('"', ""));
-    let mut figure = work_precision_figure(job.title(), &error, &curves, Some(problem.doubt.trajectory));
+/// Draws the diagram light, dark and as SVG from the text of `bench.csv`; rows without a result are left out.
+///
+/// # Errors
+/// A figure that cannot be drawn.
+pub fn draw(job: &Job, table: &str) -> Result<Vec<(String, Vec<u8>)>, PlotError> {
+    let mut reader = csv::Reader::from_reader(table.as_bytes());
+    let head = reader.headers().cloned().unwrap_or_default();
+    let rows: Vec<csv::StringRecord> = reader.records().map_while(Result::ok).collect();
+    let field = |row: &csv::StringRecord, name: &str| {
+        let column = head.iter().position(|known| known == name);
+        column.and_then(|column| row.get(column)).unwrap_or_default().to_owned()
+    };
+    let value = |row: &csv::StringRecord, name: &str| field(row, name).parse().unwrap_or(f64::NAN);
+    let columns = CURVES.map(|(_, methods, engine)| {
+        let is_own = |row: &&csv::StringRecord| {
+            methods.contains(&field(row, "method").as_str()) && field(row, "engine") == engine
+        };
+        let own: Vec<&csv::StringRecord> = rows.iter().filter(is_own).collect();
+        let column = |name: &str| own.iter().map(|row| value(row, name)).collect::<Vec<f64>>();
+        let duration = job.scenario.plan.duration;
+        let evaluations: Vec<f64> = column("evaluations").iter().map(|count| count / duration).collect();
+        [column("trajectory_error"), column("processor_s_per_s"), evaluations]
+    });
+    let curves: Vec<WorkCurve<'_>> = CURVES
+        .iter()
+        .zip(&columns)
+        .enumerate()
+        .map(|(place, ((name, ..), [error, seconds, evaluations]))| WorkCurve {
+            name,
+            error,
+            seconds,
+            evaluations,
+            place,
+        })
+        .collect();
+    let error = if norm::stroke(&job.scenario.scene, job.scenario.figures).is_some() {
+        "error / stroke"
+    } else {
+        "error / travel"
+    };
+    let mut figure = work_precision_figure(job.title(), error, &curves);
     figure.provenance = [
         (provenance::TITLE, job.title().to_owned()),
         (provenance::PROGRAM, job.program.clone()),
@@ -44,51 +71,4 @@ pub(crate) fn draw(
         (format!("{NAME}-dark.png"), draw_png(&dark)?),
         (format!("{NAME}.svg"), draw_svg(&figure)?.into_bytes()),
     ])
-}
-
-impl Points {
-    fn new(family: &Family<'_>, duration: f64) -> Self {
-        let mut points = Self {
-            name: family.method.name().to_owned(),
-            group: group(family.method),
-            method: family.method,
-            error: Vec::new(),
-            seconds: Vec::new(),
-            evaluations: Vec::new(),
-        };
-        for (_, result) in family.measured() {
-            points.error.push(result.errors.trajectory);
-            points.seconds.push(result.cost.processor / duration);
-            points.evaluations.push(result.counts.evaluations as f64 / duration);
-        }
-        points
-    }
-
-    fn curve(&self) -> WorkCurve<'_> {
-        WorkCurve {
-            name: &self.name,
-            group: &self.group,
-            error: &self.error,
-            seconds: &self.seconds,
-            evaluations: &self.evaluations,
-            // The same in all panels.
-            place: match self.method {
-                Method::Own { stepping, .. } => colour(stepping),
-                Method::Loop { staged, .. } => 4 + usize::from(staged),
-                Method::Outside | Method::Floor { .. } => 6,
-            },
-        }
-    }
-}
-
-/// What is compared beside each other: methods on the same contact.
-fn group(method: Method) -> String {
-    match method.springs() {
-        None => "the exact contact".to_owned(),
-        Some(springs) => format!("rows of {springs} springs"),
-    }
-}
-
-fn colour(stepping: Stepping) -> usize {
-    Stepping::ALL.iter().position(|other| *other == stepping).unwrap_or(0)
 }

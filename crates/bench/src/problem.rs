@@ -1,4 +1,4 @@
-//! A scenario as a problem to be solved: its reference, and how far an answer is from it.
+//! Scenario as a benchmark problem, with its reference solution and errors.
 
 use crate::baseline::Mechanism;
 use crate::contestant::with_engine;
@@ -11,84 +11,84 @@ use stickslip_run::Job;
 use stickslip_run::Watcher;
 use thiserror::Error;
 
-/// Tolerance of the reference: two orders below the finest run …
+/// Tolerance of the reference solution, two orders of magnitude below the finest run.
 pub(crate) const REFERENCE: f64 = 1e-14;
-/// … and of the run that tells how sure the reference is of itself.
+/// Tolerance of a second run that estimates the error of the reference.
 pub(crate) const CHECK: f64 = 1e-13;
-/// A row of springs reaches this much further than the deepest indentation of the reference.
+/// Factor to the largest indentation of the reference. The contact width at the product is the length of the rows of springs.
 const REACH: f64 = 1.05;
 
-/// A scenario with its reference.
+/// Scenario with its reference solution.
 pub(crate) struct Problem {
     pub(crate) scene: Scene,
     /// Simulated time, s.
     pub(crate) duration: f64,
-    /// The exact model.
+    /// Model with exact contacts.
     pub(crate) model: Model,
-    /// Columns of the free coordinates in a row.
+    /// Columns of the free coordinates.
     pub(crate) columns: Vec<usize>,
     pub(crate) norm: Norm,
     pub(crate) reference: Samples,
-    /// Difference between the reference and a run at ten times its tolerance.
+    /// Difference between the reference and the run at ten times its tolerance.
     pub(crate) doubt: Errors,
-    /// Lengths of the rows of springs that hold a contact at its deepest, m; none where the load is constant.
+    /// Lengths of the rows of springs, m; `None` for contacts under constant load.
     pub(crate) spans: Vec<Option<f64>>,
-    /// The scene as the baselines see it, or what they do not know of it.
+    /// Model for the reference implementations. The error names an unsupported feature.
     pub(crate) mechanism: Result<Mechanism, String>,
-    /// Coordinates at the end known from elsewhere, m or rad.
+    /// Known coordinates at the end, m or rad.
     pub(crate) known: Vec<(usize, f64)>,
 }
 
-/// A channel's value at the end, known from elsewhere.
+/// Known value of a channel at the end.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Known {
     /// Name of the channel, such as `slider.x_m`.
     pub channel: String,
-    /// Its value, m or rad.
+    /// Value, m or rad.
     pub value: f64,
 }
 
-/// Why a scenario is no problem to measure by.
+/// Reason why a scenario is not suitable for a benchmark.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum ProblemError {
-    /// Without equations of motion.
+    /// The model has no free coordinate.
     #[error("{0}: nothing is free, so there is nothing to integrate")]
     NothingFree(String),
-    /// Without a length to measure by.
+    /// Nothing moves, so there is no length to which errors are relative.
     #[error("{0}: nothing moves, so there is no length to measure errors by")]
     NothingMoves(String),
-    /// Something known of what is no free coordinate.
+    /// A known value is not that of a free coordinate.
     #[error("{name}: --known {channel}: expected a free coordinate, one of {choice}")]
     Channel {
-        /// The scenario.
+        /// Name of the scenario.
         name: String,
-        /// What stands there.
+        /// Channel given by the user.
         channel: String,
-        /// What could.
+        /// List of the possible channels.
         choice: String,
     },
-    /// A scene that the exact engine refuses.
+    /// The model is invalid with exact contacts.
     #[error("{name}: {source}")]
     Scene {
-        /// The scenario.
+        /// Name of the scenario.
         name: String,
-        /// What is wrong with it.
+        /// Error of the model.
         source: SceneError,
     },
-    /// A reference that did not come to its end.
+    /// The reference run failed.
     #[error("{name}: the reference at a tolerance of {tolerance:e}: {source}")]
     Reference {
-        /// The scenario.
+        /// Name of the scenario.
         name: String,
         /// Tolerance of the run.
         tolerance: f64,
-        /// What the run says.
+        /// Error of the run.
         source: RunError,
     },
 }
 
 impl Problem {
-    /// Computes the reference of a scenario.
+    /// Computes the reference solution of a scenario.
     pub(crate) fn new(job: &Job, known: &[Known], watcher: &dyn Watcher) -> Result<Self, ProblemError> {
         let name = || job.name.clone();
         let scenario = &job.scenario;
@@ -144,7 +144,7 @@ impl Problem {
         Ok(Self { scene, duration, model, columns, norm, reference, doubt, spans, mechanism, known })
     }
 
-    /// Natural length (m) and velocity (m/s) of each free coordinate: those of the first contact that it moves.
+    /// Returns natural length, m, and velocity, m/s, of each free coordinate: those of the first contact of its body.
     pub(crate) fn scales(&self) -> Vec<(f64, f64)> {
         let touches =
             |body: usize, c: &usize| self.scene.contacts[*c].part.between.contains(&Side::Body(body));
@@ -156,14 +156,14 @@ impl Problem {
         self.norm.coordinates.iter().map(natural).collect()
     }
 
-    /// Errors against the reference, and the largest against what is known from elsewhere.
+    /// Returns the errors relative to the reference, and the largest error relative to known values.
     pub(crate) fn errors(&self, samples: &Samples) -> (Errors, Option<f64>) {
         let known = self.known.iter().map(|(i, value)| self.norm.against(*i, samples.end()[*i], *value));
         (self.norm.errors(samples, &self.reference), known.reduce(f64::max))
     }
 }
 
-/// Lengths of rows of springs.
+/// Returns the lengths of rows of springs.
 fn spans(job: &Job, model: &Model, deepest: &[(usize, f64)]) -> Vec<Option<f64>> {
     let laws: Vec<&Interface> = model.contacts().map(|(_, law)| law).collect();
     let span = |(c, law): (usize, &&Interface)| {

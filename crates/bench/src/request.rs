@@ -1,25 +1,25 @@
-//! What is asked to be measured.
+//! Options of a benchmark.
 
 use crate::problem::Known;
 use std::path::PathBuf;
 
-/// What is asked to be measured, and where to.
+/// Options of a benchmark.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Request {
     /// Scenario files.
     pub files: Vec<PathBuf>,
-    /// Folder of what is measured: that of a scenario NAME is OUT/NAME.
+    /// Output folder; the results of the scenario NAME are in OUT/NAME.
     pub out: PathBuf,
-    /// Wall time for each scenario, besides its reference, s.
+    /// Wall time per scenario without the reference, s.
     pub budget: f64,
-    /// Values put into every scenario: key path and value.
+    /// Overrides of all scenarios: key path and value.
     pub set: Vec<(String, String)>,
-    /// Coordinates at the end of scenarios that are known from elsewhere, by the scenario's name.
+    /// Known coordinates at the end, with the name of the scenario.
     pub known: Vec<(String, Known)>,
-    /// Whether instructions are counted, where valgrind is installed.
+    /// Whether instructions are counted. Counting requires valgrind.
     pub instructions: bool,
-    /// Whether what more of something costs is measured, too.
+    /// Whether the scaling of the run time is measured, too.
     pub growth: bool,
-    /// A page in Markdown with the tables and pictures of all scenarios, where one is wanted.
+    /// Markdown page with tables and plots of all scenarios, if requested.
     pub page: Option<PathBuf>,
 }

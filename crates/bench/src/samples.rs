@@ -1,12 +1,12 @@
-//! Where the free coordinates are at the moments at which runs are compared.
+//! Samples of the free coordinates at common times.
 
 use stickslip_drive::{Event, Record};
 use stickslip_run::Watcher;
 
-/// Moments of the common grid after the first; the end of the run is one more.
+/// Number of sample times after the first; the end of the run is an additional one.
 const MOMENTS: usize = 1000;
 
-/// Positions of the free coordinates, moment by moment: at 0, on a regular grid, and at the end; m and rad.
+/// Positions of the free coordinates, m or rad, at t = 0, on a regular grid and at the end.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub(crate) struct Samples {
     width: usize,
@@ -14,29 +14,29 @@ pub(crate) struct Samples {
 }
 
 impl Samples {
-    /// No moments yet, of `width` coordinates.
+    /// Returns empty samples of `width` coordinates.
     pub(crate) fn new(width: usize) -> Self {
         Self { width, values: Vec::with_capacity((MOMENTS + 2) * width) }
     }
 
-    /// Interval of the grid, s. The last moment lies half an interval before the end, so that rounding cannot add one, and
-    /// periods of a drive are met at all phases.
+    /// Returns the interval of the grid, s. The last grid point lies half an interval before the end, so that rounding cannot add one and
+    /// all phases of a drive are sampled.
     pub(crate) fn interval(duration: f64) -> f64 {
         duration / (MOMENTS as f64 + 0.5)
     }
 
-    /// All moments of the grid, s.
+    /// Returns all times of the grid, s.
     pub(crate) fn grid(duration: f64) -> impl Iterator<Item = f64> {
         (0..=MOMENTS).map(move |k| k as f64 * Self::interval(duration))
     }
 
-    /// When the next moment of the grid is, s; never once the end alone is left.
+    /// Returns the next time of the grid, s, or infinity if only the end is missing.
     pub(crate) fn next(&self, duration: f64) -> f64 {
         let len = self.len();
         if len <= MOMENTS { len as f64 * Self::interval(duration) } else { f64::INFINITY }
     }
 
-    /// Number of moments of a run that came to its end.
+    /// Returns the number of sample times of a complete run.
     pub(crate) fn complete() -> usize {
         MOMENTS + 2
     }
@@ -45,33 +45,33 @@ impl Samples {
         self.values.push(value);
     }
 
-    /// Moments so far.
+    /// Returns the number of sample times so far.
     pub(crate) fn len(&self) -> usize {
         self.values.len() / self.width.max(1)
     }
 
-    /// The coordinates, moment by moment.
+    /// Returns the coordinates at each sample time.
     pub(crate) fn moments(&self) -> impl ExactSizeIterator<Item = &[f64]> {
         self.values.chunks_exact(self.width.max(1))
     }
 
-    /// The last moment.
+    /// Returns the last sample.
     pub(crate) fn end(&self) -> &[f64] {
         self.moments().last().unwrap_or(&[])
     }
 
-    /// Smallest and largest value of a coordinate.
+    /// Returns minimum and maximum of a coordinate.
     pub(crate) fn range(&self, coordinate: usize) -> (f64, f64) {
         let values = self.moments().filter_map(|moment| moment.get(coordinate));
         values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), v| (low.min(*v), high.max(*v)))
     }
 }
 
-/// A record that keeps some columns of the rows and the largest value of others.
+/// Recorder of some columns of the rows, and of the maxima of others.
 pub(crate) struct Sampler<'a> {
     pub(crate) samples: Samples,
     columns: &'a [usize],
-    /// Columns of which the largest value is wanted, and these values.
+    /// Columns whose maxima are recorded, with the maxima.
     pub(crate) largest: Vec<(usize, f64)>,
     watcher: &'a dyn Watcher,
 }
@@ -81,7 +81,7 @@ impl<'a> Sampler<'a> {
         Self { samples: Samples::new(columns.len()), columns, largest: Vec::new(), watcher }
     }
 
-    /// The same, watching the largest value of some columns as well.
+    /// Adds columns whose maxima are recorded.
     pub(crate) fn watching(mut self, columns: impl Iterator<Item = usize>) -> Self {
         self.largest = columns.map(|column| (column, f64::NEG_INFINITY)).collect();
         self

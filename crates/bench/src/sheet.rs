@@ -1,4 +1,4 @@
-//! The table of all runs.
+//! Table of all runs.
 
 use crate::family::{Family, Setting};
 use std::io::{self, Write};
@@ -22,7 +22,7 @@ const HEAD: [&str; 16] = [
     "note",
 ];
 
-/// Writes a line for each run; `duration` is the simulated time, s. Fields of runs without result are empty.
+/// Writes a line for each run. `duration` is the simulated time, s. Fields of runs without a result are empty.
 pub(crate) fn write(file: impl Write, families: &[Family<'_>], duration: f64) -> io::Result<()> {
     let mut writer = csv::Writer::from_writer(file);
     writer.write_record(HEAD)?;

@@ -1,11 +1,10 @@
-//! Scenes drawn from seeds, run and judged: does every sensible scene run to its end, and to its tolerance?
+//! Random tests of robustness: random scenarios must run to their end and reach their tolerance.
 //!
-//! [`scenario()`] draws the scenario of a seed, as the text of a file that `stickslip run` takes; [`soak()`] judges many.
+//! [`scenario()`] returns the scenario of a seed, as a file for `stickslip run`. [`soak()`] judges many seeds.
 //!
-//! In reading order: `draw` (numbers from a seed), `basis` (a contact and its scales), `course` (waveforms), `sketch` (the
-//! scenario so far), `kinds` (what is drawn); `trial` (a scene made ready, its runs), `finding` (what may become of one),
-//! `judge`, `rows` (the second method); `crew` (threads), `sheet` (what is told). [`hostile`] is a matrix of scenes at the extremes
-//! of a plain one.
+//! Reading order: `draw` (random numbers), `basis` (first contact and its scales), `course` (waveforms), `sketch` (scenario under
+//! construction), `kinds` (kinds of scenarios); `trial` (model and runs), `finding` (verdicts), `judge`, `rows` (second method); `crew`
+//! (threads), `sheet` (output). [`hostile`] is a matrix of extreme scenarios.
 
 mod basis;
 mod course;

@@ -1,28 +1,28 @@
-//! Tolerances and steps at which methods are run, from coarse to fine.
+//! Tolerances and steps of the methods, from coarse to fine.
 
 use stickslip_drive::Scene;
 
-/// Levels of the fixed steps, each half the one before.
+/// Number of fixed steps, each half the previous one.
 const LEVELS: i32 = 16;
-/// Corners looked at of each waveform.
+/// Maximum number of corners considered per waveform.
 const CORNERS: usize = 200;
-/// Times closer than this share of the run are one.
+/// Time differences below this fraction of the run are rounding errors.
 const ROUNDING: f64 = 1e-10;
 
-/// Tolerances 1e-1 to 1e-12.
+/// Returns the tolerances 1e-1 to 1e-12.
 pub(crate) fn tolerances() -> Vec<f64> {
     (1..=12).map(|exponent| 10_f64.powi(-exponent)).collect()
 }
 
-/// Steps from half of `longest` (s) down by halves. All corners of the waveforms fall on them where corners have a common
-/// measure: a step across a corner would cost the method its order, and whoever writes a loop chooses the step so.
+/// Returns fixed steps from at most half of `longest`, s, each half the previous one. If the corners of the waveforms have a common
+/// divisor, all corners lie on steps. A step across a corner would lower the order of convergence.
 pub(crate) fn fixed(scene: &Scene, duration: f64, longest: f64) -> Vec<f64> {
     let measure = common_measure(scene, duration, longest);
     let first = (measure / (0.5 * longest).min(measure)).ceil();
     (0..LEVELS).map(|level| measure / (first * 2_f64.powi(level))).collect()
 }
 
-/// The longest time of which all corners and the end are multiples, s; the whole run where that would be too short to step by.
+/// Returns the longest time of which all corners and the end are multiples, s, or the whole run if that time is too short.
 fn common_measure(scene: &Scene, duration: f64, longest: f64) -> f64 {
     let mut measure = duration;
     for waveform in &scene.waveforms {
@@ -32,7 +32,7 @@ fn common_measure(scene: &Scene, duration: f64, longest: f64) -> f64 {
                 break;
             }
             measure = divisor(measure, piece.end, ROUNDING * duration);
-            // Without the rounding of the remainders, which would grow.
+            // Removes the rounding error of the remainder, which would grow.
             measure = duration / (duration / measure).round();
             piece = waveform.part.after(&piece);
         }
@@ -40,7 +40,7 @@ fn common_measure(scene: &Scene, duration: f64, longest: f64) -> f64 {
     if measure < 1e-3 * longest.min(duration) { duration } else { measure }
 }
 
-/// Euclid's algorithm; remainders below `rounding` are none.
+/// Returns the greatest common divisor by Euclid's algorithm; remainders below `rounding` count as 0.
 fn divisor(a: f64, b: f64, rounding: f64) -> f64 {
     let (mut a, mut b) = (a, b);
     while b > rounding {

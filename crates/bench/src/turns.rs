@@ -1,4 +1,4 @@
-//! The measurement: errors once, then times by turns, so that all share the machine's noise.
+//! Measurement: errors once, then times in alternating rounds, so that all methods share the noise of the machine.
 
 use crate::clock::Stopwatch;
 use crate::contestant::Stop;
@@ -8,18 +8,17 @@ use crate::samples::Samples;
 use std::time::Instant;
 use stickslip_run::Watcher;
 
-/// Turns of each run at most.
+/// Maximum number of rounds.
 const TURNS: u32 = 12;
-/// A turn repeats its run until it takes about so long, s: far above what the clock and a cold cache cost.
+/// Target time of a run in a round, s. Runs are repeated accordingly, so that clock and cold caches have little influence.
 const TURN: f64 = 4e-3;
-/// Repeats in a turn at most.
+/// Maximum number of repetitions in a round.
 const REPEATS: f64 = 500.0;
-/// A run at the next tolerance or step is expected to take so much longer than the one before.
+/// Expected ratio of run times between a tolerance or step and the previous one.
 const GROWTH: f64 = 2.0;
 
-/// Measures all families in about `budget` s of wall time. Half of it is for the errors, in equal shares; what a share does
-/// not hold is left out, with a note. The other half is for the times: every run has one turn, then further ones as long as
-/// its share lasts.
+/// Measures all methods in about `budget` s of wall time. Half of it is for errors, in equal shares per method. Runs that exceed the
+/// share are omitted with a note. The other half is for times: every run has one round, and further ones while its share lasts.
 pub(crate) fn measure(
     problem: &Problem,
     families: &mut [Family<'_>],
@@ -34,7 +33,7 @@ pub(crate) fn measure(
     time(families, budget, watcher)
 }
 
-/// Runs a family once, from coarse to fine, while its share of time lasts.
+/// Runs a method from coarse to fine while its share of time lasts.
 fn sample(problem: &Problem, family: &mut Family<'_>, share: f64, watcher: &dyn Watcher) -> Result<(), Stop> {
     let begun = Instant::now();
     let (mut last, mut slow) = (0.0, false);
@@ -65,7 +64,7 @@ fn sample(problem: &Problem, family: &mut Family<'_>, share: f64, watcher: &dyn 
     Ok(())
 }
 
-/// Every measured run in turn, several rounds.
+/// Measures the times of all runs in alternating rounds.
 fn time(families: &mut [Family<'_>], budget: f64, watcher: &dyn Watcher) -> Result<(), Stop> {
     let runs: usize = families.iter().map(|family| family.measured().count()).sum();
     let share = 0.5 * budget / runs.max(1) as f64;

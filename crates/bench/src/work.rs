@@ -1,4 +1,4 @@
-//! What the event stepper takes at the tolerances that people ask for, in instructions where they can be counted.
+//! Cost of the event stepper at common tolerances, in time and instructions.
 
 use crate::contestant::Stepping;
 use crate::family::{Family, Measured, Method};
@@ -8,19 +8,19 @@ use crate::request::Request;
 use std::fmt::Write;
 use std::path::Path;
 
-/// The tolerances: what most people ask for, what the program takes by default, and a fine one.
+/// Tolerances: coarse, default and fine.
 pub(crate) const TOLERANCES: [f64; 3] = [1e-3, 1e-6, 1e-9];
 
-/// Work of the event stepper on the exact contact, and of the least code where there is one.
+/// Cost of the event stepper with exact contacts, and of the minimal code if it applies.
 pub(crate) struct Work {
     /// Simulated time, s.
     pub(crate) duration: f64,
     pub(crate) runs: Vec<Effort>,
-    /// With 4, 10 and 16 nodes.
+    /// Cost of the minimal code with 4, 10 and 16 nodes.
     floor: Vec<Effort>,
 }
 
-/// A run at one of the tolerances; of the floor with so many nodes instead.
+/// Cost of a run at a tolerance; for the minimal code the tolerance is the number of nodes.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Effort {
     pub(crate) tolerance: f64,
@@ -50,13 +50,13 @@ impl Work {
         Self { duration: problem.duration, runs, floor }
     }
 
-    /// Instructions per simulated second at a tolerance, where they were counted.
+    /// Returns the number of instructions per simulated second at a tolerance, if they were counted.
     pub(crate) fn pace(&self, tolerance: f64) -> Option<f64> {
         let run = self.runs.iter().find(|run| run.tolerance == tolerance)?;
         run.instructions.map(|count| count as f64 / self.duration)
     }
 
-    /// Lines of the table of all scenes; `first` is the scene that others are compared with.
+    /// Returns the lines of the table of all scenarios. `first` is the scenario to which the others are relative.
     pub(crate) fn lines(&self, name: &str, first: Option<&Self>, digits: impl Fn(f64) -> String) -> String {
         let mut lines = String::new();
         for Effort { tolerance, measured, instructions } in &self.runs {
@@ -77,7 +77,7 @@ impl Work {
         lines
     }
 
-    /// The least code beside the program, at the tolerances whose errors it has with so many nodes.
+    /// Returns the table that compares the minimal code with the event stepper.
     pub(crate) fn against_floor(&self, digits: impl Fn(f64) -> String) -> String {
         if self.floor.is_empty() {
             return String::new();
@@ -102,10 +102,10 @@ impl Work {
 }
 
 const FLOOR: &str = "
-How little it could cost: code for this drive alone, which goes from event to event by its energy and takes the time by Gauss and
-Legendre's rule with so many nodes; no memory beyond turning points, no work, no rows, no error estimate. Beside it the event
-stepper, and how many times as much it takes.
+The minimal code simulates this drive only. It moves from event to event by the energy integral and computes the time by Gauss–Legendre
+quadrature with the given number of nodes. It has no error estimate, friction work or rows. The columns from `tolerance` on
+show the event stepper; the last two are relative to the minimal code.
 
-| nodes | error at the end | million instructions | ms per simulated second | tolerance | error at the end | × instructions | × time |
+| nodes | end error | million instructions | ms per simulated second | tolerance | end error | × instructions | × time |
 | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: |
 ";

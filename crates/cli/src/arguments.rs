@@ -180,10 +180,10 @@ Examples:
 
 const EXPLAIN_EXAMPLES: &str = "\
 Examples:
-  stickslip explain friction              a key of a scenario, wherever it stands
-  stickslip explain run.until_steady      one of them
+  stickslip explain friction              a key of a scenario
+  stickslip explain run.until_steady      a key with its path
   stickslip explain ball.stick_m          a column of trace.csv
-  stickslip explain steady.step_m         a figure of summary.json
+  stickslip explain steady.step_m         a result of summary.json
 
 Without a name it lists all columns and results: the page docs/definitions.md.";
 
@@ -196,7 +196,7 @@ Examples:
 const NEW_EXAMPLES: &str = "\
 Examples:
   stickslip new                        drive.json
-  stickslip new --list                 what there is
+  stickslip new --list                 list the templates
   stickslip new motor --template piezo
   stickslip new motor --schema ../schema/scenario-1.json";
 

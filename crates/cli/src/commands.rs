@@ -1,4 +1,4 @@
-//! The commands, one room each: what they do with the libraries, and what they say.
+//! Implementation of the commands, one module each: they call the libraries and print the results.
 
 pub(crate) mod branch;
 pub(crate) mod check;

@@ -1,7 +1,7 @@
-//! The program `stickslip`: reads scenarios, runs them, writes tables, a summary and pictures.
+//! The program `stickslip`: reads scenarios, runs them, and writes tables, a summary and plots.
 //!
-//! Arguments, words and exit codes; what is computed, written and drawn is the libraries'. In reading order: [`arguments`]
-//! (what may be asked), [`commands`] (one room each).
+//! It handles arguments, messages and exit codes; the libraries do the computing, writing and drawing. Modules:
+//! [`arguments`] (command line) and [`commands`] (one module per command).
 
 mod arguments;
 mod commands;
@@ -49,8 +49,8 @@ fn main() -> ExitCode {
     ExitCode::from(verdict.max(stickslip_console::answer::verdict()).code())
 }
 
-/// Functions that dependencies (the progress bar's estimate, the writer of Parquet) ask for by these names, and would be given the C
-/// library's of the machine.
+/// C functions that dependencies call by name (progress bar, Parquet writer). They replace those of the machine's C
+/// library, so that results are the same everywhere.
 mod shared_names {
     /// x^y.
     #[expect(unsafe_code, reason = "a name that C libraries define as well; the function is safe")]

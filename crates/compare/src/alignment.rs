@@ -1,23 +1,23 @@
-//! Two sequences of times, matched so that one event too few is one event too few and not a shift of all later ones.
+//! Alignment of two sequences of event times. A missing event counts as one difference and does not shift the later events.
 
-/// Most cells of the table by which times are told apart.
+/// Maximum number of cells of the alignment table.
 const MOST_CELLS: usize = 20_000_000;
 
-/// A matching, by places in either sequence.
+/// Alignment of two sequences, as indices into both.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub(super) struct Alignment {
-    /// In order; near ones and moved ones.
+    /// Matched times in ascending order. Their distance may exceed the tolerance.
     pub pairs: Vec<(usize, usize)>,
-    /// Places of the first sequence without partner.
+    /// Indices of unmatched times of the first sequence.
     pub missing: Vec<usize>,
-    /// Places of the second sequence without partner.
+    /// Indices of unmatched times of the second sequence.
     pub extra: Vec<usize>,
 }
 
-/// How many times are missing, extra or farther apart than the tolerance; among equals the sum of distances, s.
+/// Cost of an alignment: number of differences, and the sum of the distances of the pairs, s, to decide between equal numbers.
 type Cost = (u32, f64);
 
-/// What the last of two beginnings is.
+/// Last step of the alignment of two prefixes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Last {
     Pair,
@@ -26,10 +26,11 @@ enum Last {
 }
 
 impl Alignment {
-    /// Matches two rising sequences: of all ways to pair them in order, that with the fewest differences, where a pair
-    /// farther apart than `tolerance` is one, a missing and an extra time are one each; among equals that with the
-    /// least sum of distances. This is Levenshtein's distance, found in a band about the diagonal that is widened until
-    /// nothing outside could be better (Ukkonen 1985), or until the table would be too large.
+    /// Aligns two ascending sequences of times with the minimum number of differences.
+    ///
+    /// A pair farther apart than `tolerance`, a missing time and an extra time count as one difference each. Among alignments with the same
+    /// number, the minimum sum of distances decides. The cost is Levenshtein's edit distance. It is computed in a band around the diagonal
+    /// of the table (Ukkonen 1985). The band is doubled until the minimum is certain or the table is too large.
     pub(super) fn new(a: &[f64], b: &[f64], tolerance: f64) -> Self {
         let is_near = |(s, t): &(&f64, &f64)| (*s - *t).abs() <= tolerance;
         let start = a.iter().zip(b).take_while(is_near).count();
@@ -57,8 +58,9 @@ impl Alignment {
     }
 }
 
-/// The best path from the start to the end of both; where even the narrowest band is too large, the longer one has its
-/// surplus at the end.
+/// Returns the optimal sequence of alignment steps for both sequences.
+///
+/// If even the narrowest band exceeds [`MOST_CELLS`], times with equal indices are paired and the rest of the longer sequence is unmatched.
 fn path(a: &[f64], b: &[f64], tolerance: f64) -> Vec<Last> {
     let (shorter, longer) = (a.len().min(b.len()), a.len().max(b.len()));
     let cells = |half: usize| (2 * half + 1).saturating_mul(a.len() + 1);
@@ -76,11 +78,11 @@ fn path(a: &[f64], b: &[f64], tolerance: f64) -> Vec<Last> {
     }
 }
 
-/// The last steps of the best paths to all places (i, j) with |i - j| ≤ half.
+/// Table of the last alignment steps for all pairs of prefix lengths (i, j) with |i - j| ≤ half.
 struct Table {
     last: Vec<Last>,
     half: usize,
-    /// Of the whole path.
+    /// Cost of the complete alignment.
     cost: Cost,
 }
 
@@ -150,7 +152,7 @@ mod tests {
         let a = [1.0, 2.0, 3.0, 4.0];
         let exact = Alignment::new(&a, &[1.0, 3.0, 4.0], 1e-9);
         assert_eq!((exact.missing, exact.extra.len(), exact.pairs.len()), (vec![1], 0, 3));
-        // Here no time is left where it was: all have moved a little, and one is gone.
+        // All times differ slightly, and one is missing.
         let moved = Alignment::new(&a, &[1.01, 3.01, 4.01], 1e-9);
         assert_eq!((moved.pairs, moved.missing), (vec![(0, 0), (2, 1), (3, 2)], vec![1]));
         let back = Alignment::new(&[1.01, 3.01, 4.01], &a, 1e-9);
@@ -164,7 +166,7 @@ mod tests {
         assert!(alignment.missing.is_empty() && alignment.extra.is_empty());
     }
 
-    /// A shift by as much as two of the times are apart once tore such a list in two.
+    /// A shift by the distance of two times must not split the list.
     #[test]
     fn a_chance_meeting_is_no_match() {
         let a: Vec<f64> = (0..40).map(f64::from).map(|k| k + 0.01 * k * k).collect();
@@ -184,7 +186,7 @@ mod tests {
         assert_eq!((none.missing.len(), none.pairs.len()), (200_000, 0));
     }
 
-    /// The cost of the best of all ways.
+    /// Returns the minimum cost of all alignments, by exhaustive search.
     fn least(a: &[f64], b: &[f64], tolerance: f64) -> Cost {
         let ([s, rest_a @ ..], [t, rest_b @ ..]) = (a, b) else { return (a.len().max(b.len()) as u32, 0.0) };
         let (pair, _) = pair(least(rest_a, rest_b, tolerance), *s, *t, tolerance);
@@ -193,7 +195,7 @@ mod tests {
     }
 
     fn times(most: usize) -> impl Strategy<Value = Vec<f64>> {
-        // Whole numbers: several ways are equally good, and many times near.
+        // With whole numbers, several alignments are equally good.
         prop::collection::vec((0..12_u8).prop_map(f64::from), 0..most).prop_map(|mut times| {
             times.sort_by(f64::total_cmp);
             times

@@ -1,4 +1,4 @@
-//! What may differ by how much.
+//! Allowed differences of a comparison.
 
 use super::error::CompareError;
 use super::results::{Exactness, Results};
@@ -7,41 +7,43 @@ use super::terms::Terms;
 use stickslip_quantity::names::{owner, unit};
 use stickslip_scenario::{quantity, suggestion};
 
-/// Relative tolerance between runs by the same stepper at the same tolerance or step. They do the same arithmetic, so
-/// that builds of all optimisation levels agree to the last bit; what is left is room for another rounding of a sum.
+/// Relative tolerance between runs with the same integrator and the same tolerance or step.
+///
+/// Such runs perform the same arithmetic. The tolerance covers only a different rounding of sums.
 const SAME_RUN: f64 = 1e-10;
-/// Largest time tolerance between such runs, s.
+/// Maximum time tolerance between such runs, s.
 const SAME_MOMENT: f64 = 1e-10;
-/// Global over local error: runs of the examples at tolerances from 1e-6 to 1e-10 lie within this multiple of the
-/// tolerance of the same runs at 1e-12.
+/// Ratio of global to local error. Examples at tolerances of 1e-6 to 1e-10 differ from runs at 1e-12 by less.
 const GLOBAL: f64 = 100.0;
-/// Relative tolerance where one of two different steppers has a fixed step and promises none.
+/// Relative tolerance if the integrators differ and at least one has a fixed step.
 const FIXED_STEP: f64 = 1e-4;
-/// The default absolute tolerance over the relative one times the scene's natural scale: below one per cent of its
-/// scale a channel is at rest, and what moves in it is rounding.
+/// Default factor of the absolute tolerance: absolute tolerance = factor × relative tolerance × natural scale of the model.
+///
+/// Changes of a channel below one per cent of its scale count as rest.
 const AT_REST: f64 = 1e-2;
 
-/// The tolerances of a comparison.
+/// Tolerances of a comparison.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Allowance {
-    /// Of a channel's largest magnitude.
+    /// Relative to the largest magnitude of a channel.
     pub relative: f64,
-    /// Of events, s.
+    /// Tolerance of event times, s.
     pub time: f64,
-    /// Whether both runs did the same arithmetic.
+    /// Whether both runs used the same integrator with the same tolerance or step.
     pub is_same_run: bool,
-    /// What the runs themselves promise.
+    /// Relative accuracy that the integrators of the runs provide.
     pub promised: f64,
-    /// Given for one channel or figure, in its unit.
+    /// Absolute tolerances of single channels and summary values, in their units.
     absolute: Vec<(String, f64)>,
-    /// Names of channels, bodies, contacts and waveforms that are left out.
+    /// Names of ignored channels, bodies, contacts and waveforms.
     ignored: Vec<String>,
     scales: Scales,
 }
 
 impl Allowance {
-    /// What the terms ask for; where they are silent the steppers of both runs decide. `span` is the time
-    /// compared, s.
+    /// Returns the tolerances of `terms`. Where `terms` gives none, the integrators of both runs determine the tolerance.
+    ///
+    /// `span` is the compared time, s.
     pub(super) fn new(a: &Results, b: &Results, span: f64, terms: &Terms) -> Self {
         let is_same_run = a.stepper == b.stepper;
         let (promised, moment) = match (a.stepper.exactness, b.stepper.exactness) {
@@ -67,12 +69,15 @@ impl Allowance {
         }
     }
 
-    /// Takes what is allowed for single channels and what is ignored, whose names must be among `known`.
+    /// Adds the absolute tolerances and the ignored names of `terms`.
+    ///
+    /// # Errors
+    /// A name is not among `known`, or a tolerance is not a quantity of 0 or more.
     pub(super) fn refine(&mut self, terms: &Terms, known: &[String]) -> Result<(), CompareError> {
         for (name, text) in &terms.absolute {
             if !known.contains(name) {
                 let help = suggestion(name, known.iter().map(String::as_str));
-                return Err(unknown("absolute", "channel or figure", name, help));
+                return Err(unknown("absolute", "channel or summary value", name, help));
             }
             let refuse = |message| CompareError::Absolute { name: name.clone(), text: text.clone(), message };
             let value = quantity(text, unit(name)).map_err(refuse)?;
@@ -94,13 +99,14 @@ impl Allowance {
         Ok(())
     }
 
-    /// Whether a channel or figure is left out: by its own name or with its owner.
+    /// Returns whether a channel or summary value is ignored, by its own name or by the name of its owner.
     pub(super) fn ignores(&self, name: &str) -> bool {
         self.ignored.iter().any(|ignored| ignored == name || ignored == owner(name))
     }
 
-    /// How far two values may lie apart: max(absolute, relative × nominal), in the unit of the channel or figure;
-    /// `largest` is its largest magnitude in either run.
+    /// Returns the allowed difference of two values: max(absolute, relative × nominal), in the unit of the channel or summary value.
+    ///
+    /// `largest` is the largest magnitude of the value in both runs.
     pub(super) fn of(&self, name: &str, largest: f64) -> f64 {
         let given = self.absolute.iter().rev().find(|(given, _)| given == name).map(|(_, value)| *value);
         let absolute = given.unwrap_or_else(|| AT_REST * self.relative * self.scales.natural(name));

@@ -1,4 +1,4 @@
-//! Which events and rows a scenario asks for, told so that two ways to say the same are the same.
+//! Settings of a scenario that select the written events and rows. Equivalent settings compare equal.
 
 use serde_json::{Value, json};
 use std::path::Path;
@@ -6,23 +6,25 @@ use stickslip_run::files::SCENARIO;
 use stickslip_run::guard;
 use stickslip_scenario::Scenario;
 
-/// All of a run.
+/// Time window of a whole run, s.
 const EVERYWHERE: [f64; 2] = [0.0, f64::INFINITY];
 
-/// Which events and rows are written.
+/// Settings of a scenario that determine which events and rows are written.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Asked {
-    /// Kinds and contacts of events, and whether there are any. How many are written before they are thinned does not matter:
-    /// until then all are there.
+    /// Kinds and contacts of the written events, and whether events are written at all. The maximum number of events is not included,
+    /// because all events up to the thinning are compared.
     events: Value,
-    /// From when until when, s.
+    /// Time window of the rows and events, s.
     window: [f64; 2],
-    /// Interval of the rows, s; none where that is not known.
+    /// Time interval of the rows, s. `None` if it is unknown.
     every: Option<Value>,
 }
 
 impl Asked {
-    /// What the scenario beside results asks for. An excerpt has none; it is of a run that leaves nothing out.
+    /// Reads the settings from the scenario in a results folder.
+    ///
+    /// A missing scenario counts as one that writes all events.
     pub(super) fn of(folder: &Path) -> Self {
         let path = folder.join(SCENARIO);
         match Scenario::load(&path) {
@@ -49,7 +51,7 @@ impl Asked {
         }
     }
 
-    /// One that another program wrote and this one does not read.
+    /// Returns the settings of a scenario that this version cannot read.
     fn unread(scenario: &Value) -> Self {
         let of = |key: &str| scenario.pointer(&format!("/output/{key}")).cloned();
         let said = ["events", "window", "last"].map(of);
@@ -57,8 +59,9 @@ impl Asked {
         Self { events, window: EVERYWHERE, every: None }
     }
 
-    /// The times in which both write the same kinds of events, s; none where there are none. Where the windows differ, an event
-    /// within `tolerance` of their edges may be in one of them only.
+    /// Returns the time window in which both runs write the same kinds of events, s. Returns `None` if there is none.
+    ///
+    /// If the windows differ, the result is narrowed by `tolerance`. An event near an edge may be within one window only.
     pub(super) fn common(&self, other: &Self, tolerance: f64) -> Option<[f64; 2]> {
         let ([a_from, a_to], [b_from, b_to]) = (self.window, other.window);
         let from = if a_from == b_from { a_from } else { a_from.max(b_from) + tolerance };
@@ -66,12 +69,12 @@ impl Asked {
         (self.events == other.events && from <= to).then_some([from, to])
     }
 
-    /// Whether both write events in the same window.
+    /// Returns whether both runs have the same time window.
     pub(super) fn has_same_window(&self, other: &Self) -> bool {
         self.window == other.window
     }
 
-    /// Whether both write rows at the same moments, as far as they say.
+    /// Returns whether both runs write rows at the same times, as far as the settings are known.
     pub(super) fn has_same_rows(&self, other: &Self) -> bool {
         let has_same_interval = match (&self.every, &other.every) {
             (Some(a), Some(b)) => a == b,

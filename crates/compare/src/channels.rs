@@ -1,4 +1,4 @@
-//! Channels of two traces at the times that both have.
+//! Comparison of the channels of two traces at their common times.
 
 use super::allowance::Allowance;
 use super::results::Results;
@@ -8,46 +8,46 @@ use stickslip_quantity::names::unit;
 use stickslip_run::Real;
 use stickslip_run::frame::{Column, Values, Words};
 
-/// Times that differ by no more units in their last place are one: k·10 µs and 2k·5 µs are rounded apart.
+/// Relative distance below which two times are equal. Rounding differs between k·10 µs and 2k·5 µs.
 const SAME_TIME: f64 = 4.0 * f64::EPSILON;
 
-/// Rows of two traces at one time.
+/// Rows of two traces at common times.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct CommonRows {
-    /// Place in either trace.
+    /// Pairs of row indices: in A, in B.
     pub pairs: Vec<(usize, usize)>,
-    /// Those of them on which an event falls: a state may be that before it in one run and that after it in the other.
+    /// Rows of A that coincide with an event. One run may have the state before the event, and the other run the state after it.
     pub on_events: HashSet<usize>,
-    /// Rows left out because an event falls on them.
+    /// Number of rows omitted because they coincide with an event.
     pub at_events: usize,
 }
 
-/// How far a channel differs.
+/// Difference of one channel between two runs.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct ChannelDifference {
     /// Name of the channel.
     pub name: String,
-    /// Its SI unit; empty where it has none.
+    /// SI unit; empty if the channel has none.
     #[serde(skip_serializing_if = "str::is_empty")]
     pub unit: &'static str,
-    /// Largest difference; none for words, which are equal or not.
+    /// Largest difference, in the unit. `None` for words, which are equal or different.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub worst: Option<Real>,
-    /// Where it is, or where the first word differs; none where nothing does.
+    /// Time of the largest difference, or of the first different word, s. `None` if there is no difference.
     #[serde(rename = "at_s", skip_serializing_if = "Option::is_none")]
     pub at: Option<Real>,
-    /// Largest difference that is allowed, in the unit; none for words.
+    /// Largest allowed difference, in the unit. `None` for words.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub allowed: Option<Real>,
-    /// First time at which more than that is found.
+    /// First time at which the difference exceeds the allowed one, s.
     #[serde(rename = "first_s", skip_serializing_if = "Option::is_none")]
     pub first: Option<Real>,
-    /// Number of rows that differ by more.
+    /// Number of rows with a difference above the allowed one.
     pub rows: usize,
 }
 
 impl CommonRows {
-    /// Pairs the rows up to the time `end`, s.
+    /// Pairs the rows with equal times up to the time `end`, s.
     pub fn new(a: &[f64], b: &[f64], end: f64) -> Self {
         let (mut i, mut j) = (0, 0);
         let mut pairs = Vec::new();
@@ -66,9 +66,10 @@ impl CommonRows {
         Self { pairs, ..Self::default() }
     }
 
-    /// Leaves out the rows within `tolerance` of an event, at which one run may show the moment before it and the other
-    /// the moment after, unless their two times make it sure that they do not. `a` and `b` are the times of the traces,
-    /// `events` those of all events.
+    /// Removes the pairs of rows within `tolerance` (s) of an event, because the two runs may show the states before and after the event.
+    ///
+    /// `a` and `b` are the row times of the traces, and `events` are the times of all events. Pairs for which `is_sure` returns true are
+    /// kept.
     pub fn told_from_events(
         mut self,
         (a, b): (&[f64], &[f64]),
@@ -89,7 +90,7 @@ impl CommonRows {
         self
     }
 
-    /// Number of rows of A, with the times `a`, until `end`, s, that B has not.
+    /// Returns the number of rows of A up to the time `end`, s, that B lacks. `a` are the row times of A.
     pub(super) fn lone(&self, a: &[f64], end: f64) -> usize {
         let until = a.partition_point(|t| *t <= end * (1.0 + SAME_TIME));
         until.saturating_sub(self.pairs.len() + self.at_events)
@@ -97,19 +98,19 @@ impl CommonRows {
 }
 
 impl ChannelDifference {
-    /// Whether both runs agree.
+    /// Returns whether no row differs by more than allowed.
     pub fn is_same(&self) -> bool {
         self.rows == 0
     }
 
-    /// The largest difference over the allowed one.
+    /// Returns the largest difference relative to the allowed one.
     pub fn excess(&self) -> f64 {
         let (Some(worst), Some(allowed)) = (self.worst, self.allowed) else { return 0.0 };
         if worst.0 == 0.0 { 0.0 } else { worst.0 / allowed.0 }
     }
 }
 
-/// Compares all channels that both traces have; the time is what they are compared at.
+/// Compares all channels that both traces have, except the time.
 pub(super) fn compare(
     a: &Results,
     b: &Results,
@@ -130,7 +131,7 @@ pub(super) fn compare(
     a.trace.columns().iter().filter(wanted).filter_map(compare).collect()
 }
 
-/// Names of the channels of `a` that `b` has not.
+/// Returns the names of the channels of `a` that `b` lacks.
 pub(super) fn missing(a: &Results, b: &Results) -> Vec<String> {
     let has = |name: &str| b.trace.numbers(name).is_some() || b.trace.words(name).is_some();
     a.trace.columns().iter().map(|column| &column.name).filter(|name| !has(name)).cloned().collect()
@@ -161,7 +162,7 @@ fn numbers(
     ChannelDifference { name: name.to_owned(), unit: unit(name), worst, at, allowed, first, rows: count }
 }
 
-/// |x - y|; infinite where one of them is not finite and the other is something else.
+/// Returns |x - y|. The distance is infinite if one value is not finite and the other one differs.
 pub(super) fn distance(x: f64, y: f64) -> f64 {
     if x == y || (x.is_nan() && y.is_nan()) {
         return 0.0;
@@ -195,7 +196,7 @@ mod tests {
         let pairs = CommonRows::new(&coarse, &fine, 1.0).pairs;
         assert_eq!(pairs, (0..11).map(|k| (k, 3 * k)).collect::<Vec<_>>());
         assert_eq!(CommonRows::new(&coarse, &fine, 6e-5).pairs, [(0, 0), (1, 3), (2, 6)]);
-        // A time that is none meets nothing.
+        // NaN equals no time.
         assert_eq!(CommonRows::new(&[0.0, 1.0], &[0.5, f64::NAN, 1.0], 1.0).pairs, [(1, 2)]);
     }
 

@@ -1,4 +1,4 @@
-//! What a comparison of two runs found.
+//! Result of a comparison of two runs.
 
 use super::allowance::Allowance;
 use super::channels::{self, ChannelDifference, CommonRows};
@@ -11,55 +11,55 @@ use super::terms::Terms;
 use serde::Serialize;
 use stickslip_run::Real;
 
-/// A comparison, as `--json` prints it.
+/// Comparison of two runs. `--json` prints it in this form.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Comparison {
-    /// How far they agree.
+    /// Overall result.
     pub verdict: Verdict,
-    /// The reference.
+    /// The reference run A.
     pub a: Side,
-    /// The run that is judged.
+    /// The run B, which is compared with A.
     pub b: Side,
-    /// What was allowed in general.
+    /// Tolerances that apply to all channels.
     pub tolerance: Tolerance,
-    /// End of the time compared.
+    /// End of the compared time, s.
     #[serde(rename = "until_s")]
     pub until: Real,
     /// Numbers of rows.
     pub rows: Rows,
-    /// How much of A that is.
+    /// Compared fraction of A.
     pub coverage: Coverage,
-    /// Channels of both, in the order of A.
+    /// Channels of both runs, in the order of A.
     pub channels: Vec<ChannelDifference>,
-    /// Channels of A that B has not.
+    /// Channels of A that B lacks.
     pub channels_missing: Vec<String>,
-    /// Channels of B that A has not.
+    /// Channels of B that A lacks.
     pub channels_extra: Vec<String>,
-    /// Events of both.
+    /// Differences of the events.
     pub events: EventDifferences,
-    /// Figures of both summaries.
+    /// Differences of the summary values.
     pub figures: FigureDifferences,
-    /// The first difference in time.
+    /// First difference in time.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub first: Option<First>,
     /// What was not compared, and why.
     pub notes: Vec<String>,
 }
 
-/// How far two runs agree.
+/// Agreement of two runs.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Verdict {
-    /// The rows and the events have the same bytes, and no figure differs.
+    /// The rows and events are byte-identical, and no summary value differs.
     Identical,
-    /// No difference is larger than allowed.
+    /// No difference exceeds the allowed one.
     Equal,
-    /// One is.
+    /// At least one difference exceeds the allowed one.
     Differs,
 }
 
 impl Verdict {
-    /// In a word.
+    /// Returns the agreement as one word.
     #[must_use]
     pub fn word(self) -> &'static str {
         match self {
@@ -70,71 +70,71 @@ impl Verdict {
     }
 }
 
-/// One of the runs.
+/// One of the two runs.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Side {
-    /// Where its results are.
+    /// Folder of the results.
     pub folder: String,
-    /// How it ended: "done", "stopped" or "interrupted".
+    /// Status at the end: "done", "stopped" or "interrupted".
     pub status: String,
     /// Time reached, s.
     #[serde(rename = "simulated_s")]
     pub end: Real,
-    /// Its stepper and what that was asked for, in words.
+    /// Integrator with its tolerance or step, as text.
     pub stepper: String,
-    /// Version of the program that computed it.
+    /// Version of the program that computed the run.
     pub version: String,
-    /// SHA-256 of its resolved scenario.
+    /// SHA-256 of the resolved scenario.
     pub scenario_sha256: String,
 }
 
-/// What was allowed in general.
+/// Tolerances that apply to all channels and events.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Tolerance {
-    /// Of the largest magnitude of a channel.
+    /// Relative to the largest magnitude of a channel.
     pub relative: Real,
-    /// Of the time of an event, s.
+    /// Tolerance of event times, s.
     #[serde(rename = "time_s")]
     pub time: Real,
-    /// Whether both runs did the same arithmetic.
+    /// Whether both runs used the same integrator with the same tolerance or step.
     pub same_stepper: bool,
 }
 
 /// Numbers of rows.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Rows {
-    /// Of A.
+    /// Rows of A.
     pub a: usize,
-    /// Of B.
+    /// Rows of B.
     pub b: usize,
-    /// Compared: at times that both have.
+    /// Compared rows: those with common times.
     pub common: usize,
-    /// Rows of A that B lacks, where A is an excerpt, all of whose rows B must have.
+    /// Rows of A that B lacks. Counted only if A is an excerpt, because B must have all of its rows.
     #[serde(skip_serializing_if = "is_none")]
     pub missing: usize,
 }
 
-/// Whether there is nothing of a kind.
+/// Returns whether a count is zero.
 #[allow(clippy::trivially_copy_pass_by_ref, reason = "the serialiser asks by reference")]
 fn is_none(count: &usize) -> bool {
     *count == 0
 }
 
-/// Where two runs part.
+/// First difference of two runs in time.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct First {
-    /// When, s.
+    /// Time, s.
     #[serde(rename = "time_s")]
     pub time: Real,
-    /// What differs there, in words.
+    /// Description of the difference.
     pub what: String,
 }
 
 impl Comparison {
-    /// Compares two runs; with the rows at which it does.
+    /// Compares two runs and returns the comparison with the rows that were compared.
     ///
     /// # Errors
-    /// Runs without a row at a common time; a name or a tolerance in `terms` that is none.
+    /// The runs have no row at a common time, B is an excerpt, or `terms` contains an unknown name or an invalid tolerance.
     pub fn new(a: &Results, b: &Results, terms: &Terms) -> Result<(Self, CommonRows), CompareError> {
         if b.is_excerpt() {
             return Err(CompareError::JudgedExcerpt(b.folder.clone()));
@@ -202,39 +202,43 @@ impl Comparison {
         self.notes.extend(self.notes(rows, allowance));
     }
 
-    /// What the verdict rests on, in one line.
+    /// Returns the main finding as one line of text.
     pub fn finding(&self) -> String {
         match (&self.first, self.verdict) {
-            (_, Verdict::Identical) => "the rows and the events have the same bytes".to_owned(),
+            (_, Verdict::Identical) => "rows and events are byte-identical".to_owned(),
             (_, Verdict::Equal) => self.farthest(),
             (Some(first), Verdict::Differs) => {
                 format!("first difference at t = {} s: {}", time(first.time.0), first.what)
             }
             (None, Verdict::Differs) => match (self.figures.differ.first(), self.figures.missing.first()) {
-                (Some(figure), _) => format!("figure {}: {} in A, {} in B", figure.name, figure.a, figure.b),
-                (None, Some(name)) => format!("figure {name} is missing in B"),
-                (None, None) => "not the same bytes, or a difference in what has no time".to_owned(),
+                (Some(figure), _) => {
+                    format!("summary value {}: {} in A, {} in B", figure.name, figure.a, figure.b)
+                }
+                (None, Some(name)) => format!("summary value {name} is missing in B"),
+                (None, None) => {
+                    "the files are not byte-identical, or values without a time differ".to_owned()
+                }
             },
         }
     }
 
-    /// How far runs are apart that are equal: the channel that comes nearest to what is allowed.
+    /// Returns a line about the channel whose difference is largest relative to the allowed one.
     fn farthest(&self) -> String {
         let farthest = self.channels.iter().max_by(|p, q| p.excess().total_cmp(&q.excess()));
         match farthest.and_then(|channel| Some((channel, channel.worst?, channel.allowed?, channel.at?))) {
             Some((channel, worst, allowed, at)) => format!(
-                "farthest apart: {} by {:.1e} of {:.1e} {} allowed, at t = {} s",
+                "largest difference: {}, {:.1e} of {:.1e} {} allowed, at t = {} s",
                 channel.name,
                 worst.0,
                 allowed.0,
                 channel.unit,
                 time(at.0)
             ),
-            None => "no channel is apart; the files differ in what is not compared".to_owned(),
+            None => "no channel differs; the files differ in content that is not compared".to_owned(),
         }
     }
 
-    /// Whether one run stopped itself and the other did not.
+    /// Returns whether exactly one of the runs stopped itself.
     pub fn one_stopped(&self) -> bool {
         (self.a.status == "stopped") != (self.b.status == "stopped")
     }
@@ -243,9 +247,9 @@ impl Comparison {
         let channel = |c: &ChannelDifference| Some(First { time: c.first?, what: c.name.clone() });
         let event = self.events.first().map(|(event, how)| First {
             time: event.time,
-            what: format!("the event \"{}\" of {}, which {how}", event.kind, event.source),
+            what: format!("the event \"{}\" of {} {how}", event.kind, event.source),
         });
-        // What a channel shows at an event comes of the event.
+        // An event comes before the channels: the channels differ because of the event.
         let all = event.into_iter().chain(self.channels.iter().filter_map(channel));
         all.min_by(|p, q| p.time.0.total_cmp(&q.time.0))
     }
@@ -260,14 +264,14 @@ impl Comparison {
         if self.a.end != self.b.end {
             let until = self.until.0;
             notes.push(format!(
-                "compared until t = {until:?} s, where the shorter run ends; figures of the whole run are not compared"
+                "compared until t = {until:?} s, the end of the shorter run; summary values of whole runs are not compared"
             ));
         }
         let Rows { a, b, common, missing } = self.rows;
         if a != common || b != common {
             let at_events = match rows.at_events {
                 0 => String::new(),
-                count => format!(" ({count} more fall on events)"),
+                count => format!(" ({count} more are at events)"),
             };
             notes.push(format!(
                 "rows: {a} in A and {b} in B, compared at {common} common times{at_events}; nothing is interpolated"
@@ -286,7 +290,7 @@ impl Comparison {
         notes
     }
 
-    /// What the runs are of, where that is not the same.
+    /// Returns notes on different scenarios and different program versions.
     fn origins(&self) -> Vec<String> {
         let differ = |what: &str, a: &str, b: &str| {
             (a != b && !a.is_empty() && !b.is_empty()).then(|| format!("{what}: {a} and {b}"))
@@ -297,7 +301,7 @@ impl Comparison {
         scenarios.into_iter().chain(versions).collect()
     }
 
-    /// Advice where the differences may be those of other rounding.
+    /// Returns advice if different rounding alone can explain the differences.
     fn rounding(&self, allowance: &Allowance) -> Option<String> {
         let (relative, promised) = (allowance.relative, allowance.promised);
         let excess = self.channels.iter().map(ChannelDifference::excess).fold(0.0, f64::max);
@@ -305,8 +309,8 @@ impl Comparison {
         let has_same_words = self.channels.iter().all(|c| c.worst.is_some() || c.is_same());
         (is_small && has_same_words && self.channels_missing.is_empty()).then(|| {
             format!(
-                "the channels agree within what the stepper promises: other rounding alone, as of sums in another \
-                 order, can make such differences; --tolerance {promised:e} allows them"
+                "the channels agree within the accuracy of the stepper: different rounding alone can cause \
+                 such differences; --tolerance {promised:e} allows them"
             )
         })
     }
@@ -325,8 +329,9 @@ impl Side {
     }
 }
 
-/// A row on an event may be before it in one run and after it in the other: where the steppers differ, where the grids
-/// do and the time is rounded otherwise, and at the end of the shorter run, where nothing begins any more.
+/// Returns the common rows of two runs, without those at which the runs may show different sides of an event.
+///
+/// Such ambiguous rows occur if the integrators or the row times differ, and at the end of the shorter run.
 fn common_rows(a: &Results, b: &Results, until: f64, allowance: &Allowance) -> CommonRows {
     let events = a.events().chain(b.events()).map(|event| event.time).collect();
     let rows = CommonRows::new(a.time(), b.time(), until);
@@ -335,7 +340,7 @@ fn common_rows(a: &Results, b: &Results, until: f64, allowance: &Allowance) -> C
     rows.told_from_events((a.time(), b.time()), events, allowance.time, is_sure)
 }
 
-/// Everything that has a name.
+/// Returns the sorted names of all channels, summary values and event sources of both runs.
 fn known(a: &Results, b: &Results) -> Vec<String> {
     let mut names = Vec::new();
     for results in [a, b] {
@@ -348,7 +353,7 @@ fn known(a: &Results, b: &Results) -> Vec<String> {
     names
 }
 
-/// A time, s, in nine digits: they tell when, without the noise of binary fractions.
+/// Returns a time, s, as text with nine significant digits.
 pub fn time(t: f64) -> String {
     format!("{t:.8e}").parse::<f64>().map_or_else(|_| t.to_string(), |t| format!("{t:?}"))
 }

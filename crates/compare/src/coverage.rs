@@ -1,4 +1,4 @@
-//! How much of two runs was there, and compared.
+//! Completeness of two runs and of their comparison.
 
 use super::channels::CommonRows;
 use super::results::Results;
@@ -6,12 +6,12 @@ use serde::Serialize;
 use serde_json::Value;
 use stickslip_run::Real;
 
-/// What of A was compared, as shares of 1.
+/// Compared fraction of A, from 0 to 1.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Coverage {
-    /// From the first common row to the last, of the time that A reached.
+    /// Time from the first to the last common row, relative to the time that A reached.
     pub time: Real,
-    /// Rows of A that B has, of those that A has.
+    /// Rows of A that B has, relative to all rows of A.
     pub rows: Real,
 }
 
@@ -27,33 +27,35 @@ impl Coverage {
     }
 }
 
-/// Runs that are not there as a whole.
+/// Returns notes on runs or tables that are incomplete.
 pub(super) fn extents(a: &Results, b: &Results) -> Vec<String> {
     let mut notes = Vec::new();
     for (name, results) in [("A", a), ("B", b)] {
         if results.is_excerpt() {
             let counted = results.summary.pointer("/counts/rows").and_then(Value::as_u64).unwrap_or(0);
-            notes.push(format!("{name}: an excerpt, {} of {counted} rows", results.trace.rows()));
+            notes.push(format!("{name}: an excerpt with {} of {counted} rows", results.trace.rows()));
         }
         if !results.absent.is_empty() {
-            notes.push(format!("{name}: not there, and not compared: {}", results.absent.join(", ")));
+            notes.push(format!("{name}: missing, not compared: {}", results.absent.join(", ")));
         }
         if results.is_cut() {
-            notes
-                .push(format!("{name}: the tables end at t = {:?} s: no more could be written", results.end));
+            notes.push(format!(
+                "{name}: the tables end at t = {:?} s, because the rest could not be written",
+                results.end
+            ));
         }
     }
     let Some([from, to]) = a.asked.common(&b.asked, 0.0) else {
-        notes.push("events: A and B write others, as output.events, window and last of their scenarios say; not compared".to_owned());
+        notes.push("events: not compared, because output.events, output.window or output.last of the scenarios differ".to_owned());
         return notes;
     };
     if !a.asked.has_same_window(&b.asked) {
         let to = to.min(a.end).min(b.end);
-        notes.push(format!("events: compared from t = {from:?} s to {to:?} s, where both windows are"));
+        notes.push(format!("events: compared from t = {from:?} s to {to:?} s, which both windows contain"));
     }
     if a.events_until.min(b.events_until).is_finite() {
         let until = a.events_until.min(b.events_until);
-        notes.push(format!("events: compared until t = {until:?} s, from where on they are thinned"));
+        notes.push(format!("events: compared until t = {until:?} s; later events are thinned"));
     }
     notes
 }

@@ -1,43 +1,41 @@
-//! Why two folders cannot be compared.
+//! Errors of a comparison.
 
 use super::results::ResultsError;
 use std::path::PathBuf;
 use thiserror::Error;
 
-/// Something in the input of a comparison.
+/// Invalid input of a comparison.
 #[derive(Debug, Error)]
 pub enum CompareError {
-    /// A folder.
+    /// A folder of results cannot be read.
     #[error(transparent)]
     Results(#[from] ResultsError),
-    /// An excerpt in the place of the run that is judged.
-    #[error("{}: is an excerpt of a run: it can be compared with as A, and not be judged as B", .0.display())]
+    /// B is an excerpt. Only the reference A can be one.
+    #[error("{}: is an excerpt of a run; give it as the reference A, not as B", .0.display())]
     JudgedExcerpt(PathBuf),
-    /// Nothing was written at the same time.
-    #[error(
-        "A and B have no row at a common time\n   help: run one of them again with the other's output.every"
-    )]
+    /// The runs have no row at a common time.
+    #[error("A and B have no row at a common time\n   help: run both scenarios with the same output.every")]
     NoCommonRow,
-    /// A name that neither run has.
+    /// Neither run has this name.
     #[error("{term} {name}  there is no {what} \"{}\"{}", .name.escape_debug(), advice(.help.as_deref()))]
     UnknownName {
-        /// The field of [`Terms`](super::Terms) that has it.
+        /// Field of [`Terms`](super::Terms) that contains the name.
         term: &'static str,
-        /// What it should name.
+        /// Kind of object that the name should refer to.
         what: &'static str,
-        /// What stands there.
+        /// The unknown name.
         name: String,
-        /// Nearest name, or all of them.
+        /// Nearest name, or all names.
         help: Option<String>,
     },
-    /// A tolerance that is none.
+    /// An absolute tolerance is invalid.
     #[error("absolute {name}={text}  {message}")]
     Absolute {
-        /// Channel or figure.
+        /// Name of the channel or summary value.
         name: String,
-        /// What stands there.
+        /// The invalid text.
         text: String,
-        /// What is wrong with it.
+        /// Description of the error.
         message: String,
     },
 }

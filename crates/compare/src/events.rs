@@ -1,4 +1,4 @@
-//! Lists of events: which are missing, extra or moved.
+//! Comparison of two event lists: missing, extra and moved events.
 
 use super::alignment::Alignment;
 use super::allowance::Allowance;
@@ -7,52 +7,51 @@ use serde::Serialize;
 use std::collections::HashMap;
 use stickslip_run::Real;
 
-/// How the lists of events differ. Events are told apart by source and kind; those of one source and kind keep their
-/// order.
+/// Differences of two event lists. Events of equal source and kind are compared with each other in order of time.
 #[derive(Debug, Clone, PartialEq, Default, Serialize)]
 pub struct EventDifferences {
-    /// Numbers of events compared.
+    /// Number of compared events of A.
     pub a: usize,
-    /// In B.
+    /// Number of compared events of B.
     pub b: usize,
-    /// Largest distance in time of those that agree.
+    /// Largest time difference of events that agree, s.
     #[serde(rename = "worst_s")]
     pub worst: Real,
-    /// Distance in time that is allowed, s.
+    /// Allowed time difference, s.
     #[serde(rename = "allowed_s")]
     pub allowed: Real,
-    /// In A only, in order of time.
+    /// Events in A only, in order of time.
     pub missing: Vec<Lone>,
-    /// In B only.
+    /// Events in B only, in order of time.
     pub extra: Vec<Lone>,
-    /// In both, but farther apart than allowed.
+    /// Events in both lists, farther apart than allowed.
     pub moved: Vec<Moved>,
 }
 
-/// An event of one list.
+/// An event that only one list contains.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Lone {
-    /// Name of a contact or waveform.
+    /// Name of the contact or waveform.
     pub source: String,
-    /// What happened.
+    /// Kind of the event.
     pub kind: String,
-    /// When, s.
+    /// Time, s.
     #[serde(rename = "time_s")]
     pub time: Real,
 }
 
-/// An event at different times.
+/// An event that occurs at different times in A and B.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Moved {
     /// The event in A.
     #[serde(flatten)]
     pub event: Lone,
-    /// From A to B.
+    /// Time in B minus time in A, s.
     #[serde(rename = "by_s")]
     pub by: Real,
 }
 
-/// Times of the events of one source and kind in both lists.
+/// Times of the events of one source and kind in both lists, s.
 struct Track<'a> {
     source: &'a str,
     kind: &'a str,
@@ -60,7 +59,7 @@ struct Track<'a> {
     b: Vec<f64>,
 }
 
-/// Compares the events until `end`, s.
+/// Compares the events up to the time `end`, s.
 pub(super) fn compare(a: &Results, b: &Results, end: f64, allowance: &Allowance) -> EventDifferences {
     let mut differences = EventDifferences { allowed: Real(allowance.time), ..EventDifferences::default() };
     let Some(window) = a.asked.common(&b.asked, allowance.time) else { return differences };
@@ -74,15 +73,16 @@ pub(super) fn compare(a: &Results, b: &Results, end: f64, allowance: &Allowance)
     differences
 }
 
-/// The tracks in order of appearance. Where one run ends before the other, an event at its very end may not have been
-/// written any more: those are left out.
+/// Groups the events by source and kind, in order of first occurrence.
+///
+/// If one run ends before the other, events at its end are omitted, because it may not have written them.
 fn tracks<'a>(
     (a, b): (&'a Results, &'a Results),
     ([from, to], end): ([f64; 2], f64),
     allowance: &Allowance,
 ) -> Vec<Track<'a>> {
     let last = if a.end == b.end { f64::INFINITY } else { end - allowance.time };
-    // Of thinned events one more or less moves all that follow.
+    // After thinning, a single different event would shift all later ones.
     let whole = a.events_until.min(b.events_until);
     let last = if whole.is_finite() { last.min(whole - allowance.time) } else { last };
     let last = last.min(to);
@@ -124,12 +124,12 @@ impl EventDifferences {
         }
     }
 
-    /// Whether both lists agree.
+    /// Returns whether both lists agree.
     pub fn is_same(&self) -> bool {
         self.missing.is_empty() && self.extra.is_empty() && self.moved.is_empty()
     }
 
-    /// The first event that differs, with how.
+    /// Returns the first event that differs, with a description of the difference.
     pub fn first(&self) -> Option<(&Lone, &'static str)> {
         let missing = self.missing.first().map(|event| (event, "is missing"));
         let extra = self.extra.first().map(|event| (event, "is extra"));

@@ -1,4 +1,4 @@
-//! Figures of two summaries: energies, steps, contacts.
+//! Comparison of the values of two summaries: energies, steps, contacts.
 
 use super::allowance::Allowance;
 use super::channels::distance;
@@ -9,53 +9,54 @@ use std::collections::HashMap;
 use stickslip_quantity::names::unit;
 use stickslip_run::Real;
 
-/// Parts of a summary that say what a run came to.
+/// Parts of the summary that contain results.
 const PARTS: [&str; 3] = ["contacts", "steps", "energy"];
 
-/// How the figures differ.
+/// Differences of the summary values.
 #[derive(Debug, Clone, PartialEq, Default, Serialize)]
 pub struct FigureDifferences {
-    /// Number of figures that were compared.
+    /// Number of compared values.
     pub compared: usize,
-    /// Those that differ by more than is allowed.
+    /// Values that differ by more than allowed.
     pub differ: Vec<FigureDifference>,
-    /// Figures of A that B has not.
+    /// Values of A that B lacks.
     pub missing: Vec<String>,
-    /// Figures of B that A has not.
+    /// Values of B that A lacks.
     pub extra: Vec<String>,
 }
 
-/// A figure that differs.
+/// A summary value that differs.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct FigureDifference {
-    /// Name of the figure, such as `steps.lengths_m[3]`.
+    /// Name of the value, such as `steps.lengths_m[3]`.
     pub name: String,
-    /// Its SI unit; empty where it has none.
+    /// SI unit; empty if the value has none.
     #[serde(skip_serializing_if = "str::is_empty")]
     pub unit: &'static str,
-    /// What A has.
+    /// Value in A.
     pub a: Value,
-    /// What B has.
+    /// Value in B.
     pub b: Value,
-    /// None for words.
+    /// Allowed difference, in the unit. `None` for words.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub allowed: Option<Real>,
 }
 
-/// Compares the figures that both runs must have in common: over one span of time, with the same rows where they hang
-/// on these.
+/// Compares the values that both runs must share.
+///
+/// Most values are compared only for runs of equal length. Values computed from the written rows are compared only for equal rows.
 pub(super) fn compare(a: &Results, b: &Results, allowance: &Allowance) -> FigureDifferences {
     let (figures_a, figures_b) = (figures(a), figures(b));
     let known_b: HashMap<&str, &Value> =
         figures_b.iter().map(|(name, value)| (name.as_str(), *value)).collect();
     let has_same_span = a.end == b.end;
     let rows = |results: &Results| results.summary.pointer("/counts/rows").cloned();
-    // As many rows may be others: those of another window, or of another interval.
+    // Equal numbers of rows do not suffice: the window or the interval may differ.
     let has_same_rows = rows(a) == rows(b) && a.asked.has_same_rows(&b.asked);
-    // Whoever has sent one of them may have left out the table of the steps.
+    // The table of the steps may be missing in one of the folders.
     let lists = |results: &Results| results.summary.pointer("/steps/lengths_m").is_some();
     let both_list = lists(a) && lists(b);
-    // Rounding alone may lengthen the stretch in which steps count as steady.
+    // Different rounding can change the number of steps that count as steady.
     let is_identical = a.has_tables_of(b);
     let is_comparable = |name: &str| {
         let is_length = name.starts_with("steps.lengths_m[");
@@ -77,7 +78,7 @@ pub(super) fn compare(a: &Results, b: &Results, allowance: &Allowance) -> Figure
                 differences.differ.extend(difference(name, first, second, allowance));
             }
             None if has_same_span => differences.missing.push(name.clone()),
-            // The shorter run made fewer steps.
+            // The shorter run has fewer steps.
             None => {}
         }
     }
@@ -105,32 +106,34 @@ fn difference(name: &str, a: &Value, b: &Value, allowance: &Allowance) -> Option
     Some(FigureDifference { name: name.to_owned(), unit: unit(name), a: a.clone(), b: b.clone(), allowed })
 }
 
-/// Figures that are taken from the rows that were written, and differ where other rows are.
+/// Returns whether a value is computed from the written rows, and so depends on the row times.
 fn hangs_on_rows(name: &str) -> bool {
     const ENDS: [&str; 3] = ["peak_fx_N", "peak_fn_N", "throughput_J"];
     name.contains(".largest_error_") || ENDS.iter().any(|end| name.ends_with(end))
 }
 
-/// Figures that tell how sure others are: by other rounding they are others, by steps of another kind even whether a motion has settled.
+/// Returns whether a value assesses other values, such as their error or the settling state.
+///
+/// Such values change with rounding. The settling state changes only with the integrator or its tolerance.
 fn is_judgement(name: &str, is_same_run: bool) -> bool {
     const OF_STEADY: [&str; 4] = ["from_period", "periods", "error_m", "repeatability_m"];
     (name.starts_with("steps.settling.") && !(is_same_run && name == "steps.settling.state"))
         || name.strip_prefix("steps.steady.").is_some_and(|rest| OF_STEADY.contains(&rest))
 }
 
-/// Sentences, which say in words what other figures are.
+/// Returns whether a value is a sentence about other values.
 fn is_sentence(name: &str) -> bool {
     name.starts_with("steps.why[")
 }
 
-/// Figures of the start, which are there however long the run is.
+/// Returns whether a value depends on the initial state only, and so not on the length of the run.
 fn is_of_start(name: &str) -> bool {
     let parts: Vec<&str> = name.split('.').collect();
     matches!(parts.as_slice(), ["contacts", _, "count" | "gross_slip_displacement_m"])
         || matches!(parts.as_slice(), ["contacts", _, "one" | "all", _])
 }
 
-/// Names of all figures of a summary, such as `steps.lengths_m[3]`.
+/// Returns the names of all values of a summary, such as `steps.lengths_m[3]`.
 pub(super) fn names(results: &Results) -> impl Iterator<Item = String> {
     figures(results).into_iter().map(|(name, _)| name)
 }
@@ -142,7 +145,7 @@ fn figures(results: &Results) -> Vec<(String, &Value)> {
             collect(part.to_owned(), value, &mut leaves);
         }
     }
-    // What others are measured by comes of what is compared anyway.
+    // Scales follow from values that are compared.
     leaves.retain(|(name, _)| !name.contains(".scales."));
     leaves
 }

@@ -1,7 +1,7 @@
-//! Golden results: what scenarios came to when somebody last looked, kept to be compared with.
+//! Reference results ("goldens") for regression tests of scenarios.
 //!
-//! A golden is a folder of results with some of the rows only: an excerpt that [`compare`](crate) reads like any other. Beside it
-//! stand the scenario as it was run and a [`Recipe`], by which the file, as it is now, is run again.
+//! A golden is a folder with an excerpt of results, which [`compare`](crate) reads like other results. It also contains the recorded
+//! scenario and a [`Recipe`]. With the recipe, the current scenario file is run again for the comparison.
 
 mod excerpt;
 mod log;
@@ -19,121 +19,121 @@ use stickslip_run::guard;
 use stickslip_run::{Job, Refusal, hash};
 use thiserror::Error;
 
-/// The file by which a golden is told from other folders.
+/// File that identifies a folder as a golden.
 const RECIPE: &str = "recipe.json";
-/// What this version writes and reads.
+/// Format number that this version writes and reads.
 const FORMAT: u32 = 1;
-/// The picture of what differs most.
+/// Plot of the channel with the largest difference.
 pub const PICTURE: &str = "difference.png";
 
-/// How a golden is made again.
+/// Instructions for repeating the run of a golden.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Recipe {
-    /// Form of the golden's files.
+    /// Format number of the files.
     pub format: u32,
-    /// File of the scenario, as seen from the folder of all goldens.
+    /// Path of the scenario file, relative to the folder of all goldens.
     pub file: PathBuf,
-    /// Overrides, as `run --set` takes them.
+    /// Overrides, in the notation of `run --set`.
     #[serde(default)]
     pub set: Vec<String>,
-    /// Channels, figures, bodies or contacts that are not compared.
+    /// Channels, summary values, bodies or contacts that are not compared.
     #[serde(default)]
     pub ignore: Vec<String>,
 }
 
-/// A folder of goldens, each in a folder of its own.
+/// A folder that contains goldens, each in its own folder.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Goldens {
     root: PathBuf,
 }
 
-/// One of them.
+/// One golden.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Golden {
     /// Name of the scenario.
     pub name: String,
-    /// Where it lies.
+    /// Folder of the golden.
     pub folder: PathBuf,
-    /// How it is made again.
+    /// Instructions for repeating its run.
     pub recipe: Recipe,
 }
 
-/// Why there is no golden, or none that can be compared with.
+/// Error for a golden that is missing, invalid or cannot be compared.
 #[derive(Debug, Error)]
 pub enum GoldenError {
-    /// A folder without any.
-    #[error("{}: there is no golden\n   help: stickslip golden record FILE… --out {}", .0.display(), .0.display())]
+    /// The folder contains no golden.
+    #[error("{}: there is no reference result\n   help: stickslip golden record FILE… --out {}", .0.display(), .0.display())]
     None(PathBuf),
-    /// A name that none has.
-    #[error("{}: there is no golden \"{name}\"{}", .root.display(), .help.as_ref().map(|help| format!("; {help}")).unwrap_or_default())]
+    /// No golden has this name.
+    #[error("{}: there is no reference result \"{name}\"{}", .root.display(), .help.as_ref().map(|help| format!("; {help}")).unwrap_or_default())]
     Unknown {
-        /// The folder of all.
+        /// Folder of all goldens.
         root: PathBuf,
-        /// What was asked for.
+        /// The unknown name.
         name: String,
-        /// A name that is like it.
+        /// Suggestion of a similar name.
         help: Option<String>,
     },
-    /// One that is there already.
-    #[error("{}: there is a golden already\n   help: stickslip golden accept {} {name} --reason \"why it changes\"", .root.join(.name).display(), .root.display())]
+    /// A golden of this name exists already.
+    #[error("{}: exists already\n   help: stickslip golden accept {} {name} --reason \"why it changes\"", .root.join(.name).display(), .root.display())]
     Exists {
-        /// The folder of all.
+        /// Folder of all goldens.
         root: PathBuf,
-        /// Its name.
+        /// Name of the golden.
         name: String,
     },
-    /// The scenario of a golden is gone.
-    #[error("gone: {} is not there", .0.display())]
+    /// The scenario file of a golden does not exist.
+    #[error("gone: {} does not exist", .0.display())]
     Gone(PathBuf),
-    /// Files that another version wrote.
-    #[error("damaged: {} is of format {found}, this version reads {FORMAT}: record it anew", .path.display())]
+    /// The files have a format that this version does not read.
+    #[error("damaged: {} has format {found}, this version reads {FORMAT}: record it again", .path.display())]
     Format {
-        /// Which file.
+        /// Path of the file.
         path: PathBuf,
-        /// What it says.
+        /// Format number in the file.
         found: u64,
     },
-    /// A file that is no recipe.
+    /// The recipe is invalid, or the recorded scenario was changed.
     #[error("damaged: {}: {message}", .path.display())]
     Recipe {
-        /// Which file.
+        /// Path of the file.
         path: PathBuf,
-        /// What is wrong with it.
+        /// Description of the error.
         message: String,
     },
-    /// Tables or figures that are not those that were recorded.
+    /// Tables or summary values are damaged or were changed after recording.
     #[error("damaged: {0}")]
     Damaged(ResultsError),
-    /// A reason that says nothing.
-    #[error("--reason: say why the results change, in eight letters or more")]
+    /// The reason for a change has fewer than eight letters.
+    #[error("--reason: expected a reason of eight letters or more")]
     NoReason,
-    /// A scenario that is refused.
+    /// The scenario is invalid.
     #[error(transparent)]
     Refusal(#[from] Refusal),
-    /// A file that cannot be read or written.
+    /// A file cannot be read or written.
     #[error("{}: {}", .path.display(), words(.source))]
     File {
-        /// Which file.
+        /// Path of the file.
         path: PathBuf,
-        /// What the system says.
+        /// Error of the operating system.
         source: io::Error,
     },
 }
 
 impl Goldens {
-    /// Those in a folder, which may not be there yet.
+    /// Returns the goldens of a folder. The folder need not exist.
     #[must_use]
     pub fn new(root: &Path) -> Self {
         Self { root: root.to_owned() }
     }
 
-    /// Names of all, or of some, in order.
+    /// Returns the sorted names of the wanted goldens, or of all goldens if `wanted` is empty.
     ///
     /// # Errors
-    /// There are none, or none of one of these names.
+    /// The folder contains no golden, or no golden has one of the names.
     pub fn names(&self, wanted: &[String]) -> Result<Vec<String>, GoldenError> {
-        // One that has lost its recipe is a golden as well: a damaged one.
+        // A folder without a recipe is a damaged golden.
         let is_golden = |name: &String| !name.starts_with('.') && self.root.join(name).is_dir();
         let entries = fs::read_dir(&self.root).into_iter().flatten().flatten();
         let mut names: Vec<String> =
@@ -151,10 +151,10 @@ impl Goldens {
         Ok(names)
     }
 
-    /// A golden to be.
+    /// Returns a new golden for a scenario file. Nothing is written.
     ///
     /// # Errors
-    /// There is one of its name, or the file cannot be found.
+    /// A golden of this name exists, or a path cannot be resolved.
     pub fn plan(&self, file: &Path, set: Vec<String>, ignore: Vec<String>) -> Result<Golden, GoldenError> {
         let name = file.file_stem().unwrap_or_default().to_string_lossy().into_owned();
         let folder = self.root.join(&name);
@@ -167,10 +167,10 @@ impl Goldens {
         Ok(Golden { name, folder, recipe })
     }
 
-    /// Reads what is known of a golden.
+    /// Reads the recipe of a golden.
     ///
     /// # Errors
-    /// A recipe that cannot be read.
+    /// The recipe cannot be read or has another format.
     pub fn golden(&self, name: &str) -> Result<Golden, GoldenError> {
         let folder = self.root.join(name);
         let path = folder.join(RECIPE);
@@ -185,28 +185,28 @@ impl Goldens {
         }
     }
 
-    /// Adds a line to the log: when, by which version, which goldens and why.
+    /// Adds a line to the log with date, version, names of the goldens and reason.
     ///
     /// # Errors
-    /// A reason that says nothing; what the system says.
+    /// The reason is too short, or the log cannot be written.
     pub fn log(&self, names: &[String], reason: &str) -> Result<(), GoldenError> {
         log::append(&self.root, names, &log::checked(reason)?)
     }
 
-    /// Whether a reason says something.
+    /// Checks that a reason has at least eight letters.
     ///
     /// # Errors
-    /// It does not.
+    /// The reason is too short.
     pub fn check_reason(reason: &str) -> Result<(), GoldenError> {
         log::checked(reason).map(drop)
     }
 }
 
 impl Golden {
-    /// The run of the file as it is now, with the overrides of the recipe and without pictures; results go to `out`.
+    /// Prepares a run of the current scenario file with the overrides of the recipe and without plots. Results are written to `out`.
     ///
     /// # Errors
-    /// The file is gone, or refused.
+    /// The file does not exist or is invalid.
     pub fn job(&self, out: &Path) -> Result<Job, GoldenError> {
         let root = self.folder.parent().unwrap_or(Path::new(""));
         let file = real(root)
@@ -222,14 +222,15 @@ impl Golden {
         ["plots=[]"].into_iter().chain(self.recipe.set.iter().map(String::as_str)).filter_map(pair).collect()
     }
 
-    /// What has changed in the scenario since the golden was recorded: keys with what they were and are. The scenario that was recorded
-    /// is read by this version as well: defaults that have come since are no change.
+    /// Returns the changes of the scenario since the recording: each key with its old and new value.
+    ///
+    /// The recorded scenario is read by this version. Therefore new defaults do not count as changes.
     #[must_use]
     pub fn changes(&self, job: &Job) -> Vec<String> {
         let recorded = self.folder.join(SCENARIO);
         let was = match Job::prepare(&recorded, &[], Path::new("")) {
             Ok(was) => was.resolved,
-            Err(refusal) => return vec![format!("the recorded one is refused today: {refusal}")],
+            Err(refusal) => return vec![format!("this version refuses the recorded scenario: {refusal}")],
         };
         let parse = |text: &str| serde_json::from_str::<Value>(text).unwrap_or_default();
         let mut changes = Vec::new();
@@ -239,24 +240,24 @@ impl Golden {
         changes
     }
 
-    /// Whether the recorded scenario is the one that was recorded, of this hash.
+    /// Checks that the recorded scenario has the given SHA-256.
     ///
     /// # Errors
-    /// It is another one, or cannot be read.
+    /// The recorded scenario was changed or cannot be read.
     pub fn check_scenario(&self, sha256: &str) -> Result<(), GoldenError> {
         let path = self.folder.join(SCENARIO);
         let message = match guard::text(&path) {
             Ok(text) if hash(&text) == sha256 => return Ok(()),
-            Ok(_) => "is not the scenario that was recorded".to_owned(),
+            Ok(_) => "was changed after recording".to_owned(),
             Err(error) => words(&error),
         };
         Err(GoldenError::Recipe { path, message })
     }
 
-    /// Keeps an excerpt of results as the golden, in place of what was there.
+    /// Writes an excerpt of results as the golden and replaces the previous one.
     ///
     /// # Errors
-    /// Results that cannot be read; what the system says.
+    /// The results cannot be read, or the golden cannot be written.
     pub fn write(&self, results: &Path) -> Result<(), GoldenError> {
         let file = |source| GoldenError::File { path: self.folder.clone(), source };
         let mut folder = Folder::make(&self.folder).map_err(file)?;
@@ -270,7 +271,7 @@ impl Golden {
     }
 }
 
-/// Where two values of a scenario differ.
+/// Appends the differences of two JSON values to `found`, one line per key.
 fn differences(key: &str, was: Option<&Value>, is: Option<&Value>, found: &mut Vec<String>) {
     match (was, is) {
         (Some(Value::Object(was)), Some(Value::Object(is))) => {
@@ -286,7 +287,7 @@ fn differences(key: &str, was: Option<&Value>, is: Option<&Value>, found: &mut V
                 None => "nothing".to_owned(),
                 Some(Value::Array(values)) => format!("a list of {}", values.len()),
                 Some(Value::Object(_)) => "a section".to_owned(),
-                // A whole number without its fraction.
+                // Whole numbers are shown without ".0".
                 Some(value) => value.to_string().trim_end_matches(".0").to_owned(),
             };
             found.push(format!("{key} was {}, is {}", shown(was), shown(is)));
@@ -294,8 +295,9 @@ fn differences(key: &str, was: Option<&Value>, is: Option<&Value>, found: &mut V
     }
 }
 
-/// An absolute path in which links are followed as far as there is anything: steps upwards lead out of what they point to. The last part
-/// of a file stays as it is named.
+/// Returns an absolute path in which symbolic links are resolved, as far as the path exists.
+///
+/// The last component of a file path is not resolved. Resolving first makes `..` refer to the parent of a link's target.
 fn real(path: &Path) -> io::Result<PathBuf> {
     let path = std::path::absolute(path)?;
     let mut ancestors = path.ancestors().skip(usize::from(path.is_file()));
@@ -304,7 +306,7 @@ fn real(path: &Path) -> io::Result<PathBuf> {
     Ok(whole.unwrap_or(path))
 }
 
-/// A path without steps upwards in its middle.
+/// Returns a path without `..` components.
 fn plain(path: &Path) -> PathBuf {
     let mut parts: Vec<Component<'_>> = Vec::new();
     for part in path.components() {
@@ -316,7 +318,7 @@ fn plain(path: &Path) -> PathBuf {
     parts.iter().collect()
 }
 
-/// A file as seen from a folder; both absolute.
+/// Returns the path of a file relative to a folder. Both arguments are absolute.
 fn relative(folder: &Path, file: &Path) -> PathBuf {
     let (folder, file) = (plain(folder), plain(file));
     let common = folder.components().zip(file.components()).take_while(|(a, b)| a == b).count();

@@ -1,9 +1,12 @@
-//! Two folders of results told apart, channel by channel, event by event, figure by figure.
+//! Comparison of two folders of results: channels, events and summary values.
 //!
-//! In reading order: [`Terms`] (what is asked); [`Results`] (a folder read back) with
-//! `soundness` (whether its files fit together); `allowance` with `scales` and `names`
-//! (what may differ by how much); [`ChannelDifference`]; [`EventDifferences`] with `alignment`; [`FigureDifferences`];
-//! [`Coverage`] (how much was compared); [`Comparison`] (all of it, and what it comes to); [`CompareError`]; [`golden`] (results that are kept to be compared with).
+//! In reading order:
+//!
+//! * [`Terms`] – what the user allows; [`Results`] – the contents of a folder, with the consistency checks of `soundness`;
+//! * `allowance` with `scales` – allowed differences;
+//! * [`ChannelDifference`], [`EventDifferences`] with `alignment`, [`FigureDifferences`] (summary values);
+//! * [`Coverage`] – compared fraction of a run; [`Comparison`] – the overall result; [`CompareError`];
+//! * [`golden`] – reference results for regression tests.
 
 mod alignment;
 mod allowance;

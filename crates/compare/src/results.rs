@@ -1,4 +1,4 @@
-//! A folder of results, read back.
+//! Reads a folder of results for a comparison.
 
 use super::asked::Asked;
 use super::soundness::{Extent, Soundness};
@@ -14,103 +14,102 @@ use stickslip_run::rows::Rows;
 use stickslip_run::synopsis::{Synopsis, SynopsisError};
 use thiserror::Error;
 
-/// Name of the lengths of the steps among the figures, and their place in [`columns::STEPS`].
+/// Name of the step lengths among the summary values, and the index of their column in [`columns::STEPS`].
 pub(crate) const LENGTHS: &str = "lengths_m";
 const LENGTH: usize = 3;
 
-/// What a run left behind.
+/// Results of a run, read from a folder.
 pub struct Results {
-    /// Where they are.
+    /// Folder of the results.
     pub folder: PathBuf,
-    /// Rows over time.
+    /// Table of the rows over time (`trace.csv`).
     pub trace: Frame,
-    /// What the run came to.
+    /// Contents of `summary.json`.
     pub summary: Value,
     events: Frame,
     /// SHA-256 of the tables of rows and of events.
     hashes: [Option<String>; 2],
     /// Time reached, s.
     pub end: f64,
-    /// The stepper that ran.
+    /// Integrator of the run.
     pub stepper: Stepper,
-    /// What the tables are to the run.
+    /// Whether the tables contain the whole run or a part of it.
     extent: Extent,
-    /// Until when all its events were written that were asked for, s; infinite where that is to its end.
+    /// Time up to which all requested events were written, s. Infinite if no events were thinned.
     pub events_until: f64,
-    /// Which events and rows were asked for.
+    /// Settings of the scenario for the written events and rows.
     pub(super) asked: Asked,
-    /// Tables that the run wrote, which are not compared and not there.
+    /// Names of tables that the run wrote and that are missing in the folder. They are not compared.
     pub absent: Vec<String>,
 }
 
-/// The stepper that ran.
+/// Integrator of a run.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Stepper {
     name: String,
     pub exactness: Exactness,
 }
 
-/// What a stepper was asked for.
+/// Accuracy setting of an integrator.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Exactness {
-    /// Relative to the scene's natural scales.
+    /// Tolerance, relative to the natural scales of the model.
     Tolerance(f64),
-    /// s.
+    /// Fixed time step, s.
     Step(f64),
 }
 
-/// An event in a list.
+/// One row of the event table.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct EventRow<'a> {
-    /// s.
+    /// Time, s.
     pub time: f64,
     pub source: &'a str,
     pub kind: &'a str,
 }
 
-/// Why a folder holds no results.
+/// Error for a folder that contains no valid results.
 #[derive(Debug, Error)]
 pub enum ResultsError {
-    /// Its summary.
+    /// The summary is missing or invalid.
     #[error(transparent)]
     Synopsis(#[from] SynopsisError),
-    /// One of its tables.
+    /// A table cannot be read.
     #[error(transparent)]
     Table(#[from] FrameError),
     /// A table lacks a column.
     #[error("{}: there is no column \"{column}\"", .path.display())]
     NoColumn {
-        /// Which table.
+        /// Path of the table.
         path: PathBuf,
-        /// What it should have.
+        /// Name of the missing column.
         column: &'static str,
     },
-    /// Files that do not fit together.
+    /// The files of the folder contradict each other.
     #[error("{}{}  {message}", .path.display(), .line.map(|line| format!(":{line}")).unwrap_or_default())]
     Unsound {
-        /// Which file.
+        /// Path of the file.
         path: PathBuf,
-        /// Which line, from 1.
+        /// Line number, from 1.
         line: Option<usize>,
-        /// What is wrong with it.
+        /// Description of the error.
         message: String,
     },
-    /// A file that cannot be read at all.
+    /// A file cannot be read.
     #[error("{}: cannot be read: {}", .path.display(), words(.source))]
     Read {
-        /// Which file.
+        /// Path of the file.
         path: PathBuf,
-        /// What the system says.
+        /// Error of the operating system.
         source: io::Error,
     },
 }
 
 impl Results {
-    /// Reads a folder.
+    /// Reads a folder of results and checks that its files are consistent.
     ///
     /// # Errors
-    /// A folder of something else, a table or a summary that cannot be read or lacks what every run writes, files that do
-    /// not fit together.
+    /// The folder contains no results, a table or the summary is unreadable or incomplete, or the files contradict each other.
     pub fn read(folder: &Path) -> Result<Self, ResultsError> {
         let synopsis = Synopsis::read(folder)?;
         let end = synopsis.number("/simulated_s").ok_or_else(|| synopsis.lacks("simulated_s"))?;
@@ -118,7 +117,7 @@ impl Results {
         let extent = Extent::of(&synopsis);
         let tables = [synopsis.table(TRACE)?, synopsis.table(EVENTS)?];
         let (trace, events) = (Frame::read(&tables[0])?, Frame::read(&tables[1])?);
-        // An excerpt has the bytes of the run that it is of, as far as that can be told.
+        // For an excerpt, the hashes of the complete tables of the run are used.
         let hashes = match synopsis.summary.get("excerpt_of") {
             Some(of) => [TRACE, EVENTS].map(|name| Some(of.get(name)?.as_str()?.to_owned())),
             None => tables.map(|table| table.seal.map(|seal| seal.sha256)),
@@ -129,7 +128,7 @@ impl Results {
         let (mut absent, mut lengths) = (Vec::new(), None);
         for name in others {
             let table = synopsis.table(name)?;
-            // Whoever has sent the rest may have left them out. One that is there is the run's; of most no more is compared.
+            // Tables that are not compared may be missing. If they exist, their seals are checked.
             if table.path.symlink_metadata().is_err() {
                 absent.push(name.to_owned());
             } else if name == STEPS {
@@ -142,7 +141,7 @@ impl Results {
         let events_until = synopsis.number("/counts/events_whole_until_s").unwrap_or(f64::INFINITY);
         let asked = Asked::of(folder);
         let mut summary = synopsis.summary;
-        // Steps have stood in the summary, and are told by the name that they had there.
+        // The step lengths are compared under the name that they have in a summary.
         if let (Some(lengths), Some(Value::Object(steps))) = (lengths, summary.get_mut("steps")) {
             steps.entry(LENGTHS).or_insert(lengths.into());
         }
@@ -167,7 +166,7 @@ impl Results {
         word.map_or(Ok(results), |column| Err(lacks(column)))
     }
 
-    /// Until when both tables hold all that happened, s.
+    /// Returns the time up to which both tables are complete, s.
     fn last_written(&self) -> f64 {
         let counted = self.summary.pointer("/counts/events").and_then(Value::as_u64);
         let events = self.events.numbers("time_s").and_then(|times| times.last());
@@ -176,32 +175,32 @@ impl Results {
         ends.into_iter().flatten().copied().fold(self.end, f64::min)
     }
 
-    /// Whether the tables are some rows of a run, kept to be compared with.
+    /// Returns whether the tables are an excerpt of a run.
     pub fn is_excerpt(&self) -> bool {
         self.extent == Extent::Excerpt
     }
 
-    /// SHA-256 of the rows and of the events.
+    /// Returns the SHA-256 of the tables of rows and of events.
     pub fn hashes(&self) -> &[Option<String>; 2] {
         &self.hashes
     }
 
-    /// The same rows and events as those of other results, to the byte.
+    /// Returns whether the tables of rows and events are byte-identical to those of other results.
     pub fn has_tables_of(&self, other: &Self) -> bool {
         self.hashes == other.hashes && self.hashes.iter().all(Option::is_some)
     }
 
-    /// Whether the tables end before the run did.
+    /// Returns whether the tables end before the end of the run.
     pub fn is_cut(&self) -> bool {
         self.extent == Extent::Cut
     }
 
-    /// Times of the rows, s.
+    /// Returns the times of the rows, s.
     pub fn time(&self) -> &[f64] {
         self.trace.numbers("time_s").unwrap_or_default()
     }
 
-    /// The list of events.
+    /// Iterates over the events.
     pub fn events(&self) -> impl Iterator<Item = EventRow<'_>> {
         let times = self.events.numbers("time_s").unwrap_or_default();
         let (sources, kinds) = (self.events.words("source"), self.events.words("kind"));
@@ -212,18 +211,18 @@ impl Results {
         })
     }
 
-    /// A text in the summary by JSON pointer.
+    /// Returns a string of the summary by its JSON pointer, or an empty string if it does not exist.
     pub fn text(&self, pointer: &str) -> &str {
         self.summary.pointer(pointer).and_then(Value::as_str).unwrap_or_default()
     }
 
-    /// How the run ended.
+    /// Returns the status of the run at its end.
     pub fn status(&self) -> &str {
         self.text("/status")
     }
 }
 
-/// Lengths of the steps of a run, m.
+/// Reads the step lengths of a run, m.
 fn step_lengths(table: &SealedTable) -> Result<Vec<f64>, FrameError> {
     let mut rows = Rows::open(table)?;
     rows.check_head(columns::STEPS.names)?;
@@ -245,11 +244,11 @@ impl Stepper {
         Some(Self { name: stepper.get("name")?.as_str()?.to_owned(), exactness })
     }
 
-    /// In a sentence.
+    /// Returns the integrator and its accuracy setting as text.
     pub fn words(&self) -> String {
         match self.exactness {
-            Exactness::Tolerance(tolerance) => format!("{} at a tolerance of {tolerance:e}", self.name),
-            Exactness::Step(step) => format!("{} at a step of {step:e} s", self.name),
+            Exactness::Tolerance(tolerance) => format!("{}, tolerance {tolerance:e}", self.name),
+            Exactness::Step(step) => format!("{}, time step {step:e} s", self.name),
         }
     }
 }

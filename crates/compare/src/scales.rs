@@ -1,21 +1,21 @@
-//! The natural scales of a scene, as the summaries of its runs have them.
+//! Natural scales of a model, read from the summaries of its runs.
 
 use serde_json::Value;
 use stickslip_quantity::names::{owner, unit};
 
-/// Scales of the contacts, and of everything else.
+/// Natural scales of each contact and of the whole model.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub(super) struct Scales {
     contacts: Vec<(String, Scale)>,
-    /// Smallest of all contacts.
+    /// Smallest scales of all contacts.
     scene: Scale,
-    /// Largest energy that went through the scene, J.
+    /// Energy throughput of the model, J.
     throughput: f64,
-    /// Longest step, m.
+    /// Largest step length, m.
     step: f64,
 }
 
-/// u_c, μF_N, u_c ω and μF_N u_c, in SI.
+/// Natural scales u_c, μF_N, u_c ω and μF_N u_c, in SI units.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 struct Scale {
     displacement: f64,
@@ -25,7 +25,7 @@ struct Scale {
 }
 
 impl Scales {
-    /// The larger scales of two runs; of a contact those of the first, which is what the second is measured by.
+    /// Returns the larger scales of two runs. The scales of a contact are those of run `a`.
     pub(super) fn new(a: &Value, b: &Value) -> Self {
         let mut scales = Self::default();
         for summary in [a, b] {
@@ -42,14 +42,14 @@ impl Scales {
                 }
             }
         }
-        // A contact without friction makes no scale.
+        // A contact without friction has no scale.
         let least = |x: f64, y: f64| if x > 0.0 && y > 0.0 { x.min(y) } else { x.max(y) };
         let all = scales.contacts.iter().map(|(_, scale)| *scale);
         scales.scene = all.fold(Scale::default(), |smallest, scale| smallest.with(scale, least));
         scales
     }
 
-    /// The scene's scale of a channel or figure, in its unit; 0 where it makes none.
+    /// Returns the natural scale of a channel or summary value, in its unit. Returns 0 if there is none.
     pub(super) fn natural(&self, name: &str) -> f64 {
         let own = self.contacts.iter().find(|(contact, _)| contact == owner(name));
         let scale = own.map_or(self.scene, |(_, scale)| *scale);
@@ -62,8 +62,10 @@ impl Scales {
         }
     }
 
-    /// What a channel or figure is measured by: the `largest` magnitude it has, unless it is a small difference of
-    /// larger numbers.
+    /// Returns the reference value for the relative tolerance of a channel or summary value.
+    ///
+    /// It is the `largest` magnitude. For small differences of larger numbers, such as energy errors, it is the scale of the larger
+    /// numbers.
     pub(super) fn nominal(&self, name: &str, largest: f64) -> f64 {
         match (owner(name), unit(name)) {
             ("energy", "J") if name.ends_with("error_J") => self.throughput,

@@ -1,7 +1,7 @@
-//! Whether the files of a folder fit together: a comparison of damaged results would find no difference in what is not there.
+//! Checks that the files of a results folder are consistent.
 //!
-//! The seals tell what was changed since the run. These tests do not rely on them: whoever changes a table may well change
-//! its seal.
+//! A comparison of damaged results could miss differences. The checks do not rely on the seals of the tables, because a seal can be changed
+//! together with its table.
 
 use super::results::ResultsError;
 use serde_json::Value;
@@ -13,17 +13,17 @@ use stickslip_run::guard;
 use stickslip_run::hash;
 use stickslip_run::synopsis::Synopsis;
 
-/// How far a row may lie from its place on the grid, in intervals, and a duration from another, of itself: rounding.
+/// Tolerance for row times relative to the interval, and for durations relative to themselves. It covers rounding.
 const ROUNDING: f64 = 1e-9;
 
-/// What the tables of a run are to its summary.
+/// Part of a run that its tables contain.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Extent {
-    /// All of it.
+    /// The whole run.
     Whole,
-    /// Its beginning: no more could be written.
+    /// The beginning of the run; the rest could not be written.
     Cut,
-    /// Some of its rows, kept to be compared with.
+    /// Selected rows, stored for comparisons.
     Excerpt,
 }
 
@@ -37,7 +37,7 @@ impl Extent {
     }
 }
 
-/// A folder under test.
+/// A results folder that is being checked.
 pub(super) struct Soundness<'a> {
     pub(super) folder: PathBuf,
     pub(super) synopsis: &'a Synopsis,
@@ -47,15 +47,16 @@ pub(super) struct Soundness<'a> {
 }
 
 impl Soundness<'_> {
-    /// Tests the tables against the summary and the scenario beside them.
+    /// Checks the tables against the summary and the scenario of the folder.
+    ///
+    /// # Errors
+    /// The files contradict each other.
     pub(super) fn check(&self, trace: &Frame, events: &Frame) -> Result<(), ResultsError> {
         if self.end < 0.0 {
             return Err(self.summary(format!("simulated_s: expected a time of 0 or more, got {}", self.end)));
         }
         if self.extent == Extent::Cut && self.synopsis.text("/status") != "stopped" {
-            return Err(
-                self.summary("cut: only a run that was stopped has tables that end before it".to_owned())
-            );
+            return Err(self.summary("cut: only a stopped run has tables that end before the run".to_owned()));
         }
         self.check_counts(trace.rows(), events.rows())?;
         let rows = self.times(TRACE, trace)?;
@@ -68,7 +69,7 @@ impl Soundness<'_> {
         Ok(())
     }
 
-    /// Rows and events against those that the run counted.
+    /// Compares the numbers of rows and events with the counts in the summary.
     fn check_counts(&self, rows: usize, events: usize) -> Result<(), ResultsError> {
         let count = |pointer, key| self.synopsis.count(pointer).ok_or_else(|| self.synopsis.lacks(key));
         let counted = count("/counts/rows", "counts.rows")?;
@@ -76,7 +77,7 @@ impl Soundness<'_> {
         if if is_whole { rows as u64 != counted } else { rows as u64 > counted } {
             return Err(self.summary(format!("counts.rows is {counted}, and {TRACE} has {rows} rows")));
         }
-        // Steppers of fixed steps count none of those that they do not look for.
+        // Integrators with a fixed step do not detect all events, so their count is not checked.
         if is_whole && self.synopsis.text("/stepper/name") == "event" {
             let written = self.synopsis.count("/counts/events_written");
             let counted = written.map_or_else(|| count("/counts/events", "counts.events"), Ok)?;
@@ -88,7 +89,7 @@ impl Soundness<'_> {
         Ok(())
     }
 
-    /// Times of a table: numbers, none before the one above it, none after the end.
+    /// Returns the times of a table. They must be finite, ascending and not after the end of the run.
     fn times<'t>(&self, name: &'static str, table: &'t Frame) -> Result<&'t [f64], ResultsError> {
         let lacks = ResultsError::NoColumn { path: self.folder.join(name), column: "time_s" };
         let times = table.numbers("time_s").ok_or(lacks)?;
@@ -100,7 +101,7 @@ impl Soundness<'_> {
                 format!("expected a time after {before:?}, got {time:?}")
             } else if time > self.end {
                 format!(
-                    "expected a time until {:?}, where summary.json says that the run ends, got {time:?}",
+                    "expected a time up to the end of the run in summary.json, {:?}, got {time:?}",
                     self.end
                 )
             } else {
@@ -112,17 +113,17 @@ impl Soundness<'_> {
         Ok(times)
     }
 
-    /// No two rows are of one time, but where a run stands on a row of the grid: it writes how it stands as well.
+    /// Checks that row times are strictly ascending. Only the last row of an unfinished run may repeat a time.
     fn check_rising(&self, rows: &[f64]) -> Result<(), ResultsError> {
         let stands = self.synopsis.text("/status") != "done";
         let last = rows.len() - usize::from(stands).min(rows.len());
         let repeated = (1..last).find(|&row| rows[row] == rows[row - 1]);
         repeated.map_or(Ok(()), |row| {
-            Err(self.table(TRACE, row, format!("time_s: {:?} stands in the row before as well", rows[row])))
+            Err(self.table(TRACE, row, format!("time_s: {:?} is also in the row before", rows[row])))
         })
     }
 
-    /// The first and the last row are those of the run.
+    /// Checks that the first row is at time 0 and the last row at the end of the run.
     fn check_end(&self, rows: &[f64]) -> Result<(), ResultsError> {
         let (Some(first), Some(last)) = (rows.first(), rows.last()) else {
             return Err(ResultsError::Unsound {
@@ -132,11 +133,11 @@ impl Soundness<'_> {
             });
         };
         if *first != 0.0 {
-            return Err(self.table(TRACE, 0, format!("time_s: expected 0, where runs begin, got {first:?}")));
+            return Err(self.table(TRACE, 0, format!("time_s: expected 0 in the first row, got {first:?}")));
         }
         if self.extent != Extent::Cut && *last != self.end {
             let message = format!(
-                "time_s: the last row is at {last:?}, and summary.json says that the run ends at {:?}",
+                "time_s: the last row is at {last:?}, but summary.json has the end at {:?}",
                 self.end
             );
             return Err(self.table(TRACE, rows.len() - 1, message));
@@ -144,7 +145,7 @@ impl Soundness<'_> {
         Ok(())
     }
 
-    /// The scenario is the sealed one, and the rows are those that it asks for.
+    /// Checks that the scenario has the recorded hash and that the rows have the times it requests.
     fn check_scenario(&self, rows: &[f64]) -> Result<(), ResultsError> {
         let path = self.folder.join(SCENARIO);
         let read = |source| ResultsError::Read { path: path.clone(), source };
@@ -152,12 +153,13 @@ impl Soundness<'_> {
             return Err(ResultsError::Unsound {
                 path,
                 line: None,
-                message: "is not the scenario of the run: its SHA-256 is not that in summary.json".to_owned(),
+                message: "is not the scenario of the run: its SHA-256 differs from that in summary.json"
+                    .to_owned(),
             });
         }
         let scenario = guard::json(&path).map_err(read)?;
         self.check_plan(&scenario).map_err(|message| ResultsError::Unsound { path, line: None, message })?;
-        // Keys to come may ask for rows at other moments.
+        // Unknown keys of later versions may change the row times.
         let is_known = |key: &String| {
             const KNOWN: [&str; 8] =
                 ["every", "channels", "springs", "memory", "fields", "events", "float", "states"];
@@ -169,13 +171,13 @@ impl Soundness<'_> {
         self.check_grid(rows, scenario.pointer("/output/every").and_then(Value::as_f64))
     }
 
-    /// The summary is of a run of this scenario: its end, its contacts, and the stepper that says what may differ.
+    /// Checks that the summary belongs to this scenario: end time, contacts and integrator.
     fn check_plan(&self, scenario: &Value) -> Result<(), String> {
         let number = |pointer: &str| scenario.pointer(pointer).and_then(Value::as_f64);
         let status = self.synopsis.text("/status");
         let ends_early = self.synopsis.summary.get("steady_after_periods").is_some();
         if ends_early && scenario.pointer("/run/until_steady").is_none() {
-            return Err("has no run.until_steady, and summary.json says that the run ended by it".to_owned());
+            return Err("has no run.until_steady, but summary.json reports an end by this key".to_owned());
         }
         if let Some(planned) = planned(scenario)
             && status == "done"
@@ -183,22 +185,25 @@ impl Soundness<'_> {
             && (planned - self.end).abs() > ROUNDING * planned
         {
             let end = self.end;
-            return Err(format!(
-                "the run ends at {planned:?} s, and summary.json says that it was done at {end:?} s"
-            ));
+            return Err(format!("the run ends at {planned:?} s, but summary.json has the end at {end:?} s"));
         }
         if keys(scenario.get("contacts")) != keys(self.synopsis.summary.get("contacts")) {
-            return Err("its contacts are not those of summary.json".to_owned());
+            return Err("its contacts differ from those of summary.json".to_owned());
         }
         let name = self.synopsis.text("/stepper/name");
         let taken = ["/stepper/tolerance", "/stepper/step_s"].map(|pointer| self.synopsis.number(pointer));
         let asked = match scenario.pointer("/run/stepper").and_then(|stepper| stepper.get(name)) {
+            // The summary has the time step, a whole fraction of the frame that depends on the model.
+            Some(frames) if name == "frames" => {
+                let length = frames.get("length").and_then(Value::as_f64);
+                [None, taken[1].filter(|step| length.is_some_and(|length| is_count(length / step)))]
+            }
             Some(_) => ["tolerance", "step"].map(|key| number(&format!("/run/stepper/{name}/{key}"))),
-            // Where nothing is free the other steppers leave the contacts to this one.
+            // If nothing moves freely, the event-driven integrator replaces the other ones.
             None if name == "event" => [Some(WALK_TOLERANCE), None],
             None => [None; 2],
         };
-        // Places without mass are solved for, whatever tolerance the run was asked for.
+        // With massless positions solved by force balance, the tolerance is at most `WALK_TOLERANCE`.
         let asked = match asked {
             [Some(tolerance), None] if name == "event" && has_balanced(scenario) => {
                 [Some(tolerance.min(WALK_TOLERANCE)), None]
@@ -206,30 +211,27 @@ impl Soundness<'_> {
             asked => asked,
         };
         if asked != taken {
-            return Err("run.stepper is not the stepper of summary.json".to_owned());
+            return Err("run.stepper differs from the stepper of summary.json".to_owned());
         }
         Ok(())
     }
 
-    /// A row at every multiple of the interval, and one at the end.
+    /// Checks that there is a row at every multiple of the interval and one at the end.
     fn check_grid(&self, rows: &[f64], every: Option<f64>) -> Result<(), ResultsError> {
         let every = every.unwrap_or(f64::INFINITY);
         let place = |row: usize| if row == 0 { 0.0 } else { row as f64 * every };
         let Some((last, others)) = rows.split_last() else { return Ok(()) };
         for (row, &time) in others.iter().enumerate() {
             if (time - place(row)).abs() > ROUNDING * every {
-                let message = format!(
-                    "time_s: expected a row at {:?}, as output.every asks for, got {time:?}",
-                    place(row)
-                );
+                let message =
+                    format!("time_s: expected a row at {:?} by output.every, got {time:?}", place(row));
                 return Err(self.table(TRACE, row, message));
             }
         }
         let next = place(others.len());
-        // A run that stands on the grid has written the row of that moment before.
+        // A run that stopped on a multiple of the interval has already written its row.
         if *last > next + ROUNDING * every {
-            let message =
-                format!("time_s: expected a row at {next:?}, as output.every asks for, got {last:?}");
+            let message = format!("time_s: expected a row at {next:?} by output.every, got {last:?}");
             return Err(self.table(TRACE, others.len(), message));
         }
         Ok(())
@@ -244,7 +246,8 @@ impl Soundness<'_> {
     }
 }
 
-/// When a run was to end, s, as the resolved scenario has it; none where that does not follow from a number or two.
+/// Returns the planned end of a run from its resolved scenario, s. Returns `None` if it does not follow from the duration or from the
+/// number of cycles.
 fn planned(scenario: &Value) -> Option<f64> {
     let number = |value: &Value, key: &str| value.get(key).and_then(Value::as_f64);
     let run = scenario.get("run")?;
@@ -262,14 +265,19 @@ fn planned(scenario: &Value) -> Option<f64> {
     Some(number(waveform, "delay").unwrap_or(0.0) + number(run, "cycles")? * period)
 }
 
-/// Whether a body of a scenario has a place that is solved for.
+/// Returns whether a number is a whole number of at least 1, except for rounding.
+fn is_count(number: f64) -> bool {
+    number.round() >= 1.0 && (number - number.round()).abs() <= ROUNDING * number
+}
+
+/// Returns whether a body of the scenario has a position that is solved from the force balance.
 fn has_balanced(scenario: &Value) -> bool {
     let bodies = scenario.get("bodies").and_then(Value::as_object).into_iter().flatten();
     let is_balanced = |body: &Value, axis: &str| body.get(axis).and_then(Value::as_str) == Some("balanced");
     bodies.into_iter().any(|(_, body)| ["x", "z"].iter().any(|axis| is_balanced(body, axis)))
 }
 
-/// Names of the parts of an object, sorted.
+/// Returns the sorted keys of a JSON object.
 fn keys(value: Option<&Value>) -> Vec<String> {
     let entries = value.and_then(Value::as_object).into_iter().flatten();
     let mut keys: Vec<String> = entries.map(|(key, _)| key.clone()).collect();

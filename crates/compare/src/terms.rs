@@ -1,16 +1,16 @@
-//! What a comparison is asked to allow.
+//! Settings of a comparison.
 
-/// What may differ, where not what the steppers of both runs promise.
+/// Allowed differences of a comparison. Where a setting is absent, the integrators of both runs determine the tolerance.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Terms {
-    /// Whether the tables of rows and of events must have the same bytes.
+    /// Whether the tables of rows and of events must be byte-identical.
     pub exact: bool,
-    /// Relative tolerance of all channels and figures, 0 or more; 0 asks for the same bits. None: the steppers decide.
+    /// Relative tolerance of all channels and summary values, 0 or more. 0 requires identical bits.
     pub tolerance: Option<f64>,
-    /// Absolute tolerances by channel or figure, with their units, such as "1 nm"; of several for one the last counts.
+    /// Absolute tolerances of channels or summary values, with units, such as "1 nm". For equal names the last one counts.
     pub absolute: Vec<(String, String)>,
-    /// How far apart in time an event may be, s, 0 or more. None: the steppers decide.
+    /// Allowed time difference of an event, s, 0 or more.
     pub time_tolerance: Option<f64>,
-    /// Channels and figures that are left out, or bodies, contacts and waveforms with all that belongs to them.
+    /// Names that are ignored. The name of a body, contact or waveform includes all of its channels and values.
     pub ignore: Vec<String>,
 }

@@ -1,4 +1,4 @@
-//! The answer of a command, on stdout.
+//! Writes the output of a command to stdout and its messages to stderr.
 
 use crate::verdict::Verdict;
 use crate::visible::{Spelling, visible};
@@ -8,33 +8,34 @@ use std::sync::OnceLock;
 use stickslip_run::Job;
 use stickslip_run::complaint::words;
 
-/// Why some of the answer was lost.
+/// The first error of writing to stdout, if there was one.
 static LOST: OnceLock<io::Error> = OnceLock::new();
 
-/// Prints a line.
+/// Prints a line to stdout.
 pub fn say(line: Arguments<'_>) {
     keep(writeln!(io::stdout(), "{}", visible(&line.to_string(), Spelling::Text)));
 }
 
-/// Prints a line of JSON.
+/// Prints a line of JSON to stdout.
 pub fn say_json(line: &str) {
     keep(writeln!(io::stdout(), "{}", visible(line, Spelling::Json)));
 }
 
-/// Says a line on stderr. Nobody listening is no reason to stop.
+/// Prints a line to stderr. Write errors are ignored.
 pub fn complain(line: Arguments<'_>) {
     let _ = writeln!(io::stderr(), "{}", visible(&line.to_string(), Spelling::Text));
 }
 
-/// Says what is allowed in a scenario and probably not meant. Nobody listening is no reason to stop.
+/// Prints the warnings about a scenario to stderr.
 pub fn warn(job: &Job) {
     for warning in job.warnings() {
         complain(format_args!("warning: {warning}"));
     }
 }
 
-/// What all that was said has come to. A reader that has seen enough and closes its pipe is no fault; a full disk is
-/// told, or a file would hold half an answer and the exit code call it whole.
+/// Flushes stdout and returns [`Verdict::Stopped`] if some output could not be written.
+///
+/// A closed pipe is not an error. Other errors, such as a full disk, are reported on stderr.
 pub fn verdict() -> Verdict {
     keep(io::stdout().flush());
     LOST.get().map_or(Verdict::Done, |error| {
@@ -43,7 +44,7 @@ pub fn verdict() -> Verdict {
     })
 }
 
-/// Prints help, or what is wrong with the arguments; gives the exit code.
+/// Prints the help or the argument error of `clap` and returns the exit code.
 pub fn told(said: &clap::Error) -> u8 {
     let printed = said.print();
     if !said.use_stderr() {
@@ -56,7 +57,7 @@ fn keep(result: io::Result<()>) {
     if let Err(error) = result
         && error.kind() != ErrorKind::BrokenPipe
     {
-        // The first is told.
+        // `set` fails after the first error, so the first error is kept.
         let _ = LOST.set(error);
     }
 }

@@ -1,4 +1,4 @@
-//! Signals: Ctrl-C, and a limit on the size of files.
+//! Signal handling: interruption of a command (Ctrl-C) and limits on file sizes.
 
 use crate::answer::complain;
 use std::sync::Arc;
@@ -6,24 +6,27 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 use stickslip_run::Watcher;
 
-/// What comes so soon after a signal is the same wish: a shell, a terminal or a timer may send it to the process and to its group.
+/// Time after the first signal during which further signals are ignored. A shell may send one signal both to the process and to its group.
 const ONE_WISH: Duration = Duration::from_secs(1);
 
-/// Tells whether somebody asked the program to stop.
+/// Flag that is raised when the user interrupts the program.
 #[derive(Debug, Clone, Default)]
 pub struct Interrupt(Arc<AtomicBool>);
 
 impl Interrupt {
-    /// Listens from now on. The first signal asks for a tidy end with the results so far; another one, a second later or more, ends at once.
+    /// Installs the signal handlers and returns the flag.
+    ///
+    /// The first signal raises the flag, and the program ends with the results computed so far. A signal that arrives more than a second
+    /// later ends the program immediately; unwritten results are lost.
     pub fn install() -> Self {
         let interrupt = Self::default();
         let flag = Arc::clone(&interrupt.0);
-        // Without a handler a signal ends the program at once: worse, but no reason not to run.
+        // If no handler can be installed, a signal ends the program immediately; the run itself is possible.
         let mut first: Option<Instant> = None;
         let _ = ctrlc::set_handler(move || {
             flag.store(true, Ordering::Relaxed);
             if first.get_or_insert_with(Instant::now).elapsed() > ONE_WISH {
-                complain(format_args!("ended at once, by a second signal: what was not written is lost"));
+                complain(format_args!("ended at once by a second signal: unwritten results are lost"));
                 std::process::exit(i32::from(crate::verdict::Verdict::Interrupted.code()));
             }
         });
@@ -31,30 +34,31 @@ impl Interrupt {
         interrupt
     }
 
-    /// Raises it in the signal's own handler: the thread that listens may get its turn only many short frames later on a busy machine.
+    /// Also raises the flag within the signal handler itself. On a busy machine, the thread that waits for signals may be scheduled late.
     fn raise_where_signals_arrive(&self) {
         #[cfg(unix)]
         for signal in [signal_hook::consts::SIGINT, signal_hook::consts::SIGTERM] {
-            // Without it the signal is heard a little later.
+            // If this fails, the flag is raised by the waiting thread, slightly later.
             let _ = signal_hook::flag::register(signal, Arc::clone(&self.0));
         }
     }
 
-    /// Whether to stop.
+    /// Returns whether the flag is raised.
     pub fn is_raised(&self) -> bool {
         self.0.load(Ordering::Relaxed)
     }
 }
 
-/// Takes the system's answer to a write beyond a limit on the size of files (`ulimit -f`) as one that a full disk gives: without this
-/// the program would end in the middle of its work, its drafts left behind.
+/// Ignores the signal SIGXFSZ, so that a write beyond the file size limit (`ulimit -f`) returns an error.
+///
+/// Without this function, such a write would end the program and leave unpublished files behind.
 pub fn outlive_file_limits() {
     #[cfg(unix)]
-    // Without it such a limit ends the program: worse, but no reason not to run.
+    // If this fails, the signal ends the program; the run itself is possible.
     let _ = signal_hook::flag::register(signal_hook::consts::SIGXFSZ, Arc::default());
 }
 
-/// Whoever may end work that no bar is shown of.
+/// Watcher that stops work on an interrupt and shows no progress bar.
 pub struct Interrupted<'a>(pub &'a Interrupt);
 
 impl Watcher for Interrupted<'_> {

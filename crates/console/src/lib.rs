@@ -1,4 +1,4 @@
-//! Between commands and whoever called them: what is printed, how far a run has come, who wants it to stop, how it ended.
+//! Console input and output of the commands: messages, progress bars, tables, interrupts and exit codes.
 
 pub mod answer;
 pub mod interrupt;

@@ -1,4 +1,4 @@
-//! Where the files of a command go that come only after long work.
+//! Output folder of a command that writes files only at its end.
 
 use std::io;
 use std::path::{Path, PathBuf};
@@ -6,21 +6,21 @@ use stickslip_run::complaint::words;
 use stickslip_run::folder::Folder;
 use thiserror::Error;
 
-/// Bytes of the disk that are kept for the files from the beginning on: a curve of a few hundred points with its picture.
+/// Disk space reserved in advance, in bytes. It suffices for a curve of a few hundred points with its plot.
 const RESERVE: usize = 1 << 18;
 
-/// A place that nothing can be written into.
+/// Error for a folder that cannot be written to.
 #[derive(Debug, Error)]
-#[error("{}: cannot be written into: {}\n   help: choose another place with --out", .path.display(), words(.source))]
+#[error("{}: this folder cannot be written: {}\n   help: choose another folder with --out", .path.display(), words(.source))]
 pub struct Unwritable {
     path: PathBuf,
     source: io::Error,
 }
 
-/// A folder, tried before the work begins whose results it is for.
+/// Creates an output folder and checks that it is writable before the computation starts.
 ///
 /// # Errors
-/// One that nothing can be written into.
+/// The folder cannot be written to.
 pub fn ready(path: &Path) -> Result<Folder, Unwritable> {
     Folder::ready(path, RESERVE).map_err(|source| Unwritable { path: path.to_owned(), source })
 }

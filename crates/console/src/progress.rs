@@ -1,4 +1,4 @@
-//! Progress of the runs: bars on a terminal, else a line where something begins and ends.
+//! Progress of runs: progress bars on a terminal, otherwise single lines.
 
 use crate::answer::complain;
 use crate::interrupt::Interrupt;
@@ -8,26 +8,26 @@ use std::fmt::{Arguments, Write};
 use std::io::IsTerminal;
 use stickslip_run::Watcher;
 
-/// Ticks of a bar: one per 0.01 %.
+/// Number of steps of a progress bar: one per 0.01 %.
 const TICKS: u64 = 10_000;
 
-/// The bars of all runs.
+/// Progress bars of all runs.
 pub struct Progress {
     bars: MultiProgress,
-    /// Whether there is somebody to be told who sees no bars.
+    /// Whether progress is printed as lines because no bars are shown.
     by_lines: bool,
 }
 
-/// The bar of one run, and the signal that ends it.
+/// Progress bar of one run. It also reports an interrupt to the run.
 pub struct Bar<'a> {
     bar: ProgressBar,
-    /// Before which time the bar does not move, s, and its length, s.
+    /// Time at which the run starts, s. The bar does not move below it.
     from: f64,
     duration: f64,
     interrupt: &'a Interrupt,
 }
 
-/// A line that counts what has been done, and the signal that ends it.
+/// Line that counts completed items. It also reports an interrupt.
 pub struct Counter<'a> {
     bar: ProgressBar,
     interrupt: &'a Interrupt,
@@ -50,21 +50,21 @@ impl Drop for Counter<'_> {
 }
 
 impl Progress {
-    /// Shows bars on stderr if that is a terminal and they are wanted.
+    /// Shows progress bars if they are wanted and stderr is a terminal.
     pub fn new(wanted: bool) -> Self {
         let shown = wanted && std::io::stderr().is_terminal();
         let target = if shown { ProgressDrawTarget::stderr() } else { ProgressDrawTarget::hidden() };
         Self { bars: MultiProgress::with_draw_target(target), by_lines: wanted && !shown }
     }
 
-    /// Says a line where no bar is seen.
+    /// Prints a line to stderr if progress is wanted and no bars are shown.
     pub fn tell(&self, line: Arguments<'_>) {
         if self.by_lines {
             complain(line);
         }
     }
 
-    /// A bar for a run from one time to another, s, of a bar from 0 on.
+    /// Adds a bar for a run over the times `[from, duration]`, s. The bar begins at time 0.
     pub fn start<'a>(&self, name: &str, [from, duration]: [f64; 2], interrupt: &'a Interrupt) -> Bar<'a> {
         let bar = self.bars.add(ProgressBar::new(TICKS));
         bar.set_position(ticks(from, duration));
@@ -78,7 +78,7 @@ impl Progress {
         Bar { bar, from, duration, interrupt }
     }
 
-    /// A bar for work that has a budget of `wall` s of wall time.
+    /// Adds a bar for work with a budget of `wall` seconds of wall time.
     pub fn budget<'a>(&self, name: &str, wall: f64, interrupt: &'a Interrupt) -> Bar<'a> {
         let bar = self.bars.add(ProgressBar::new(TICKS));
         bar.set_style(style("{prefix} {percent:>3} % {bar:30} {eta} left"));
@@ -86,7 +86,7 @@ impl Progress {
         Bar { bar, from: 0.0, duration: wall, interrupt }
     }
 
-    /// A line for work whose end nobody knows: how many of these have been done.
+    /// Adds a line that counts items when their total number is unknown. `of` is the name of the items.
     pub fn count<'a>(&self, name: &str, of: &'static str, interrupt: &'a Interrupt) -> Counter<'a> {
         let bar = self.bars.add(ProgressBar::no_length());
         bar.set_style(style("{prefix} {pos} {msg}"));
@@ -95,18 +95,18 @@ impl Progress {
         Counter { bar, interrupt }
     }
 
-    /// Does something with the bars out of the way.
+    /// Hides the bars while `act` runs and returns its value.
     pub fn aside<T>(&self, act: impl FnOnce() -> T) -> T {
         self.bars.suspend(act)
     }
 }
 
-/// Where a bar of a length stands at time t, s.
+/// Returns the position of a bar for time t, s.
 fn ticks(t: f64, duration: f64) -> u64 {
     (t / duration * TICKS as f64) as u64
 }
 
-/// The templates are fixed and good; the plain style would do, too.
+/// Returns the bar style of a template, or the default style if the template is invalid.
 fn style(template: &str) -> ProgressStyle {
     ProgressStyle::with_template(template).unwrap_or_else(|_| ProgressStyle::default_bar())
 }

@@ -1,11 +1,11 @@
-//! Tables on a terminal: heads, a line, rows.
+//! Tables for the terminal: column headings, a separator line and rows.
 
 use comfy_table::{CellAlignment, ContentArrangement, LineStyle, Table, TableStyle};
 
-/// A line under the heads, nothing else.
+/// Table style with a separator line below the headings and no other lines.
 const STYLE: TableStyle = TableStyle::new().header_separator(LineStyle::none().fill('─').junction('─'));
 
-/// A table with these heads, as wide as it becomes.
+/// Returns an empty table with these column headings. The width of the table is not limited.
 pub fn plain<'a>(heads: impl IntoIterator<Item = &'a str>) -> Table {
     let mut table = Table::new();
     table.load_style(STYLE).set_content_arrangement(ContentArrangement::Disabled);
@@ -13,7 +13,7 @@ pub fn plain<'a>(heads: impl IntoIterator<Item = &'a str>) -> Table {
     table
 }
 
-/// Puts the cells of columns to the right, as numbers stand.
+/// Right-aligns the cells of a range of columns.
 pub fn to_the_right(table: &mut Table, columns: std::ops::RangeInclusive<usize>) {
     let count = columns.end() + 1 - columns.start();
     let cells = table.column_iter_mut().skip(*columns.start()).take(count);

@@ -1,29 +1,29 @@
-//! How a command ended, as the exit code says it.
+//! Exit codes of the commands.
 
-/// How a command ended; of several the largest counts.
+/// Outcome of a command. If a command does several tasks, the largest outcome counts.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Verdict {
-    /// Everything was done.
+    /// Everything succeeded.
     Done,
     /// A comparison found a difference.
     Differs,
-    /// Something in the input is wrong.
+    /// The input is invalid.
     BadInput,
     /// A run stopped itself, or its results could not be written.
     Stopped,
-    /// Somebody interrupted it.
+    /// The user interrupted the command.
     Interrupted,
 }
 
 impl Verdict {
-    /// The exit code.
+    /// Returns the exit code.
     pub fn code(self) -> u8 {
         match self {
             Self::Done => 0,
             Self::Differs => 1,
             Self::BadInput => 2,
             Self::Stopped => 3,
-            // 128 + SIGINT, as shells have it.
+            // 128 + SIGINT, the convention of shells.
             Self::Interrupted => 130,
         }
     }

@@ -1,19 +1,20 @@
-//! What a terminal would obey, spelled out.
+//! Escapes characters that would control the terminal.
 
 use std::borrow::Cow;
 use std::fmt::Write;
 
-/// How a character is spelled that is not sent as it is.
+/// Notation of an escaped character.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Spelling {
-    /// As in an error: `\u{1b}`.
+    /// Rust notation: `\u{1b}`.
     Text,
-    /// As in a string of JSON: `\u009b`.
+    /// JSON notation: `\u009b`.
     Json,
 }
 
-/// A text without control characters but line ends, and without such as turn the direction of writing or are not seen: names
-/// and words of files may have them, names of files as well, and a terminal would obey them.
+/// Returns a text in which control characters, invisible characters and characters that change the writing direction are escaped.
+///
+/// Line ends are kept. Names and texts from files may contain such characters.
 pub fn visible(text: &str, spelling: Spelling) -> Cow<'_, str> {
     if !text.contains(is_obeyed) {
         return Cow::Borrowed(text);

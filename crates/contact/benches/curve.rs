@@ -1,4 +1,4 @@
-//! What the memory curve costs: a trial, a commit and the frozen branch, by depth of the stack.
+//! Benchmarks of the memory curve: trial, commit and branch, for several numbers of stored reversals.
 
 #![allow(clippy::unwrap_used, reason = "a benchmark fails by panicking")]
 
@@ -15,7 +15,7 @@ fn laws() -> [(&'static str, Interface); 2] {
     })
 }
 
-/// A curve with a number of nested turns, and the displacement of the last two.
+/// Curve with a number of nested reversals, and the displacements of the last two.
 fn nested(law: &Interface, turns: i32) -> (Curve, f64, f64) {
     let mut curve = Curve::new(law, Apex { d: D, u: 0.0 });
     let u_c = law.gross_slip_displacement(D);
@@ -45,7 +45,7 @@ fn trials(bench: &mut Criterion) {
     }
 }
 
-/// A rough line of 10⁵ heights, spread like those of a surface, beside a paraboloid: a trial is to cost less than three times as much.
+/// Trials with a rough line of 10⁵ heights compared with a paraboloid. The ratio should be below 3.
 fn long_lists(bench: &mut Criterion) {
     let mut random = 1_u64;
     let mut height = || {
@@ -66,7 +66,7 @@ fn long_lists(bench: &mut Criterion) {
     ] {
         let law = Interface::new(pair, profile.unwrap(), 0.15).unwrap();
         let (curve, before, last) = nested(&law, 4);
-        // From trial to trial elsewhere in the list: what is looked up lies in no fast memory by chance.
+        // Successive trials are far apart in the list, so that the processor cache does not hide the search.
         let mut share = 0.0;
         bench.bench_function(&format!("trials all over, {name}"), |b| {
             b.iter(|| {
@@ -96,7 +96,7 @@ fn commits(bench: &mut Criterion) {
             let (mut curve, before, last) = nested(&law, depth);
             let to = |u: f64| Segment::Straight(Apex { d: D, u });
             let (there, back) = (to(last + 0.3 * (before - last)), to(last));
-            // There and back is a loop that closes: the stack stays as deep as it is, and nothing is cloned.
+            // Back and forth is a closed loop, so the size of the stack does not change.
             bench.bench_function(&format!("two commits, {name}, {depth} turns"), |b| {
                 b.iter(|| {
                     let lost = curve.commit(&law, black_box(there)).unwrap();

@@ -1,10 +1,10 @@
-//! Fields of a moment: 200 radii of a contact with three slip fronts in its memory.
+//! Benchmarks of stress fields: 200 radii of a contact with three slip fronts in its memory.
 
 use criterion::{Criterion, criterion_group, criterion_main};
 use std::hint::black_box;
 use stickslip_contact::{Apex, Engine, Fields, FrictionMap, Interface, Memory, Pair, Profile, Segment};
 
-/// A contact that went to and fro: 0.7, -0.1 and 0.3 of the displacement of gross slip.
+/// Contact after displacements of 0.7, -0.1 and 0.3 of the gross slip displacement.
 fn contact(profile: Option<Profile>) -> Option<(Interface, Memory, Apex)> {
     let pair = Pair::from_moduli(2e11, 1.6e11).ok()?;
     let law = Interface::new(pair, profile?, 0.3).ok()?;

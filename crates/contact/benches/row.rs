@@ -1,4 +1,4 @@
-//! What a row of springs costs: a plain force, a trial, a commit; and the reduced_forces of the profiles beside it.
+//! Benchmarks of a row of springs: force, trial and commit; for comparison the reduced force of profiles.
 
 #![allow(clippy::unwrap_used, reason = "a benchmark fails by panicking")]
 

@@ -1,22 +1,22 @@
-//! The memory curve: the exact state of a contact, without springs.
+//! Memory curve: the exact slip memory of a contact as a piecewise linear function.
 //!
-//! All springs of one height h share one history, so the state is a curve p(h), 0 ≤ h ≤ d: the position at
-//! which a spring of height h is anchored; its stretch is u - p(h). The pair (d, u) is the apex of a wedge
-//! |p-u| ≤ κ(d-h) that may never leave the curve outside: moving the apex drags the curve. No piece is steeper
-//! than κ, so a drag cuts the curve from the edge inwards only, and a stack of knots holds it.
+//! All springs of equal height h have the same history. The slip memory is therefore one function p(h), 0 ≤ h ≤ d, the rest position
+//! of springs at height h. Their stretch is u - p(h). The apex (d, u) is the current point. Friction limits the rest positions to the
+//! wedge |p-u| ≤ κ(d-h). The two sides of the wedge, p = u - σκ(d-h) with direction σ = ±1, are the limit lines. When the apex moves,
+//! a limit line shifts the part of the curve that would be outside the wedge. No piece is steeper than κ, so this part always begins
+//! at the edge of the contact. A stack of knots (h, p) represents the curve.
 //!
-//! Read from the edge inwards it is what a Preisach or Prandtl–Ishlinskii model keeps of its turning points; here each has
-//! its height, because the normal load moves the limit of all springs at once.
+//! The curve corresponds to the reversal memory of a Preisach or Prandtl–Ishlinskii model. Each reversal also has a height, because
+//! the normal load changes the friction limit of all springs.
 //!
-//! With m the length below a height, and M, N its first and second integrals,
+//! Let m(h) be the length of the foundation below a height, and M, N its first and second integrals. Then
 //!
-//! * F_x = G\* ∫ p' m dh, a sum of slope × ΔM over the pieces,
-//! * elastic energy = ½G\* ∫ (u-p)² dm, by the recursion of [`knot::Knot`],
-//! * friction work = G\* ∫ dm ∫ κ(d-h) |dp|, over the swept pieces ([`sweep`]).
+//! * F_x = G\* ∫ p' m dh, a sum of slope × ΔM over the pieces;
+//! * tangential elastic energy = ½G\* ∫ (u-p)² dm, by the recursion of [`knot::Knot`];
+//! * friction work = G\* ∫ dm ∫ κ(d-h) |dp|, over the shifted pieces ([`sweep`]).
 //!
-//! Contains Cattaneo–Mindlin, Jäger and Ciavarella (4.30–4.33) and Masing's rules as special cases. The same
-//! idea is published as the method of memory diagrams (Aleshin, Bou Matar, Van Den Abeele, Int. J. Solids
-//! Struct. 2015).
+//! Special cases are Cattaneo–Mindlin, Jäger and Ciavarella (4.30–4.33) and Masing's rules. The algorithm is known as the method of
+//! memory diagrams (Aleshin, Bou Matar, Van Den Abeele, Int. J. Solids Struct. 2015).
 
 mod branch;
 mod course;
@@ -43,49 +43,46 @@ use knot::Knot;
 use stack::{KNOTS_PER_MOVE, SlopeRange};
 use sweep::Told;
 
-/// State of a contact that remembers exactly.
+/// Exact slip memory of a contact.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Curve {
-    /// From the centre to the edge, the last one is the apex; empty while the contact is open.
+    /// Knots from the centre to the edge; the last one is the apex. Empty for an open contact.
     knots: Vec<Knot>,
-    /// Where the contact stands, open or not.
+    /// Current indentation and displacement.
     apex: Apex,
     front: Front,
-    /// What collinear growth may merge into the top piece.
+    /// Slopes at which collinear growth may be merged into the last piece.
     range: SlopeRange,
-    /// Most knots.
+    /// Largest number of knots.
     capacity: usize,
     merged: Merged,
 }
 
-/// What bounding the stack has cost.
+/// Accumulated error due to the limited number of knots.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Merged {
-    /// Number of knots given up.
+    /// Number of removed knots.
     pub knots: u64,
-    /// Sum of what each has changed F_x by, at most, N: now, or where an edge stops at its height.
+    /// Upper bound of the error of F_x, N.
     pub force: f64,
-    /// Sum of what each has changed the elastic energy by, at most, J: of the force the largest stretch at its pieces.
+    /// Upper bound of the error of the elastic energy, J.
     pub energy: f64,
 }
 
 impl Curve {
-    /// Knots kept by default; a free decay adds two per period, for ever.
-    // A decay of 40 000 swings, each a bit smaller than the one before, then has 8.4e-6 of the limit force in all its merges,
-    // and 2.5e-5 by a stack of 64: what is given up first is small. Room, not exactness, is what it is chosen for: 1.2 MB.
+    /// Default capacity. A free decay adds two knots per period.
     pub const DEFAULT_CAPACITY: usize = 16_384;
-    /// Knots that there is room for from the start.
-    // What most histories need, 18 kB; a thousand contacts should not take the full stack each.
+    /// Number of knots that are allocated initially.
     const ROOM: usize = 256;
-    /// Fewest knots a stack is made for.
+    /// Smallest capacity.
     const LEAST_CAPACITY: usize = 8;
 
-    /// The untouched contact: open or just touching (d ≤ 0) or pressed with unstretched springs (d > 0).
+    /// Creates the memory of an untouched contact: open for d ≤ 0, pressed with unstretched springs for d > 0.
     pub fn new(law: &Interface, at: Apex) -> Self {
         Self::with_capacity(law, at, Self::DEFAULT_CAPACITY)
     }
 
-    /// The same with a stack of another capacity (at least 8 knots).
+    /// Creates the memory of an untouched contact with a given capacity (at least 8 knots).
     pub fn with_capacity(law: &Interface, at: Apex, capacity: usize) -> Self {
         let capacity = capacity.max(Self::LEAST_CAPACITY);
         let mut curve = Self {
@@ -100,7 +97,7 @@ impl Curve {
         curve
     }
 
-    /// Becomes the curve of an untouched contact at an apex, in the room there is; its capacity stays.
+    /// Resets the curve to an untouched contact at an apex. Capacity and allocated space remain.
     pub(crate) fn begin(&mut self, law: &Interface, at: Apex) {
         self.knots.clear();
         if at.d > 0.0 {
@@ -112,13 +109,13 @@ impl Curve {
         self.merged = Merged::default();
     }
 
-    /// Makes the room that a new curve has: a copy, or a curve read from words, has none but for what it holds.
+    /// Allocates the space of a new curve, which a copy or a deserialized curve lacks.
     pub(crate) fn make_room(&mut self) {
         let room = self.capacity.min(Self::ROOM);
         self.knots.reserve(room.saturating_sub(self.knots.len()));
     }
 
-    /// Becomes another curve's copy, in the room there is.
+    /// Copies another curve into this one and reuses the allocated space.
     pub(crate) fn copy(&mut self, from: &Self) {
         let Self { knots, apex, front, range, capacity, merged } = from;
         self.knots.clone_from(knots);
@@ -126,7 +123,7 @@ impl Curve {
         (self.capacity, self.merged) = (*capacity, *merged);
     }
 
-    /// Remembers no more than so many knots (at least 8) from here on; with more of them the least go, and are booked.
+    /// Limits the number of knots (at least 8). Excess knots with the smallest effect are removed, and their error is recorded.
     pub fn bound(&mut self, law: &Interface, capacity: usize) {
         self.capacity = capacity.max(Self::LEAST_CAPACITY);
         while self.knots.len() > self.capacity {
@@ -134,70 +131,69 @@ impl Curve {
         }
     }
 
-    /// Where the contact stands.
+    /// Returns the current indentation and displacement.
     pub fn apex(&self) -> Apex {
         self.apex
     }
 
-    /// Counts displacements from another origin, `by` further back: u and anchors grow by as much. Nothing else changes; a
-    /// shift by which no digit is lost leaves forces and energies as they are to the last bit.
-    // For contacts that travel: 10³ u_c from the origin rounding of u is 1e-12 of the limit force, 10⁶ u_c from it 1e-9.
+    /// Moves the origin of displacements: u and all rest positions grow by `by` (m). Forces and energies do not change.
+    // Large displacements lose accuracy: the rounding of u is 1e-12 of the limit force at 10³ u_c and 1e-9 at 10⁶ u_c.
     pub fn shift(&mut self, by: f64) {
         self.apex.u += by;
         self.knots.iter_mut().for_each(|knot| knot.p += by);
     }
 
-    /// Number of knots in the stack.
+    /// Returns the number of knots.
     pub fn knot_count(&self) -> usize {
         self.knots.len()
     }
 
-    /// Knots (h, p) from the centre to the apex, m.
+    /// Returns the knots (h, p) from the centre to the apex, m.
     pub fn knots(&self) -> impl Iterator<Item = (f64, f64)> + '_ {
         self.knots.iter().map(|k| (k.h, k.p))
     }
 
-    /// Heights of the knots from one of them on, by its place from the centre, m; none beyond the apex.
+    /// Returns the heights of the knots from index `place` on, counted from the centre, m.
     pub fn heights_from(&self, place: usize) -> impl Iterator<Item = f64> + '_ {
         self.knots.get(place..).unwrap_or_default().iter().map(|k| k.h)
     }
 
-    /// Place of the lowest knot that is above a height, m; that beyond the apex where none is.
+    /// Returns the index of the first knot above a height (m), or the number of knots if there is none.
     pub fn above(&self, height: f64) -> usize {
         self.knots.partition_point(|knot| knot.h <= height)
     }
 
-    /// The straight pieces from the centre to the apex: heights of their ends, m, slope dp/dh and force per ΔM over G\*.
+    /// Returns the linear pieces from the centre to the apex: heights of both ends, m, slope dp/dh, and force per ΔM over G\*.
     pub(crate) fn pieces(&self) -> impl Iterator<Item = [f64; 4]> + '_ {
         self.knots.windows(2).map(|pair| [pair[0].h, pair[1].h, pair[1].slope, pair[1].gain])
     }
 
-    /// What bounding the stack has cost so far.
+    /// Returns the accumulated error due to the limited number of knots.
     pub fn merged(&self) -> Merged {
         self.merged
     }
 
-    /// Tangential force F_x, N.
+    /// Returns the tangential force F_x, N.
     pub fn force(&self, law: &Interface) -> f64 {
         law.tangential_modulus() * self.knots.last().map_or(0.0, |k| k.shear)
     }
 
-    /// Tangential elastic energy ½G\*∫(u-p)²dm, J.
+    /// Returns the tangential elastic energy ½G\*∫(u-p)²dm, J.
     pub fn elastic(&self, law: &Interface) -> f64 {
         0.5 * law.tangential_modulus() * self.knots.last().map_or(0.0, |k| k.square)
     }
 
-    /// State of the whole contact after the last move that was not zero.
+    /// Returns the state of the whole contact after the last move of non-zero length.
     pub fn state(&self, law: &Interface) -> ContactState {
         self.front.zone(law, self.apex.d).0
     }
 
-    /// Radius inside which no spring is at its limit, m.
+    /// Returns the stick radius, m: all springs inside stick.
     pub fn stick_radius(&self, law: &Interface) -> f64 {
         self.front.zone(law, self.apex.d).1
     }
 
-    /// Anchor p(h) of the springs at height h, m; none outside the contact.
+    /// Returns the rest position p(h) of springs at height h, m; `None` outside the contact.
     pub fn anchor(&self, h: f64) -> Option<f64> {
         if self.knots.is_empty() || !(0.0..=self.apex.d).contains(&h) {
             return None;
@@ -205,8 +201,9 @@ impl Curve {
         Some(cut::anchor(&self.knots, h))
     }
 
-    /// How far an apex lies above the curve at its own height, m, and the slope dp/dh of the curve there; none while open and
-    /// beyond the end of the curve.
+    /// Returns the distance u - p of an apex from the curve at its own height, m, and the slope dp/dh there.
+    ///
+    /// Returns `None` for an open contact and beyond the end of the curve.
     pub fn beside(&self, at: Apex) -> Option<[f64; 2]> {
         let inside = self.knots.len() > 1 && at.d <= self.apex.d;
         inside.then(|| {
@@ -215,12 +212,12 @@ impl Curve {
         })
     }
 
-    /// Stretch u - p(h) of the springs at height h, m; zero outside the contact.
+    /// Returns the stretch u - p(h) of springs at height h, m; 0 outside the contact.
     pub fn stretch(&self, h: f64) -> f64 {
         self.anchor(h).map_or(0.0, |p| self.apex.u - p)
     }
 
-    /// State of the springs at height h after the last move that was not zero.
+    /// Returns the state of the springs at height h after the last move of non-zero length.
     pub fn spring_state(&self, h: f64) -> SpringState {
         if h >= self.apex.d || self.knots.is_empty() {
             SpringState::Open
@@ -233,23 +230,26 @@ impl Curve {
         }
     }
 
-    /// Friction work of a chord, J, besides what the front's way alone tells, which [`Branch::friction_power`] adds up: a path of growth
-    /// is kept as chords.
+    /// Returns the friction work of a straight path that [`Branch::friction_power`] does not contain, J.
+    ///
+    /// The curve stores a curved growth path as chords. When a later path erases them, the difference between the path and its chords
+    /// appears as this work.
     pub fn beside_growth(&self, law: &Interface, to: Apex) -> f64 {
         if self.knots.is_empty() { 0.0 } else { sweep::beside(law, &self.knots, self.apex, to) }
     }
 
-    /// Accepts a segment: the only thing that moves the memory. Returns the friction work, J.
+    /// Commits a segment and returns the friction work, J. No other method changes the memory.
     ///
-    /// Fails, leaving everything as it was, for a motion that is not finite or leaves the points that the profile is given by.
+    /// Fails if the motion is not finite or exceeds the last point of the profile. The memory is then unchanged.
     pub fn commit(&mut self, law: &Interface, segment: Segment) -> Result<f64, ContactError> {
         self.accept(law, segment, Told::All)
     }
 
-    /// The same, of friction work only what is beside the power of branches, J ([`Self::beside_growth`]): for whoever adds that up.
+    /// Commits a segment and returns the part of its friction work that [`Branch::friction_power`] does not contain, J
+    /// ([`Self::beside_growth`]).
     ///
     /// # Errors
-    /// As those of [`Self::commit`].
+    /// As [`Self::commit`].
     pub fn commit_beside_power(&mut self, law: &Interface, segment: Segment) -> Result<f64, ContactError> {
         self.accept(law, segment, Told::BesidePower)
     }
@@ -267,15 +267,15 @@ impl Curve {
         if to == self.apex {
             return Ok(0.0);
         }
-        // Only here and in no trial: a stepper may look beyond, and go another way.
+        // Only a commit checks the end of the profile; a trial may exceed it.
         law.profile().check_end(to.d)?;
-        // Before the move: a knot made first would carry the sums of the stack as it was, the error be hidden in a
-        // step at the apex and booked again by every later merge.
+        // Knots are removed before the move. Otherwise the new knot would contain the sums of the old stack, and later merges would
+        // count the error again.
         while self.knots.len() + KNOTS_PER_MOVE > self.capacity {
             self.thin(law);
         }
         if let Segment::Grown { to, force, energy, joins } = segment {
-            // A path that ends no deeper than it began has not grown: rounding, left to the chord below.
+            // A growth path that ends no deeper than it began is due to rounding and is treated as a straight path.
             if to.d > self.apex.d.max(0.0) {
                 self.grow(law, to, (force, energy), joins);
                 return Ok(0.0);
@@ -311,7 +311,7 @@ impl Curve {
         Ok(friction)
     }
 
-    /// The knot an open contact touches with on its way to `to`: the path crosses d = 0 there.
+    /// Returns the first knot of an open contact, where the path to `to` crosses d = 0.
     fn touching(&self, to: Apex) -> Knot {
         let Apex { d, u } = self.apex;
         let share = if to.d > d { (-d / (to.d - d)).clamp(0.0, 1.0) } else { 0.0 };

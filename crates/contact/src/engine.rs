@@ -1,4 +1,4 @@
-//! The engines behind one contract.
+//! Common interface of the two contact engines: memory curve and row of springs.
 
 use crate::{
     Apex, Branch, ContactError, Course, Curve, Dragged, Interface, Merged, Move, Outcome, Response, Row,
@@ -6,7 +6,7 @@ use crate::{
 };
 use std::sync::Arc;
 
-/// How the tangential problem of a contact is solved. Constant.
+/// Method that solves the tangential contact problem.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub enum Engine {
     /// The exact memory curve.
@@ -17,7 +17,7 @@ pub enum Engine {
 }
 
 impl Engine {
-    /// The memory of an untouched contact at an apex.
+    /// Creates the memory of an untouched contact at an apex.
     pub fn memory(&self, law: &Interface, at: Apex) -> Memory {
         match self {
             Self::Curve => Memory::Curve(Curve::new(law, at)),
@@ -27,7 +27,7 @@ impl Engine {
         }
     }
 
-    /// Makes a memory that of an untouched contact at an apex: a curve in the room it has, a row anew.
+    /// Resets a memory to that of an untouched contact at an apex. A curve keeps its allocated space.
     pub fn begin(&self, memory: &mut Memory, law: &Interface, at: Apex) {
         match (self, memory) {
             (Self::Curve, Memory::Curve(curve)) => curve.begin(law, at),
@@ -35,12 +35,12 @@ impl Engine {
         }
     }
 
-    /// Whether its memories can freeze smooth branches: the capability that [`Tangential::branching`] gives.
+    /// Returns whether the memories of this engine have smooth branches; see [`Tangential::branching`].
     pub fn branches(&self) -> bool {
         matches!(self, Self::Curve)
     }
 
-    /// Springs that every evaluation asks; 0 for an engine without.
+    /// Returns the number of springs; 0 for the memory curve.
     pub fn springs(&self) -> usize {
         match self {
             Self::Curve => 0,
@@ -49,58 +49,62 @@ impl Engine {
     }
 }
 
-/// What every engine's memory answers. Evaluation borrows shared and leaves no trace; only [`commit`](Self::commit) moves
-/// the memory.
+/// Interface of a contact's memory. All methods except [`commit`](Self::commit), `commit_beside_power` and `shift` leave the memory
+/// unchanged.
 pub trait Tangential {
-    /// Where the contact stands.
+    /// Returns the current indentation and displacement.
     fn apex(&self) -> Apex;
-    /// Counts displacements from another origin, `by` (m) further back.
+    /// Moves the origin of displacements by `by` (m): all displacements grow by that amount.
     fn shift(&mut self, by: f64);
-    /// Force and tangents that a move would give: what an implicit or a whole law needs.
+    /// Returns the tangential force and its derivatives at the end of a move.
     fn trial(&self, law: &Interface, to: Timed<Move>) -> Response;
-    /// F_x that a chord would give, N: the cheapest question.
+    /// Returns the tangential force F_x at the end of a straight path, N.
     fn force(&self, law: &Interface, to: Apex) -> f64;
-    /// Everything that a chord would give, its friction work included.
+    /// Returns force, energies and state at the end of a straight path, including the friction work.
     fn preview(&self, law: &Interface, to: Apex) -> Outcome;
-    /// Accepts a segment and returns its friction work, J. Fails without a trace.
+    /// Commits a segment and returns its friction work, J. After an error the memory is unchanged.
     fn commit(&mut self, law: &Interface, segment: Timed<Segment>) -> Result<f64, ContactError>;
-    /// The same, of friction work only what no power of a branch tells.
+    /// Commits a segment and returns the part of its friction work that [`Branch::friction_power`] does not contain, J.
     fn commit_beside_power(&mut self, law: &Interface, segment: Timed<Segment>) -> Result<f64, ContactError>;
-    /// The smooth branches of an engine that has them. None where the law has kinks of its own between any two moves:
-    /// then the whole law is integrated, and only reversals of sliding are events.
+    /// Returns the smooth branches, if the engine has them.
+    ///
+    /// An engine without branches has kinks at every change of a spring. For such an engine the full force law is integrated, and
+    /// only reversals are events.
     fn branching(&self) -> Option<&dyn Branching> {
         None
     }
 }
 
-/// Smooth branches of the hysteresis, for steppers that integrate from event to event.
-// A capability and not a part of the contract: a row's force has a kink wherever one of its springs begins to slip, so that
-// its branches are as short as the steps. Asked for once an event, by a call through a table.
+/// Smooth branches of the hysteresis, for event-based time integration.
 pub trait Branching {
-    /// The course of a contact in motion, from ḋ and u̇, m/s.
+    /// Returns the kind of motion of a contact, from the rates ḋ and u̇, m/s.
     fn course(&self, law: &Interface, dd: f64, du: f64) -> Course;
-    /// The branch of a sense (+1 or -1) that starts at the committed apex; knots within `slack` (m) of the edge count as
-    /// reached.
+    /// Returns the branch with direction `sense` (+1 or -1) that starts at the committed apex.
+    ///
+    /// Knots within `slack` (m) of the limit line count as reached.
     fn branch(&self, law: &Interface, sense: f64, slack: f64) -> Branch;
-    /// What a chord gives, dragged by the edge of a sense.
+    /// Returns force and slip front at the end of a straight path, along the limit line of direction `sense`.
     fn dragged(&self, law: &Interface, sense: f64, to: Apex) -> Dragged;
-    /// Friction work of a chord, J, besides what the power of a branch adds up to, where the chord gives up a path of growth.
+    /// Returns the friction work of a straight path that [`Branch::friction_power`] does not contain, J.
+    ///
+    /// This work is not 0 where the path erases curved growth pieces; see [`Curve::beside_growth`].
     fn beside_growth(&self, law: &Interface, to: Apex) -> f64;
-    /// How far an apex lies above the curve at its own height, m, and the slope of the curve there; none while open and beyond
-    /// its end.
+    /// Returns the distance u - p of an apex from the curve at its own height, m, and the slope dp/dh there.
+    ///
+    /// Returns `None` for an open contact and beyond the end of the curve.
     fn beside(&self, at: Apex) -> Option<[f64; 2]>;
 }
 
-/// A row of springs with its springs.
+/// Row of springs: constant data and state.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SpringRow {
-    /// Anchors: what moves.
+    /// Rest positions, the state of the row.
     pub row: Row,
-    /// The springs, shared with the model.
+    /// Constant data of the springs, shared with the model.
     pub springs: Arc<Springs>,
 }
 
-/// The state of a contact: all that its future depends on.
+/// State of a contact; together with the interface it determines all later forces.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Memory {
     /// The exact memory curve.
@@ -109,28 +113,28 @@ pub enum Memory {
     Row(SpringRow),
 }
 
-/// One spring of a contact as it stands.
+/// State of one spring of a contact.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Spring {
     /// Position x, m.
     pub x: f64,
-    /// Stretch u - p, m; 0 while it does not touch.
+    /// Stretch u - p, m; 0 for a spring out of contact.
     pub stretch: f64,
-    /// State after the last move that was not zero.
+    /// State after the last move of non-zero length.
     pub state: SpringState,
-    /// Height g(x), m: the indentation at which it touches.
+    /// Height g(x), m: the indentation at which the spring touches.
     pub height: f64,
-    /// Its share Δx of the foundation, m.
+    /// Width Δx of the spring's cell, m.
     pub length: f64,
 }
 
 impl Spring {
-    /// Normal force E\*Δx(d-g) at the indentation d (m), N (4.23); 0 while it does not touch.
+    /// Returns the normal force E\*Δx(d-g) at the indentation d (m), N (4.23); 0 for a spring out of contact.
     pub fn normal_force(&self, law: &Interface, d: f64) -> f64 {
         law.normal_modulus() * self.length * (d - self.height).max(0.0)
     }
 
-    /// Tangential force G\*Δx u, N (4.23).
+    /// Returns the tangential force, N: G\*Δx times the stretch (4.23).
     pub fn tangential_force(&self, law: &Interface) -> f64 {
         law.tangential_modulus() * self.length * self.stretch
     }
@@ -209,7 +213,7 @@ impl Tangential for SpringRow {
     }
 }
 
-/// What the springs that stick at the end of a move carry by their damping is added to their force.
+/// Adds the damping force of the sticking springs to the force of a response.
 #[inline]
 fn damped(law: &Interface, springs: Response, from: Apex, Timed { path, duration }: Timed<Move>) -> Response {
     if duration == 0.0 || law.damping() == 0.0 {
@@ -219,9 +223,7 @@ fn damped(law: &Interface, springs: Response, from: Apex, Timed { path, duration
     Response { force: springs.force + law.viscosity(springs.stiffness) * rate, ..springs }
 }
 
-/// One method of whichever engine it is.
-// An enum so that memories can be cloned, compared and saved with the state of a run, not for speed: a force takes 25.6 ns by
-// the match and 25.8 through a table.
+/// Calls a method of the engine inside a [`Memory`].
 macro_rules! either {
     ($memory:expr, $engine:ident => $call:expr) => {
         match $memory {
@@ -232,11 +234,10 @@ macro_rules! either {
 }
 
 impl Memory {
-    /// Turning points that a curve remembers unless it is [bounded](Self::bound).
+    /// Default number of reversals that a curve can store; see [`Self::bound`].
     pub const DEFAULT_CAPACITY: usize = Curve::DEFAULT_CAPACITY;
 
-    /// Becomes another one's copy, in the room there is: between memories of one contact nothing is allocated once they have been
-    /// as deep.
+    /// Copies another memory into this one and reuses the allocated space.
     pub fn copy(&mut self, from: &Self) {
         match (self, from) {
             (Self::Curve(own), Self::Curve(from)) => own.copy(from),
@@ -248,24 +249,23 @@ impl Memory {
         }
     }
 
-    /// Makes the room that a new memory has, for one that is a copy or was read from words: within it commits allocate
-    /// nothing.
+    /// Allocates the space of a new memory, so that commits within it allocate nothing. Needed after a clone or deserialization.
     pub fn make_room(&mut self) {
         match self {
             Self::Curve(curve) => curve.make_room(),
-            // A row has all its springs.
+            // A row is always fully allocated.
             Self::Row(_) => {}
         }
     }
 
-    /// Remembers no more than so many turning points from here on; a row has all its springs, and none.
+    /// Limits the number of stored reversals of a curve. The method has no effect on a row.
     pub fn bound(&mut self, law: &Interface, capacity: usize) {
         if let Self::Curve(curve) = self {
             curve.bound(law, capacity);
         }
     }
 
-    /// Turning points that it remembers; of a row none.
+    /// Returns the number of stored reversals of a curve; 0 for a row.
     pub fn knot_count(&self) -> usize {
         match self {
             Self::Curve(curve) => curve.knot_count(),
@@ -273,7 +273,7 @@ impl Memory {
         }
     }
 
-    /// What bounding its stack has cost so far; of a row nothing.
+    /// Returns the accumulated error due to the limited number of reversals; 0 for a row.
     pub fn merged(&self) -> Merged {
         match self {
             Self::Curve(curve) => curve.merged(),
@@ -281,37 +281,37 @@ impl Memory {
         }
     }
 
-    /// Where the contact stands.
+    /// Returns the current indentation and displacement.
     #[inline]
     pub fn apex(&self) -> Apex {
         either!(self, engine => Tangential::apex(engine))
     }
 
-    /// Counts displacements from another origin, `by` further back.
+    /// Moves the origin of displacements by `by` (m): all displacements grow by that amount.
     #[inline]
     pub fn shift(&mut self, by: f64) {
         either!(self, engine => Tangential::shift(engine, by));
     }
 
-    /// Force and tangents that a move would give.
+    /// Returns the tangential force and its derivatives at the end of a move.
     #[inline]
     pub fn trial(&self, law: &Interface, to: impl Into<Timed<Move>>) -> Response {
         let to = to.into();
         either!(self, engine => Tangential::trial(engine, law, to))
     }
 
-    /// F_x that a chord would give, N: the cheapest question.
+    /// Returns the tangential force F_x at the end of a straight path, N.
     #[inline]
     pub fn force(&self, law: &Interface, to: Apex) -> f64 {
         either!(self, engine => Tangential::force(engine, law, to))
     }
 
-    /// Everything that a chord would give, its friction work included.
+    /// Returns force, energies and state at the end of a straight path, including the friction work.
     pub fn preview(&self, law: &Interface, to: Apex) -> Outcome {
         either!(self, engine => Tangential::preview(engine, law, to))
     }
 
-    /// Accepts a segment and returns its friction work, J. Fails without a trace.
+    /// Commits a segment and returns its friction work, J. After an error the memory is unchanged.
     pub fn commit(
         &mut self,
         law: &Interface,
@@ -321,10 +321,10 @@ impl Memory {
         either!(self, engine => Tangential::commit(engine, law, segment))
     }
 
-    /// The same, of friction work only what is beside the power of branches, for whoever adds that up.
+    /// Commits a segment and returns the part of its friction work that [`Branch::friction_power`] does not contain, J.
     ///
     /// # Errors
-    /// As those of [`Self::commit`].
+    /// As [`Self::commit`].
     pub fn commit_beside_power(
         &mut self,
         law: &Interface,
@@ -334,7 +334,7 @@ impl Memory {
         either!(self, engine => Tangential::commit_beside_power(engine, law, segment))
     }
 
-    /// Contact radius at an indentation d (m), m: a(d), of a row of springs half the length of those that touch.
+    /// Returns the contact radius at an indentation d (m), m: a(d), or for a row half the length in contact.
     pub fn radius(&self, law: &Interface, d: f64) -> f64 {
         match self {
             Self::Curve(_) => law.profile().radius(d),
@@ -342,14 +342,15 @@ impl Memory {
         }
     }
 
-    /// The smooth branches of an engine that has them.
+    /// Returns the smooth branches, if the engine has them.
     #[inline]
     pub fn branching(&self) -> Option<&dyn Branching> {
         either!(self, engine => Tangential::branching(engine))
     }
 
-    /// The course of a contact at indentation d (m) in motion, from ḋ and u̇, m/s. Without smooth branches the sense of
-    /// sliding alone tells.
+    /// Returns the kind of motion of a contact at indentation d (m), from the rates ḋ and u̇, m/s.
+    ///
+    /// For an engine without smooth branches the sign of u̇ alone determines the result.
     pub fn course(&self, law: &Interface, d: f64, dd: f64, du: f64) -> Course {
         match self.branching() {
             Some(branching) => branching.course(law, dd, du),
@@ -359,7 +360,7 @@ impl Memory {
         }
     }
 
-    /// The springs of the contact, by ascending position: a row's own; of the curve those that would stand on `grid`.
+    /// Returns all springs in order of their position. A curve is evaluated at the springs of `grid`.
     pub fn springs<'a>(
         &'a self,
         law: &'a Interface,

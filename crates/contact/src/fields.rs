@@ -1,16 +1,16 @@
-//! Stress and displacement under a contact as it stands: p(r), τ(r), u(r), the slip ring and the springs' line loads.
+//! Stresses and displacements at the contact surface: pressure p(r), shear stress τ(r), displacement u(r) and slip.
 //!
-//! A contact pressed without friction from a height h₁ to h₂ adds to the pressure and to the surface's displacement
+//! A frictionless contact that is pressed to the height h, with radius x = g⁻¹(h), has
 //!
-//! * p = E\*P, P(r; h) = (1/π) ∫ᵣˣ g'(ξ)/√(ξ²-r²) dξ, g(x) = h (4.34),
-//! * w(r; h) = h - f(r) inside x, (2/π) ∫₀ˣ arcsin(ξ/r) dg outside.
+//! * the pressure p = E\*P, P(r; h) = (1/π) ∫ᵣˣ g'(ξ)/√(ξ²-r²) dξ (4.34),
+//! * the surface displacement w(r; h) = h - f(r) inside x and (2/π) ∫₀ˣ arcsin(ξ/r) dg outside.
 //!
-//! A piece of the memory curve from h₁ to h₂ of slope k is k times that, in tangential direction: so
-//! τ = G\* Σ k [P(r; h₂) - P(r; h₁)] and u = Σ k [w(r; h₂) - w(r; h₁)], which is superposition (4.32, 4.35) of as many normal
-//! contacts as the history has left corners. Nothing is differentiated, so that nothing is unstable where stick and slip meet:
-//! the repeated numerical transforms of q(x) are, and need care there (Li, Forsbach, Benad, Facta Universitatis 17(1), 2019).
+//! A piece of the slip memory from h₁ to h₂ with slope k contributes k times the difference of two such contacts. The superposition
+//! (4.32, 4.35) is τ = G\* Σ k [P(r; h₂) - P(r; h₁)] and u = Σ k [w(r; h₂) - w(r; h₁)]. No numerical differentiation occurs, so the
+//! result is stable at the border of stick and slip. Numerical transforms of q(x) need care there (Li, Forsbach, Benad, Facta
+//! Universitatis 17(1), 2019).
 //!
-//! Closed forms for power laws and the flat punch, quadrature with an estimate of its error for every other profile.
+//! Power laws and the flat punch have closed forms. Other profiles use quadrature with an error estimate.
 
 mod dissipation;
 mod kernel;
@@ -26,50 +26,53 @@ use crate::{Apex, ContactState, Interface, Memory, Outcome, SpringState};
 use kernel::{Kernel, Rim};
 use pieces::Piece;
 
-/// The fields of a contact at a moment. Of a profile that has a shape in three dimensions.
+/// Stresses and displacements of a contact, for profiles with a shape in three dimensions.
 ///
-/// A row of springs is taken as the curve through its anchors, straight between them: what its cells lack is in F_x.
+/// A row of springs is treated as a curve that is linear between its rest positions.
 #[derive(Debug, Clone)]
 pub struct Fields<'a> {
     law: &'a Interface,
     kernel: Kernel<'a>,
-    /// From the centre to the edge; none while the contact is open.
+    /// Pieces of the slip memory from the centre to the edge; empty for an open contact.
     pieces: Vec<Piece>,
     apex: Apex,
-    /// Radius of the contact, m.
+    /// Contact radius, m.
     radius: f64,
-    /// Of the zone inside which no spring is at its limit, m.
+    /// Stick radius, m.
     stick_radius: f64,
     state: ContactState,
 }
 
-/// The fields at one distance from the axis.
+/// Stresses and displacements at one distance from the axis.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Field {
     /// Distance r from the axis, m.
     pub r: f64,
-    /// Pressure p, Pa; infinite at a tip and at a worn edge, without bound towards the edge of a flat punch, from which on it
-    /// is 0.
+    /// Pressure p, Pa. The pressure is infinite at a sharp tip and at the border of a truncated flat. It is unbounded towards the
+    /// edge of a flat punch.
     pub pressure: f64,
-    /// Shear stress τ on the second body, Pa, along the slide.
+    /// Shear stress τ on the second body in sliding direction, Pa.
     pub shear: f64,
-    /// Displacement u of the surface along the slide, that of both bodies against each other, m.
+    /// Relative tangential displacement u of the two surfaces, m.
     pub displacement: f64,
-    /// Local slip: how far the indenter's surface has slid over the other body's, m, counted from what the centre has slid; 0 in
-    /// the centre, also in gross slip. Outside the contact the way between the surfaces.
+    /// Local slip relative to the slip of the centre, m; 0 in the centre.
+    ///
+    /// Inside the contact this is the relative sliding distance of the two surfaces. Outside the contact it is their relative
+    /// displacement.
     pub slip: f64,
-    /// Displacement of the surface along the normal, that of both bodies together, m.
+    /// Relative normal displacement of the two surfaces, m.
     pub deflection: f64,
-    /// Whether the place is open, sticks or slips.
+    /// State at this radius: open, stick or slip.
     pub state: SpringState,
-    /// Estimated error of `pressure` and `shear`, Pa, of `displacement` and `slip`, m; 0 of closed forms.
+    /// Error estimates: of `pressure` and `shear`, Pa, and of `displacement` and `slip`, m; 0 for closed forms.
     pub error: [f64; 2],
 }
 
 impl<'a> Fields<'a> {
-    /// The fields of a contact; none of a list of springs and of a normal law, which have no shape in three dimensions.
+    /// Creates the fields of a contact. Returns `None` for a list of springs and a normal law, which define no shape in three
+    /// dimensions.
     ///
-    /// An open contact has fields, which are 0.
+    /// The fields of an open contact are 0.
     pub fn of(law: &'a Interface, memory: &Memory) -> Option<Self> {
         let kernel = Kernel::of(law.profile())?;
         let apex = memory.apex();
@@ -79,27 +82,27 @@ impl<'a> Fields<'a> {
         Some(Self { law, kernel, pieces, apex, radius, stick_radius, state })
     }
 
-    /// Contact radius a, m; 0 while open.
+    /// Returns the contact radius a, m; 0 for an open contact.
     pub fn radius(&self) -> f64 {
         self.radius
     }
 
-    /// Radius c inside which no spring is at its limit, m.
+    /// Returns the stick radius c, m: all springs inside stick.
     pub fn stick_radius(&self) -> f64 {
         self.stick_radius
     }
 
-    /// State of the whole contact.
+    /// Returns the state of the whole contact.
     pub fn state(&self) -> ContactState {
         self.state
     }
 
-    /// Where the contact stands.
+    /// Returns the current indentation and displacement.
     pub fn apex(&self) -> Apex {
         self.apex
     }
 
-    /// The fields at a distance r ≥ 0 from the axis, m.
+    /// Returns the fields at a distance r ≥ 0 from the axis, m.
     pub fn at(&self, r: f64) -> Field {
         let (pressure, pressure_error) = self.pressure(r);
         let (shear, shear_error) = self.shear(r, pressure);
@@ -117,25 +120,25 @@ impl<'a> Fields<'a> {
         }
     }
 
-    /// Pressure at r, Pa, and its error.
+    /// Returns the pressure at r, Pa, and its error.
     fn pressure(&self, r: f64) -> (f64, f64) {
         let (p, error) = self.kernel.pressure(self.edge(), r);
         (self.law.normal_modulus() * p, self.law.normal_modulus() * error)
     }
 
-    /// Shear stress at r, Pa, and its error, `pressure` at hand.
+    /// Returns the shear stress at r, Pa, and its error, for a given `pressure`.
     ///
-    /// In the slip ring it is ±μp to the last bit: what is at its limit is one piece, from which nothing is taken.
+    /// In the slip ring the result is exactly ±μp.
     fn shear(&self, r: f64, pressure: f64) -> (f64, f64) {
         let limit = self.law.friction() * self.law.normal_modulus();
         let (mut sum, mut error) = (0.0, 0.0);
-        // Of the rim last asked for: every other one is the outer rim of one piece and the inner one of the next.
+        // The outer rim of a piece is the inner rim of the next one, so that its pressure is reused.
         let mut outer = None;
         for piece in self.pieces.iter().rev() {
             if piece.to.x <= r {
                 break;
             }
-            // Nothing times an infinite pressure is nothing: springs that were never moved carry nothing.
+            // A piece without slope carries no shear, even where the pressure is infinite.
             if piece.share == 0.0 || limit == 0.0 {
                 outer = None;
                 continue;
@@ -158,7 +161,7 @@ impl<'a> Fields<'a> {
         (limit * sum, limit * error)
     }
 
-    /// Displacement of the surface at r and slip there, m, and their error.
+    /// Returns displacement and slip at r, m, and their error.
     fn displacement(&self, r: f64) -> ([f64; 2], f64) {
         let profile = self.law.profile();
         let (mut sum, mut slip, mut error) = (0.0, 0.0, 0.0);
@@ -168,7 +171,7 @@ impl<'a> Fields<'a> {
                 inner = None;
                 continue;
             }
-            // Inside both rims the gap drops out.
+            // Inside both rims the difference does not contain the gap.
             let (step, off) = if r <= piece.from.x {
                 (piece.to.h - piece.from.h, 0.0)
             } else {
@@ -178,14 +181,14 @@ impl<'a> Fields<'a> {
                 (to.0 - from.0, to.1 + from.1)
             };
             sum += piece.slope * step;
-            // Not as the rest of u: where nothing has slipped it is nothing to the last bit.
+            // Computed separately from u, so that the slip is exactly 0 where nothing has slipped.
             slip += piece.slope * (piece.to.h - piece.from.h - step);
             error += (piece.slope * off).abs();
         }
         ([sum, slip], error)
     }
 
-    /// Whether the place at r is open, sticks or slips.
+    /// Returns whether the contact is open, sticks or slips at r.
     fn state_at(&self, r: f64) -> SpringState {
         if r >= self.radius || self.state == ContactState::Open {
             return SpringState::Open;
@@ -202,7 +205,7 @@ impl<'a> Fields<'a> {
         }
     }
 
-    /// The edge of the contact.
+    /// Returns the edge of the contact.
     fn edge(&self) -> Rim {
         Rim { h: self.apex.d.max(0.0), x: self.radius }
     }

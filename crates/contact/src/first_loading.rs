@@ -1,111 +1,107 @@
-//! A first loading: pressed to an indentation, then pushed sideways, never back.
+//! First loading: the contact is pressed to an indentation, then displaced monotonically in tangential direction (4.37).
 //!
-//! Any one of {d, a, `F_N`} with any one of {u, c, `F_x`} determines the rest (handbook 4.37):
+//! One of {d, a, `F_N`} and one of {u, c, `F_x`} determine all other quantities:
 //!
 //! * `F_N` = E\*M(d), d = g(a);
-//! * G\*u = μE\*[d-g(c)], that is g(c) = d - u/κ, with gross slip from u = `u_c` = κd on;
-//! * `F_x` = μ[`F_N`(d) - `F_N`(g(c))] (4.38), the force of a smaller contact taken from that of the whole; the handbook's other
-//!   way, the integral of the line load q_x (4.39), is the test of it.
+//! * g(c) = d - u/κ for |u| below the gross slip displacement `u_c` = κd;
+//! * `F_x` = μ[`F_N`(d) - `F_N`(g(c))] (4.38), a difference of two normal forces.
 
 mod approaches;
 
 use crate::Interface;
 use thiserror::Error;
 
-/// The state that a first loading ends in. Negative u and `F_x` are the mirror image.
+/// State at the end of a first loading. Negative u and `F_x` are the mirror image.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FirstLoading {
     /// Indentation d, m.
     pub d: f64,
-    /// Contact radius a, m; half the length in contact for a foundation given spring by spring.
+    /// Contact radius a, m; for a list of springs half the length in contact.
     pub a: f64,
     /// Normal force `F_N`, N.
     pub normal_force: f64,
     /// Tangential displacement u, m.
     pub u: f64,
-    /// Radius c of the stick zone, m; 0 in gross slip.
+    /// Stick radius c, m; 0 in gross slip.
     pub c: f64,
     /// Tangential force `F_x`, N.
     pub tangential_force: f64,
 }
 
-/// What is known of the normal contact. Nothing touches at d ≤ 0 or a force or radius of 0.
+/// Given quantity of the normal contact. The contact is open for d ≤ 0 and for a force or radius of 0.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum NormalGiven {
     /// Indentation d, m.
     Indentation(f64),
-    /// Contact radius a, m, at least 0; for strictly convex profiles only.
+    /// Contact radius a, m, at least 0; only for strictly convex profiles.
     Radius(f64),
     /// Normal force `F_N`, N, at least 0.
     Force(f64),
 }
 
-/// What is known of the tangential contact.
+/// Given quantity of the tangential contact.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum TangentialGiven {
-    /// Displacement u, m; beyond `u_c` the contact slips as a whole.
+    /// Displacement u, m; beyond `u_c` the contact is in gross slip.
     Displacement(f64),
-    /// Radius c of the stick zone, m, between 0 and a, reached by a positive u; for strictly convex profiles
-    /// only. 0 is the onset of gross slip.
+    /// Stick radius c, m, between 0 and a, at positive u; only for strictly convex profiles. The value 0 is the onset of gross slip.
     StickRadius(f64),
-    /// Force `F_x`, N, at most `μF_N` in magnitude.
+    /// Tangential force `F_x`, N, at most `μF_N` in magnitude.
     Force(f64),
 }
 
-/// Why no first loading fits.
+/// Reason why there is no first loading with the given quantities.
 #[derive(Debug, Clone, Copy, PartialEq, Error)]
 pub enum FirstLoadingError {
-    /// The indentation must be finite, m.
+    /// The indentation is not finite, m.
     #[error("expected a finite indentation, got {0} m")]
     Indentation(f64),
-    /// The contact radius must be at least 0 and one that the profile reaches, m.
+    /// The contact radius is below 0 or not reached by the profile, m.
     #[error("expected a contact radius of at least 0 m that the profile reaches, got {0} m")]
     Radius(f64),
-    /// The normal force must be finite and at least 0, N.
+    /// The normal force is below 0 or not finite, N.
     #[error("expected a normal force of at least 0 N, got {0} N")]
     NormalForce(f64),
-    /// The displacement must be finite, m.
+    /// The displacement is not finite, m.
     #[error("expected a finite displacement, got {0} m")]
     Displacement(f64),
-    /// The stick zone must lie inside the contact, m.
+    /// The stick radius is not within the contact, m.
     #[error("expected a stick radius between 0 and the contact radius {a:.4e} m, got {c:e} m")]
     StickRadius {
-        /// Stick radius asked for, m.
+        /// Stick radius given, m.
         c: f64,
         /// Contact radius, m.
         a: f64,
     },
-    /// Friction cannot carry the force, N.
+    /// The tangential force exceeds the friction limit, N.
     #[error("expected a tangential force within the limit of friction ±{limit:.4e} N, got {force:e} N")]
     TangentialForce {
-        /// Force asked for, N.
+        /// Force given, N.
         force: f64,
-        /// `μF_N`, N.
+        /// Friction limit `μF_N`, N.
         limit: f64,
     },
-    /// A sphere ends at its equator, a table at its last point, m.
-    #[error("the indentation {d:.3e} m reaches beyond the profile, which allows {reach:.3e} m")]
+    /// The indentation exceeds the end of the profile: the equator of a sphere or the last point of a table.
+    #[error("the indentation {d:.3e} m exceeds the range of the profile, {reach:.3e} m")]
     BeyondProfile {
         /// Indentation, m.
         d: f64,
-        /// Where the profile ends, m: [`Profile::reach`](crate::Profile::reach).
+        /// Largest indentation of the profile, m: [`Profile::reach`](crate::Profile::reach).
         reach: f64,
     },
-    /// A flat punch, a worn profile or a list of springs keeps one radius over a range of depths.
-    #[error("a radius does not determine the depth of this profile: give a depth or a force")]
+    /// A radius does not determine the indentation of a flat punch, a truncated profile or a list of springs.
+    #[error("a radius does not determine the indentation of this profile: give an indentation or a force")]
     Undetermined,
 }
 
 impl FirstLoading {
-    /// The first loading of an interface with these two quantities.
+    /// Computes the first loading of an interface from two quantities.
     ///
-    /// `F_x` is a difference and carries the rounding error of `μF_N`, u that of `u_c`.
-    // 7e-13 of F_x at 1e-4 u_c, 2e-10 at 1e-6: what a designer asks is not asked that close to nothing. The curve, which runs
-    // through there in every swing, sums thin strips instead.
+    /// `F_x` is a difference and has the rounding error of `μF_N`; u has that of `u_c`.
     ///
     /// # Errors
     ///
-    /// If a quantity is out of its range, or a radius is given that does not determine a depth.
+    /// Fails if a quantity is out of its range, or if a given radius does not determine an indentation.
     pub fn solve(
         law: &Interface,
         normal: NormalGiven,
@@ -127,12 +123,12 @@ impl FirstLoading {
 }
 
 impl NormalGiven {
-    /// The indentation d of an interface with this quantity, m.
+    /// Returns the indentation d of an interface, m.
     ///
     /// # Errors
     ///
-    /// If the quantity is out of its range, a radius that does not determine a depth, or beyond the equator of a sphere or the last point
-    /// of a table.
+    /// Fails if the quantity is out of its range or beyond the end of the profile. Fails also if a given radius does not determine an
+    /// indentation.
     pub fn indentation(self, law: &Interface) -> Result<f64, FirstLoadingError> {
         let d = match self {
             Self::Indentation(d) if d.is_finite() => d,
@@ -152,7 +148,7 @@ impl NormalGiven {
     }
 }
 
-/// An indentation that the profile allows. A sphere stops short of its equator, points are given to be used up to the last.
+/// Checks that an indentation is within the profile. A sphere must stay below its equator; a table may be used up to its last point.
 fn within(law: &Interface, d: f64) -> Result<f64, FirstLoadingError> {
     let profile = law.profile();
     match profile.reach() {
@@ -162,7 +158,7 @@ fn within(law: &Interface, d: f64) -> Result<f64, FirstLoadingError> {
     }
 }
 
-/// g of a radius, where that determines a depth.
+/// Returns the indentation g at a radius, for strictly convex profiles.
 fn depth(law: &Interface, radius: f64) -> Result<f64, FirstLoadingError> {
     let profile = law.profile();
     if profile.is_strictly_convex() {
@@ -172,7 +168,7 @@ fn depth(law: &Interface, radius: f64) -> Result<f64, FirstLoadingError> {
     }
 }
 
-/// The displacement u and the height g(c) below which the springs still stick, 0 in gross slip.
+/// Returns the displacement u and the height g(c) below which springs stick; the height is 0 in gross slip.
 fn slide(law: &Interface, d: f64, a: f64, given: TangentialGiven) -> Result<(f64, f64), FirstLoadingError> {
     let slope = law.stick_slope();
     let depth_in_contact = d.max(0.0);
@@ -183,7 +179,7 @@ fn slide(law: &Interface, d: f64, a: f64, given: TangentialGiven) -> Result<(f64
         TangentialGiven::Displacement(u) => Ok((u, d - u.abs() / slope)),
         TangentialGiven::StickRadius(c) => {
             let core = depth(law, c)?;
-            // A radius that came out of a depth may lie an ulp beyond it.
+            // A radius computed from an indentation may exceed a by one unit in the last place.
             let inside = c >= 0.0 && c <= a * (1.0 + 4.0 * f64::EPSILON);
             if !inside {
                 return Err(FirstLoadingError::StickRadius { c, a });
@@ -193,7 +189,7 @@ fn slide(law: &Interface, d: f64, a: f64, given: TangentialGiven) -> Result<(f64
         }
         TangentialGiven::Force(force) => {
             let limit = law.friction() * law.normal_force(d);
-            // μF_N as people reckon it may lie some last places beyond what its product comes to.
+            // A given μF_N may exceed the computed limit by rounding.
             if force.is_nan() || force.abs() > limit * (1.0 + 4.0 * f64::EPSILON) {
                 return Err(FirstLoadingError::TangentialForce { force, limit });
             }

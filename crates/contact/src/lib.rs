@@ -1,20 +1,22 @@
-//! Frictional contact by the method of dimensionality reduction (MDR): knows no time and no mass.
+//! Frictional contact by the method of dimensionality reduction (MDR), quasi-static: the models contain neither time nor mass.
 //!
-//! A contact is constant data, an [`Interface`] (effective moduli, profile, friction), and a memory of where
-//! it has been. Two engines keep that memory: the exact [`Curve`] and the handbook's [`Row`] of springs. Both
-//! obey one contract: `trial` borrows shared and leaves no trace, memory moves only in `commit`, once per
-//! accepted [`Segment`]. [`Memory`] is either of them, chosen when a model is built; that contract is [`Tangential`], and an
-//! engine whose hysteresis has smooth branches says so by [`Branching`].
+//! The MDR replaces a contact by a row of independent springs. A spring touches when the indentation d exceeds its height h = g(x).
+//! The spring sticks while its stretch u - p is below the friction limit κ(d-h). The rest position p is the displacement at which the
+//! spring carries no tangential force. The function p(h) is the slip memory of the contact.
 //!
-//! In reading order: [`Material`] and [`Pair`]; [`Profile`]; [`Interface`]; [`Move`], [`Segment`] and what
-//! comes back; [`Curve`] with its [`Branch`]es; [`Row`]; [`Engine`]; [`FirstLoading`] for a designer's
-//! questions; [`Fields`] of a moment; [`Words`] of those who keep memories.
+//! A contact consists of constant data, the [`Interface`] (moduli, profile, friction coefficient), and a [`Memory`]. Two engines
+//! implement the memory: [`Curve`] stores p(h) exactly, and [`Row`] stores one rest position per spring. Both engines implement
+//! [`Tangential`]. Trial methods do not change the memory. Only `commit` does, once per accepted [`Segment`]. The trait [`Branching`]
+//! gives access to smooth branches of the hysteresis.
 //!
-//! Forces are those of half-spaces in contact over a small round area, without adhesion, under Coulomb's law at every point;
-//! between elastically similar bodies they are exact, between others as good as the similarity ([`Similarity`]).
+//! Reading order: [`Material`] and [`Pair`]; [`Profile`]; [`Interface`]; [`Move`] and [`Segment`]; [`Curve`] and [`Branch`]; [`Row`];
+//! [`Engine`]; [`FirstLoading`]; [`Fields`]; [`Words`] for serialization.
 //!
-//! Theory: Popov, Heß, Willert, *Handbook of Contact Mechanics* (2019), section 4.4 and chapter 11; equation
-//! numbers are the handbook's. SI units throughout.
+//! Assumptions: half-spaces in contact over a small round area, no adhesion, Coulomb friction at every point. The theory is exact for
+//! elastically similar bodies; [`Similarity`] estimates the error for others.
+//!
+//! Theory: Popov, Heß, Willert, *Handbook of Contact Mechanics* (2019), section 4.4 and chapter 11. Equation numbers are those of the
+//! handbook. All quantities are in SI units.
 
 mod curve;
 mod engine;

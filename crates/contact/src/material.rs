@@ -2,31 +2,31 @@
 
 use thiserror::Error;
 
-/// A linear elastic, isotropic material.
+/// Linear elastic, isotropic material.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Material {
-    /// E, Pa.
+    /// Young's modulus E, Pa.
     youngs_modulus: f64,
-    /// ν.
+    /// Poisson's ratio ν.
     poisson_ratio: f64,
 }
 
-/// Why a material or a pair cannot be built.
+/// Reason why a material or a pair is invalid.
 #[derive(Debug, Clone, Copy, PartialEq, Error)]
 pub enum MaterialError {
-    /// Young's modulus must be positive and finite, Pa.
+    /// Young's modulus is not above 0 or not finite, Pa.
     #[error("expected a Young's modulus above 0 Pa, got {0}")]
     YoungsModulus(f64),
-    /// Poisson's ratio lies in (-1, 0.5].
+    /// Poisson's ratio is not in (-1, 0.5].
     #[error("expected a Poisson's ratio in (-1, 0.5], got {0}")]
     PoissonRatio(f64),
-    /// An effective modulus must be positive and finite, Pa.
+    /// An effective modulus is not above 0 or not finite, Pa.
     #[error("expected an effective modulus above 0 Pa, got {0}")]
     EffectiveModulus(f64),
 }
 
 impl Material {
-    /// A material from Young's modulus E (Pa, above 0) and Poisson's ratio ν in (-1, 0.5].
+    /// Creates a material from Young's modulus E (Pa, above 0) and Poisson's ratio ν in (-1, 0.5].
     pub fn new(youngs_modulus: f64, poisson_ratio: f64) -> Result<Self, MaterialError> {
         if !(youngs_modulus > 0.0 && youngs_modulus.is_finite()) {
             return Err(MaterialError::YoungsModulus(youngs_modulus));
@@ -37,37 +37,35 @@ impl Material {
         Ok(Self { youngs_modulus, poisson_ratio })
     }
 
-    /// Young's modulus E, Pa.
+    /// Returns Young's modulus E, Pa.
     pub fn youngs_modulus(&self) -> f64 {
         self.youngs_modulus
     }
 
-    /// Poisson's ratio ν.
+    /// Returns Poisson's ratio ν.
     pub fn poisson_ratio(&self) -> f64 {
         self.poisson_ratio
     }
 
-    /// Shear modulus G = E/(2(1+ν)), Pa.
+    /// Returns the shear modulus G = E/(2(1+ν)), Pa.
     pub fn shear_modulus(&self) -> f64 {
         self.youngs_modulus / (2.0 * (1.0 + self.poisson_ratio))
     }
 }
 
-/// Effective moduli of two half-spaces in contact (Handbook of Contact Mechanics, eq. 4.13).
-///
-/// 1/E\* = Σ(1-ν²)/E, 1/G\* = Σ(2-ν)/(4G).
+/// Effective moduli of two half-spaces in contact: 1/E\* = Σ(1-ν²)/E, 1/G\* = Σ(2-ν)/(4G) (4.13).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Pair {
-    /// E\*, Pa.
+    /// Effective modulus E\*, Pa.
     normal: f64,
-    /// G\*, Pa.
+    /// Effective shear modulus G\*, Pa.
     tangential: f64,
-    /// Dundurs' β.
+    /// Dundurs' constant β.
     mismatch: f64,
 }
 
 impl Pair {
-    /// The pair of two materials; the order does not matter for the moduli.
+    /// Creates the pair of two materials. Their order affects only the sign of Dundurs' constant.
     pub fn new(first: Material, second: Material) -> Self {
         let normal = |m: Material| (1.0 - m.poisson_ratio.powi(2)) / m.youngs_modulus;
         let tangential = |m: Material| (2.0 - m.poisson_ratio) / (4.0 * m.shear_modulus());
@@ -80,7 +78,7 @@ impl Pair {
         }
     }
 
-    /// A pair given by its effective moduli E\* and G\* (Pa, both above 0); taken as elastically similar.
+    /// Creates a pair from its effective moduli E\* and G\* (Pa, both above 0), as elastically similar bodies.
     pub fn from_moduli(normal: f64, tangential: f64) -> Result<Self, MaterialError> {
         for modulus in [normal, tangential] {
             if !(modulus > 0.0 && modulus.is_finite()) {
@@ -90,18 +88,19 @@ impl Pair {
         Ok(Self { normal, tangential, mismatch: 0.0 })
     }
 
-    /// Effective modulus E\*, Pa.
+    /// Returns the effective modulus E\*, Pa.
     pub fn normal_modulus(&self) -> f64 {
         self.normal
     }
 
-    /// Effective shear modulus G\*, Pa.
+    /// Returns the effective shear modulus G\*, Pa.
     pub fn tangential_modulus(&self) -> f64 {
         self.tangential
     }
 
-    /// Dundurs' constant β = [(1-2ν₁)/G₁ - (1-2ν₂)/G₂] / [2(1-ν₁)/G₁ + 2(1-ν₂)/G₂]; zero for elastically
-    /// similar bodies, for which the theory is exact.
+    /// Returns Dundurs' constant β = [(1-2ν₁)/G₁ - (1-2ν₂)/G₂] / [2(1-ν₁)/G₁ + 2(1-ν₂)/G₂].
+    ///
+    /// β is 0 for elastically similar bodies, for which the theory is exact.
     pub fn dundurs_beta(&self) -> f64 {
         self.mismatch
     }

@@ -1,80 +1,78 @@
-//! Words shared by both engines: where a contact moves, what that would give, what is kept of it.
+//! Motions of a contact, and the forces and states that result from them.
 
 use thiserror::Error;
 
-/// Where a contact stands: the apex of the wedge of admissible anchors.
+/// Indentation and displacement of a contact: the apex (d, u) of the wedge |p-u| ≤ κ(d-h) of possible rest positions.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Apex {
-    /// Indentation d, m; negative while the contact is open, -d is then the gap.
+    /// Indentation d, m; negative for an open contact, where -d is the gap.
     pub d: f64,
     /// Tangential displacement u of the indenter relative to the other body, m.
     pub u: f64,
 }
 
-/// A contact in motion: where it stands and how fast it moves.
+/// Indentation and displacement of a contact with their rates.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Motion {
     /// Indentation d, m.
     pub d: f64,
     /// Tangential displacement u, m.
     pub u: f64,
-    /// ḋ, m/s.
+    /// Rate of the indentation ḋ, m/s.
     pub dd: f64,
-    /// u̇, m/s.
+    /// Rate of the displacement u̇, m/s.
     pub du: f64,
 }
 
 impl Motion {
-    /// Where the contact stands.
+    /// Returns indentation and displacement without the rates.
     #[inline]
     pub fn apex(&self) -> Apex {
         Apex { d: self.d, u: self.u }
     }
 }
 
-/// A move that is only tried, from the committed apex; it leaves no trace.
+/// Trial path from the committed apex; it does not change the memory.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Move {
-    /// Straight in the (d, u) plane.
+    /// Straight path in the (d, u) plane.
     Chord(Apex),
-    /// Grown in full stick along a curved path: its end and the tangential force F_x integrated along it, N.
-    // As a chord it would cost every method its order: an oblique impact in 198 steps of Dopri5 comes out 2.4e-5 off, and 9e-10
-    // in 219 with F_x as a state beside the motion.
+    /// Curved path of growth in full stick: its end and the tangential force F_x integrated along it, N.
+    // A straight approximation of this path would have an error of second order.
     Grown {
         /// End of the path.
         to: Apex,
-        /// F_x at the end, N.
+        /// Tangential force F_x at the end, N.
         force: f64,
     },
 }
 
-/// The accepted path of one step. Committing it is the only thing that moves a contact's memory.
+/// Accepted path of one step. Committing a segment is the only way to change the memory of a contact.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Segment {
-    /// Straight in the (d, u) plane.
+    /// Straight path in the (d, u) plane.
     Straight(Apex),
-    /// Straight and in no time: a jump of a waveform.
+    /// Straight path in zero time: a jump of a waveform.
     Jump(Apex),
-    /// Grown in full stick along a curved path; force and energy at its end as integrated along it.
+    /// Curved path of growth in full stick, with force and energy integrated along it.
     Grown {
         /// End of the path.
         to: Apex,
-        /// F_x at the end, N.
+        /// Tangential force F_x at the end, N.
         force: f64,
         /// Tangential elastic energy at the end, J.
         energy: f64,
-        /// Whether the path goes on smoothly from a segment of growth just before: the knot between the two is then
-        /// no event when it is cut.
+        /// Whether the path continues a growth segment smoothly. The knot between the two is then no event when slip reaches it.
         joins: bool,
     },
 }
 
-/// A path and how long it takes. A law without damping does not ask; a path on its own is one in no hurry, quasi-static.
+/// Path with its duration. Only contacts with damping use the duration.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Timed<P> {
-    /// The path.
+    /// Path.
     pub path: P,
-    /// Δt, s; 0 where rates do not count.
+    /// Duration Δt, s; 0 for a quasi-static path.
     pub duration: f64,
 }
 
@@ -91,7 +89,7 @@ impl From<Segment> for Timed<Segment> {
 }
 
 impl Move {
-    /// Where the move ends.
+    /// Returns the end of the move.
     pub fn end(&self) -> Apex {
         match *self {
             Self::Chord(to) | Self::Grown { to, .. } => to,
@@ -100,7 +98,7 @@ impl Move {
 }
 
 impl Segment {
-    /// The same path with displacements counted from another origin, `by` (m) further back.
+    /// Returns the segment with displacements relative to another origin: all displacements grow by `by` (m).
     #[must_use]
     pub fn shifted(self, by: f64) -> Self {
         let shifted = |to: Apex| Apex { u: to.u + by, ..to };
@@ -111,7 +109,7 @@ impl Segment {
         }
     }
 
-    /// Where the segment ends.
+    /// Returns the end of the segment.
     pub fn end(&self) -> Apex {
         match *self {
             Self::Straight(to) | Self::Jump(to) | Self::Grown { to, .. } => to,
@@ -119,80 +117,80 @@ impl Segment {
     }
 }
 
-/// What a move would give: the tangential force and its tangents.
+/// Tangential force of a move and its derivatives.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Response {
     /// Tangential force F_x, N.
     pub force: f64,
-    /// ∂F_x/∂u at constant d, in the direction of the move, N/m.
+    /// Stiffness ∂F_x/∂u at constant d, in the direction of the move, N/m.
     pub stiffness: f64,
-    /// ∂F_x/∂d at constant u, in the direction of the move, N/m.
+    /// Derivative ∂F_x/∂d at constant u, in the direction of the move, N/m.
     pub coupling: f64,
 }
 
-/// What a move would give, in full.
+/// Forces, energies and state at the end of a move.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Outcome {
     /// Tangential force F_x, N.
     pub force: f64,
     /// Tangential elastic energy, J.
     pub elastic: f64,
-    /// Friction work of the move, J, from the swept pieces; never negative.
+    /// Friction work of the move, J, at least 0.
     pub friction: f64,
-    /// Radius inside which no spring is at its limit, m; 0 in gross slip and while open.
+    /// Stick radius, m: all springs inside stick; 0 in gross slip and for an open contact.
     pub stick_radius: f64,
     /// State of the whole contact.
     pub state: ContactState,
 }
 
-/// State of a whole contact.
+/// State of the whole contact.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Hash)]
 pub enum ContactState {
     /// No spring touches.
     #[default]
     Open,
-    /// Every spring sticks.
+    /// Full stick: every spring sticks.
     Stick,
-    /// Some springs are at their limit.
+    /// Partial slip: some springs are at their friction limit.
     Partial,
-    /// Every spring is at its limit.
+    /// Gross slip: every spring is at its friction limit.
     Slip,
 }
 
-/// State of one spring after the last move that was not zero. Signs are those of its stretch, which the force has, too.
+/// State of one spring after the last move of non-zero length. Directions are those of the spring's stretch and force.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Hash)]
 pub enum SpringState {
-    /// Does not touch.
+    /// The spring does not touch.
     #[default]
     Open,
-    /// Below its limit.
+    /// The spring is below its friction limit.
     Stick,
-    /// At its limit, stretched in the positive direction.
+    /// The spring is at its friction limit, stretched in positive direction.
     SlipForward,
-    /// At its limit, stretched in the negative direction.
+    /// The spring is at its friction limit, stretched in negative direction.
     SlipBackward,
 }
 
-/// A motion that an engine cannot follow.
+/// Motion that an engine cannot follow.
 #[derive(Debug, Clone, Copy, PartialEq, Error)]
 pub enum ContactError {
-    /// The indentation outgrew the span of a row of springs.
-    #[error("the indentation {d:.4e} m outgrew the row of springs, which reaches {reach:e} m")]
+    /// The indentation exceeds the range of a row of springs.
+    #[error("the indentation {d:.4e} m exceeds the range of the row of springs, {reach:e} m")]
     Outgrown {
         /// Indentation, m.
         d: f64,
-        /// Largest indentation the row can follow, m.
+        /// Largest indentation of the row, m.
         reach: f64,
     },
-    /// The indentation went beyond the points that the profile is given by.
-    #[error("the indentation {d:.4e} m went beyond the last point of the profile, which reaches {reach:e} m")]
+    /// The indentation exceeds the last point of the profile.
+    #[error("the indentation {d:.4e} m exceeds the range of the profile, {reach:e} m")]
     Beyond {
         /// Indentation, m.
         d: f64,
-        /// Largest indentation known of, m.
+        /// Largest known indentation, m.
         reach: f64,
     },
-    /// The motion is not a number.
+    /// The indentation or the displacement is not finite.
     #[error("the motion is not finite: d = {d}, u = {u}")]
     NotFinite {
         /// Indentation, m.
@@ -200,10 +198,10 @@ pub enum ContactError {
         /// Displacement, m.
         u: f64,
     },
-    /// What was integrated along a curved path of growth is not a number.
+    /// The force or energy integrated along a growth path is not finite.
     #[error("the integrated motion is not finite: F_x = {force}, energy = {energy}")]
     SumsNotFinite {
-        /// F_x, N.
+        /// Tangential force F_x, N.
         force: f64,
         /// Tangential elastic energy, J.
         energy: f64,

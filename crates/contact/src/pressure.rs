@@ -1,32 +1,31 @@
-//! The largest normal pressure of a contact.
+//! Largest normal pressure of a contact.
 
 use crate::profile::Peak;
 use crate::quadrature::GAUSS;
 use crate::{Interface, Profile};
 use std::f64::consts::PI;
 
-/// Panels of the quadrature over all parts between two borders, drawn together towards both ends of each: the steep profiles are
-/// steepest at the edge, and at a border g' may have a root.
-// 4096 change nothing above 5e-13, up to exponents of 40 000 and spheres pressed to 0.9999 of their radius.
+/// Number of quadrature panels, divided among the parts between profile borders. Panels are shorter towards both ends of a part.
 const PANELS: usize = 64;
-/// Panels of a part at least.
+/// Smallest number of panels of a part.
 const FEWEST: usize = 8;
-/// Panels at least for each unit of v, x = r cosh v, of which there are many close to the middle.
+/// Smallest number of panels per unit of v, with x = r cosh v.
 const PER_UNIT: f64 = 4.0;
-/// Places between middle and edge among which the hill is looked for, drawn together towards the edge.
+/// Number of radii at which the search for the maximum starts, closer together towards the edge.
 const PLACES: u32 = 32;
-/// Most borders beside which it is looked for, too: only tables have more than one.
+/// Largest number of profile borders near which the search has additional radii.
 const MOST: usize = 2;
-/// Sections of the search for the largest pressure beside the highest of the places: each leaves 0.618 of the range.
+/// Number of golden-section steps; each reduces the range to 0.618 of its length.
 const SECTIONS: u32 = 40;
 
 impl Interface {
-    /// Largest normal pressure at indentation d, Pa; 0 while the contact is open.
+    /// Returns the largest normal pressure at indentation d, Pa; 0 for an open contact.
     ///
-    /// p(r) = (E\*/π) ∫ᵣᵃ g'(x)/√(x²-r²) dx, the integral of (4.34). For g ~ xⁿ, 1 < n ≤ 2, it is largest in the middle,
-    /// p = E\*d/(πa) n/(n-1), in Hertz' contact 2E\*d/(πa); for n > 2, sums of powers, rounded edges and tables it is searched for
-    /// between middle and edge (relative error below 1e-9, of a table that of its g' besides). Infinite at the tip of a cone and of anything sharper and at the edge of a flat
-    /// punch; none for a list of springs and a normal law, which have no shape in three dimensions.
+    /// The pressure is p(r) = (E\*/π) ∫ᵣᵃ g'(x)/√(x²-r²) dx, from (4.34). For g ~ xⁿ with 1 < n ≤ 2 the maximum is in the centre: p =
+    /// E\*d/(πa) n/(n-1), for a Hertz contact 2E\*d/(πa). For n > 2, sums of powers, rounded edges and tables the maximum is found
+    /// numerically. The relative error of the maximum is below 1e-9, for tables in addition to that of g'. The pressure is infinite
+    /// at a sharp tip and at the edge of a flat punch. Returns `None` for a list of springs and a normal law, which define no shape
+    /// in three dimensions.
     pub fn peak_pressure(&self, d: f64) -> Option<f64> {
         let profile = self.profile();
         let peak = profile.peak()?;
@@ -42,11 +41,11 @@ impl Interface {
         })
     }
 
-    /// The largest of ∫ᵣᵃ g'(x)/√(x²-r²) dx over r: in the middle, or on the hill beside the highest of some places.
+    /// Returns the maximum of ∫ᵣᵃ g'(x)/√(x²-r²) dx over r, from sampled radii and a golden-section search near the best of them.
     fn largest_slope_integral(&self, a: f64) -> f64 {
         let profile = self.profile();
         let at = |r: f64| slope_integral(profile, a, r);
-        // Some of the places at a border and beside it: an edge that is rounded lifts the pressure there, however far inside it is.
+        // A rounded edge raises the pressure near it, even far inside the contact.
         let beside = |border: &f64| [0.7, 0.95, 1.0, 1.05, 1.3].map(|share| share * border);
         let even = (1..PLACES).map(|k| a * (1.0 - (f64::from(k) / f64::from(PLACES)).powi(4)).sqrt());
         let mut places: Vec<f64> = profile.borders().iter().take(MOST).flat_map(beside).chain(even).collect();
@@ -61,7 +60,7 @@ impl Interface {
     }
 }
 
-/// ∫ᵣᵃ g'(x)/√(x²-r²) dx, in parts between the borders of the profile.
+/// Returns ∫ᵣᵃ g'(x)/√(x²-r²) dx, integrated separately between the borders of the profile.
 fn slope_integral(profile: &Profile, a: f64, r: f64) -> f64 {
     if r == 0.0
         && let Some(middle) = profile.middle_slope_integral(a)
@@ -76,7 +75,7 @@ fn slope_integral(profile: &Profile, a: f64, r: f64) -> f64 {
         if r == 0.0 {
             return graded([from, to], panels, |x| profile.depth_slope(x) / x);
         }
-        // x = r cosh v takes the root away, however small r is.
+        // The substitution x = r cosh v removes the root singularity.
         let angle = |x: f64| math::asinh(((x - r) * (x + r)).sqrt() / r);
         let range = [angle(from), angle(to)];
         let panels = panels.max((PER_UNIT * (range[1] - range[0])).ceil() as usize);
@@ -85,12 +84,12 @@ fn slope_integral(profile: &Profile, a: f64, r: f64) -> f64 {
     ends.windows(2).map(part).sum()
 }
 
-/// ∫f over a range in panels drawn together towards both its ends, by s = y³(10-15y+6y²).
+/// Integrates f over a range in panels that are shorter towards both ends, by s = y³(10-15y+6y²).
 fn graded([from, to]: [f64; 2], panels: usize, f: impl Fn(f64) -> f64) -> f64 {
     let panel = |k: usize| {
         let node = |&(x, weight): &(f64, f64)| {
             let y = (k as f64 + 0.5 * (1.0 + x)) / panels as f64;
-            // From the end that is nearer, so that no digit of the distance is lost.
+            // The distance is taken from the nearer end to avoid cancellation.
             let rest = 1.0 - y;
             let s = |y: f64| y * y * y * (10.0 - y * (15.0 - 6.0 * y));
             let at = if y < 0.5 { from + (to - from) * s(y) } else { to - (to - from) * s(rest) };
@@ -101,7 +100,7 @@ fn graded([from, to]: [f64; 2], panels: usize, f: impl Fn(f64) -> f64) -> f64 {
     (to - from) * (0..panels).map(panel).sum::<f64>() / panels as f64
 }
 
-/// Largest value in a range of a function with one hill in it, by golden sections.
+/// Returns the maximum of a function with one maximum in a range, by golden-section search.
 fn largest([mut from, mut to]: [f64; 2], f: impl Fn(f64) -> f64) -> f64 {
     const GOLDEN: f64 = 0.618_033_988_749_894_9;
     let (mut left, mut right) = (to - GOLDEN * (to - from), from + GOLDEN * (to - from));
@@ -149,7 +148,7 @@ mod tests {
         );
     }
 
-    /// p(0)π/E\* of g = xⁿ + x²/1000 pressed to a = 1, and of the largest p.
+    /// Compares the central and the largest pressure, times π/E\*, with closed forms for sums of powers at a = 1.
     #[test]
     fn sums_of_powers_have_theirs() {
         let law = |terms: &[(f64, f64)]| {
@@ -162,12 +161,12 @@ mod tests {
             law.peak_pressure(law.profile().depth(1.0)).unwrap()
         };
         let close = |got: f64, want: f64| assert!((got / want - 1.0).abs() < 1e-9, "{got}, {want}");
-        // Σ n/(n-1) B aⁿ⁻¹: largest in the middle, where no exponent is above 2.
+        // If no exponent is above 2, the maximum is in the centre: Σ n/(n-1) B aⁿ⁻¹.
         for n in [1.01, 1.2, 1.5, 1.9, 2.0] {
             close(peak(&[(1.0, n), (1e-3, 2.0)]), n / (n - 1.0) + 2e-3);
         }
         close(peak(&[(1.0, 1.2), (1.0, 1.5), (1.0, 2.0)]), 11.0);
-        // x² and x⁶: √(1-t) [2 + 6((1-t)²/5 + 2t(1-t)/3 + t²)], t = r². A hill of its own beside one in the middle.
+        // x² and x⁶: √(1-t) [2 + 6((1-t)²/5 + 2t(1-t)/3 + t²)], t = r². There may be a second maximum outside the centre.
         let of_six = |t: f64| 6.0 * ((1.0 - t) * (1.0 - t) / 5.0 + 2.0 * t * (1.0 - t) / 3.0 + t * t);
         for six in [0.05, 0.3, 1.0, 10.0] {
             let at = |k: u32| {
@@ -176,7 +175,7 @@ mod tests {
             };
             close(peak(&[(1.0, 2.0), (six, 6.0)]), (0..1_000_000).map(at).fold(0.0, f64::max));
         }
-        // In the middle x^1.2 alone has its cusp of 6, the hill of 10x⁶ outside is higher or not.
+        // The term x^1.2 has its maximum of 6 in the centre; the term 10x⁶ has one outside.
         let six = (0..1_000_000)
             .map(|k| f64::from(k) / 1e6)
             .map(|t| (1.0 - t).sqrt() * of_six(t))
@@ -187,7 +186,7 @@ mod tests {
         assert_eq!(peak(&[(1e-6, 1.0), (1.0, 2.0)]), f64::INFINITY);
     }
 
-    /// The largest value of a function on [0, 1] with one hill, by looking closer and closer.
+    /// Returns the maximum of a function on [0, 1] with one maximum, by repeated sampling.
     fn highest(f: impl Fn(f64) -> f64) -> f64 {
         let (mut from, mut to) = (0.0, 1.0);
         for _ in 0..5 {
@@ -200,8 +199,8 @@ mod tests {
 
     #[test]
     fn a_rounded_edge_has_its_own() {
-        // R = 1: g' = 2w - b arctan(w/b), w² = x²-b²; beyond r by x² = r²+s², inside b by x² = b²+s², each with Simpson's rule
-        // over s = z³(10-15z+6z²), which makes the root at b smooth.
+        // R = 1: g' = 2w - b arctan(w/b), w² = x²-b². The substitution is x² = r²+s² beyond b and x² = b²+s² inside. Simpson's rule
+        // uses s = z³(10-15z+6z²), which is smooth at b.
         let b = 0.1_f64;
         for a in [0.101, 0.12, 0.2, 1.0, 5.0] {
             let pressure = |share: f64| {
@@ -239,7 +238,7 @@ mod tests {
             let ratio = peak(profile, 7e-6);
             assert!((ratio - 2.0).abs() < 1e-9, "{cells}: {ratio}");
         }
-        // A kink that is none, and a profile that cubics do not follow.
+        // A kink without a change of slope, and a profile that is no cubic.
         let kink = 4e-4 * 30.0 / 60.0;
         assert!((peak(table(60, 4e-4, |r| r * r / 0.01, &[kink]), 7e-6) - 2.0).abs() < 1e-9);
         let sphere = peak(Profile::sphere(1.0).unwrap(), 0.1);
@@ -248,7 +247,7 @@ mod tests {
             let within = 0.1 / f64::from(cells * cells);
             assert!((ratio / sphere - 1.0).abs() < within, "{cells}: {ratio}, {sphere}");
         }
-        // A tip is one, and an edge.
+        // Tables with a tip and with an edge.
         assert_eq!(peak(table(60, 1.0, |r| r, &[]), 0.1), f64::INFINITY);
         assert_eq!(peak(table(60, 1.0, |r| 1e-3 * r + r * r, &[]), 0.1), f64::INFINITY);
         assert_eq!(peak(table(10, 1.0, |r| (r - 0.3).max(0.0), &[0.3]), 0.1), f64::INFINITY);
@@ -256,12 +255,12 @@ mod tests {
 
     #[test]
     fn a_shallow_sphere_is_a_paraboloid_and_a_deep_one_is_not() {
-        // a/R = 1e-2; p differs by (a/R)² in order of magnitude.
+        // At a/R = 1e-2 the pressures differ by the order (a/R)².
         let law = |profile| Interface::new(Pair::from_moduli(3.0, 2.0).unwrap(), profile, 0.3).unwrap();
         let sphere = law(Profile::sphere(1.0).unwrap()).peak_pressure(1e-4).unwrap();
         let paraboloid = law(Profile::paraboloid(1.0).unwrap()).peak_pressure(1e-4).unwrap();
         assert!((sphere / paraboloid - 1.0).abs() < 1e-4 && sphere > paraboloid, "{sphere}, {paraboloid}");
-        // In the middle p = (E*/π)∫₀ᵃ g'/x dx with g'/x = [atanh(x/R) + (x/R)/(1-x²/R²)]/x, summed by midpoints.
+        // Pressure in the centre: p = (E*/π)∫₀ᵃ g'/x dx with g'/x = [atanh(x/R) + (x/R)/(1-x²/R²)]/x, by the midpoint rule.
         let a: f64 = 0.5;
         let n = 200_000;
         let slope = |x: f64| (x.atanh() + x / (1.0 - x * x)) / x;

@@ -1,4 +1,4 @@
-//! Profiles of the gap, as what the foundation makes of them: three functions of one number.
+//! Profiles of the gap between two bodies, and the functions m, M and N of their MDR foundation.
 
 mod angle;
 mod chart;
@@ -44,19 +44,18 @@ use tipped_paraboloid::TippedParaboloid;
 use truncated_cone::TruncatedCone;
 use truncated_paraboloid::TruncatedParaboloid;
 
-/// The profile of the gap between two bodies. Constant.
+/// Profile of the gap between two bodies. Constant.
 ///
-/// A profile f(r) is used through its one-dimensional equivalent g(x) (4.20): springs side by side, the spring
-/// at x touching once the indentation h exceeds g(x). For forces all that counts is how much length lies below
-/// a height. Normal stiffness, force and energy over E\* are all that a contact asks for: m(h) = [`Self::reduced_stiffness`],
-/// M(h) = ∫₀ʰ m = [`Self::reduced_force`] and N(h) = ∫₀ʰ M = [`Self::reduced_energy`]. The three are 0 for h ≤ 0.
+/// The MDR replaces a profile f(r) by the one-dimensional profile g(x) (4.20), a row of springs. The spring at x touches when the
+/// indentation h exceeds g(x). Forces depend only on the length of the row below a height. A contact therefore needs three functions:
+/// the normal stiffness, force and energy over E\*. These are m(h) = [`Self::reduced_stiffness`], M(h) = ∫₀ʰ m =
+/// [`Self::reduced_force`] and N(h) = ∫₀ʰ M = [`Self::reduced_energy`]. All three are 0 for h ≤ 0.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Profile {
     shape: Shape,
 }
 
-/// The kinds of profiles, each in the file of its name with what makes one: an enum, so that an evaluation is a jump and can
-/// be inlined, and a contact cloned and compared.
+/// Kinds of profiles. An enum allows inlining, cloning and comparison.
 #[derive(Debug, Clone, PartialEq)]
 enum Shape {
     Flat(Flat),
@@ -68,14 +67,13 @@ enum Shape {
     RoundedFlat(RoundedFlat),
     TippedParaboloid(TippedParaboloid),
     Powers(Powers),
-    /// A table of points or a normal law; shared by all contacts that are clones of one.
+    /// Table of points or normal law, shared by all clones of a contact.
     Chart(Arc<Chart>),
-    /// A long list of springs.
+    /// Long list of springs.
     Rough(Arc<Rough>),
 }
 
-/// What a kind of profile answers. A match and no table of functions behind a pointer: the compiler sees through it, and
-/// power laws, of which nearly all contacts are, cost no call.
+/// Calls a method of the kind of profile. A `match` allows the compiler to inline power laws.
 macro_rules! of_kind {
     ($profile:expr, $kind:ident => $answer:expr) => {
         match &$profile.shape {
@@ -95,8 +93,9 @@ macro_rules! of_kind {
 }
 
 impl Profile {
-    /// m(h), m: the normal stiffness over E\*, which is the total length of the foundation with g < h; 2a(h) for a
-    /// convex profile.
+    /// Returns the reduced stiffness m(h), m: the normal stiffness over E\*.
+    ///
+    /// m(h) is the total length of the foundation with g < h; for a convex profile 2a(h).
     #[inline(always)]
     pub fn reduced_stiffness(&self, h: f64) -> f64 {
         match &self.shape {
@@ -105,7 +104,7 @@ impl Profile {
         }
     }
 
-    /// As [`Self::other_reduced_force`].
+    /// Returns m(h) of profiles that are no power laws.
     #[inline(never)]
     fn other_reduced_stiffness(&self, h: f64) -> f64 {
         if h.is_nan() || h <= 0.0 {
@@ -114,7 +113,7 @@ impl Profile {
         of_kind!(self, kind => kind.reduced_stiffness(h))
     }
 
-    /// M(h) = ∫₀ʰ m, m²: the normal force over E\* (4.26).
+    /// Returns the reduced force M(h) = ∫₀ʰ m, m²: the normal force over E\* (4.26).
     #[inline(always)]
     pub fn reduced_force(&self, h: f64) -> f64 {
         match &self.shape {
@@ -123,7 +122,7 @@ impl Profile {
         }
     }
 
-    /// The profiles that are no power laws, kept out of the way of those that are.
+    /// Returns M(h) of profiles that are no power laws. A separate function keeps the code of power laws short.
     #[inline(never)]
     fn other_reduced_force(&self, h: f64) -> f64 {
         if h.is_nan() || h <= 0.0 {
@@ -132,7 +131,7 @@ impl Profile {
         of_kind!(self, kind => kind.reduced_force(h))
     }
 
-    /// M(h) (m²) and m(h) (m): of a power law one root serves both.
+    /// Returns M(h) (m²) and m(h) (m). For a power law both need only one root.
     #[inline(always)]
     pub(crate) fn reduced_force_and_stiffness(&self, h: f64) -> [f64; 2] {
         match &self.shape {
@@ -141,7 +140,7 @@ impl Profile {
         }
     }
 
-    /// N(h) = ∫₀ʰ M, m³: the normal elastic energy over E\*.
+    /// Returns the reduced energy N(h) = ∫₀ʰ M, m³: the normal elastic energy over E\*.
     #[inline]
     pub fn reduced_energy(&self, h: f64) -> f64 {
         if h.is_nan() || h <= 0.0 {
@@ -150,7 +149,7 @@ impl Profile {
         of_kind!(self, kind => kind.reduced_energy(h))
     }
 
-    /// M(h) (m²) and N(h) (m³): of a power law one root serves both.
+    /// Returns M(h) (m²) and N(h) (m³). For a power law both need only one root.
     #[inline]
     pub(crate) fn reduced_sums(&self, h: f64) -> [f64; 2] {
         match &self.shape {
@@ -159,17 +158,17 @@ impl Profile {
         }
     }
 
-    /// a(h) = m(h)/2, m: the contact radius; for a foundation given spring by spring half the length in contact.
+    /// Returns the contact radius a(h) = m(h)/2, m; for a list of springs half the length in contact.
     #[inline]
     pub fn radius(&self, h: f64) -> f64 {
         0.5 * self.reduced_stiffness(h)
     }
 
-    /// g(a), m: the indentation at which the contact radius is a; 0 for a ≤ 0, infinite where no indentation
-    /// reaches (beyond a flat punch's or a sphere's radius, beyond the springs of a list or the points of a table).
+    /// Returns g(a), m: the indentation at which the contact radius is a; 0 for a ≤ 0.
     ///
-    /// A flat punch and a list of springs take one radius over a whole range of h: this is its lower end. So do radii inside
-    /// the flat of a worn profile, which all touch at once.
+    /// The result is infinite where no indentation reaches the radius: beyond a flat punch, a sphere, a list of springs or a table.
+    /// Flat punches, lists of springs and truncated profiles have one radius for a range of h; the result is its lower end. For a
+    /// radius inside a flat the result is 0.
     #[inline]
     pub fn depth(&self, a: f64) -> f64 {
         if a.is_nan() || a <= 0.0 {
@@ -178,8 +177,7 @@ impl Profile {
         of_kind!(self, kind => kind.depth(a))
     }
 
-    /// dg/da at a > 0: what the indentation gains per contact radius; 0 where that is not defined, see
-    /// [`Self::is_strictly_convex`].
+    /// Returns dg/da at a > 0; 0 where it is not defined, see [`Self::is_strictly_convex`].
     pub fn depth_slope(&self, a: f64) -> f64 {
         if a.is_nan() || a <= 0.0 {
             return 0.0;
@@ -187,11 +185,10 @@ impl Profile {
         of_kind!(self, kind => kind.depth_slope(a))
     }
 
-    /// f(r), m: the gap at the distance r ≥ 0 (m) from the axis before anything is pressed; none beyond a flat punch, a
-    /// sphere or the last point of a table, and for a foundation given spring by spring or by its normal law, which no
-    /// axisymmetric gap need belong to.
+    /// Returns the gap f(r) of the undeformed bodies, m, at the distance r ≥ 0 (m) from the axis.
     ///
-    /// Of a power law f = g/`κ_n` (4.20): r²/2R for the paraboloid.
+    /// Returns `None` beyond a flat punch, a sphere or the last point of a table, and for a list of springs and a normal law. For a
+    /// power law f = g/`κ_n` (4.20), so r²/2R for the paraboloid.
     pub fn gap(&self, r: f64) -> Option<f64> {
         if r.is_nan() || r < 0.0 {
             return None;
@@ -199,30 +196,32 @@ impl Profile {
         of_kind!(self, kind => kind.gap(r))
     }
 
-    /// Places x > 0, m, ascending, at which g or a derivative of g is not smooth: where a quadrature over g is to be parted.
+    /// Returns the positions x > 0, m, ascending, at which g or a derivative of g is not smooth. A quadrature over g must be split
+    /// there.
     pub fn borders(&self) -> &[f64] {
         of_kind!(self, kind => kind.borders())
     }
 
-    /// Where the normal pressure is largest; none for a list of springs and a normal law, which have no shape in three
+    /// Returns where the normal pressure is largest; `None` for a list of springs and a normal law, which define no shape in three
     /// dimensions.
     pub(crate) fn peak(&self) -> Option<Peak> {
         of_kind!(self, kind => kind.peak())
     }
 
-    /// ∫₀ᵃ g'/x dx, dimensionless: the pressure in the middle times π/E\*, where there is a closed form.
+    /// Returns ∫₀ᵃ g'/x dx, dimensionless, if there is a closed form: the pressure in the centre times π/E\*.
     pub(crate) fn middle_slope_integral(&self, a: f64) -> Option<f64> {
         of_kind!(self, kind => kind.middle_slope_integral(a))
     }
 
-    /// Height at which the length m (m) is reached, m: g(m/2), with the conventions of [`Self::depth`].
+    /// Returns the height at which the reduced stiffness m (m) is reached, m: g(m/2); see [`Self::depth`].
     pub fn height_of_reduced_stiffness(&self, m: f64) -> f64 {
         self.depth(0.5 * m)
     }
 
-    /// Height at which M (m²) is reached, m: the inverse of [`Self::reduced_force`]. For M ≤ 0 the height of first touch: 0, or
-    /// that of the lowest spring of a list.
-    // Not 0 of a list whose springs begin higher: a load that fades would then end with a jump of the depth, in no time.
+    /// Returns the height at which the reduced force M (m²) is reached, m: the inverse of [`Self::reduced_force`].
+    ///
+    /// For M ≤ 0 this is the height of first touch: 0, or that of the lowest spring of a list.
+    // The height of first touch avoids a jump of the indentation when a load approaches 0.
     pub fn height_of_reduced_force(&self, force: f64) -> f64 {
         if force.is_nan() || force <= 0.0 {
             return of_kind!(self, kind => kind.lowest());
@@ -230,26 +229,25 @@ impl Profile {
         of_kind!(self, kind => kind.height_of_reduced_force(force))
     }
 
-    /// Exponent n of a power law, a sum of powers of one term included; none for every other profile, the flat punch (its limit
-    /// n → ∞) among them.
+    /// Returns the exponent n of a power law, including a sum of powers with one term; `None` for other profiles and the flat punch.
     pub fn exponent(&self) -> Option<f64> {
         of_kind!(self, kind => kind.exponent())
     }
 
-    /// Largest height for which the profile stands, m; none if there is no limit.
+    /// Returns the largest height of the profile, m; `None` if there is no limit.
     ///
-    /// A sphere ends where a → R: its height is limited to g(0.999R) = 3.796R, beyond which its functions
-    /// still return finite numbers. A table and a normal law end at their last point.
+    /// A sphere is limited to g(0.999R) = 3.796R, beyond which its functions still return finite numbers. A table and a normal law
+    /// end at their last point.
     pub fn reach(&self) -> Option<f64> {
         of_kind!(self, kind => kind.reach())
     }
 
-    /// Whether it ends at the last of the points that it is given by, beyond which nothing is known of it.
+    /// Returns whether the profile ends at its last point, beyond which it is unknown.
     pub fn ends_at_a_point(&self) -> bool {
         matches!(self.shape, Shape::Chart(_))
     }
 
-    /// Fails where an indentation lies beyond the last of the points that it is given by.
+    /// Fails if an indentation is beyond the last point of the profile.
     #[inline]
     pub(crate) fn check_end(&self, d: f64) -> Result<(), ContactError> {
         match &self.shape {
@@ -258,40 +256,38 @@ impl Profile {
         }
     }
 
-    /// Whether the stiffness jumps as the indentation grows: a list of springs does at each of them, a normal law
-    /// where two straight stretches of it meet.
-    // Methods of high order see such kinks late: runs with lists came out 20 to 1000 times their tolerance off before anybody
-    // asked for this.
+    /// Returns whether the stiffness jumps while the indentation grows.
+    ///
+    /// A list of springs has a jump at each spring. A normal law has one where two straight parts meet.
+    // Integrators of high order would otherwise exceed their tolerance at such kinks.
     pub fn has_kinks(&self) -> bool {
         of_kind!(self, kind => kind.has_kinks())
     }
 
-    /// Whether the stiffness bends, or its slope has a root, at an indentation above 0: that of a normal law does at its points, that of a
-    /// tipped paraboloid where its cone ends.
+    /// Returns whether the stiffness has a kink, or its derivative a square-root singularity, at an indentation above 0.
     ///
-    /// What moves the indentation, and what asks for the stiffness itself, passes them.
+    /// A normal law has kinks at its points. A tipped paraboloid has a singularity where its cone ends.
     pub fn has_bends(&self) -> bool {
         of_kind!(self, kind => kind.has_bends())
     }
 
-    /// Power p of h with which the force begins, M ∝ hᵖ for h → 0: 1 + 1/n of a power law, 3/2 of a paraboloid, 2 of a cone;
-    /// 1 where a width touches at once, as of a flat punch, a worn profile and a list of springs.
+    /// Returns the exponent p of the force at small indentations, M ∝ hᵖ for h → 0.
     ///
-    /// A motion that touches with a speed is smooth in time where p is whole.
+    /// The exponent is 1 + 1/n for a power law: 3/2 for a paraboloid, 2 for a cone. For flat punches, truncated profiles and lists of
+    /// springs it is 1. A motion that touches with a non-zero velocity is smooth in time if p is an integer.
     pub fn first_power(&self) -> f64 {
         of_kind!(self, kind => kind.first_power())
     }
 
-    /// Whether each contact radius belongs to one indentation only.
+    /// Returns whether each contact radius belongs to exactly one indentation.
     pub fn is_strictly_convex(&self) -> bool {
         of_kind!(self, kind => kind.is_strictly_convex())
     }
 
-    /// ∫ w m dh over a thin strip of heights (its width well below its height) with w straight between its values
-    /// at the ends: no difference of M or N, so no cancellation.
+    /// Returns ∫ w m dh over a thin strip of heights, with w linear between its values at the ends.
     ///
-    /// Five nodes of Gauss and Legendre where m is smooth: for a width of 1/16 of the height they miss less than
-    /// 1e-18 of it.
+    /// The integral avoids the cancellation in differences of M or N. Where m is smooth, a five-point Gauss–Legendre rule has a
+    /// relative error below 1e-18 for a width of 1/16 of the height.
     pub(crate) fn moment(&self, [from, to]: [f64; 2], [low, high]: [f64; 2]) -> f64 {
         let width = to - from;
         let straight = [low, (high - low) / width];
@@ -301,7 +297,7 @@ impl Profile {
             Shape::Chart(chart) => return chart.moment([from, to], straight),
             _ => {}
         }
-        // Beyond a border m begins with a root: as a function of the root it is smooth.
+        // Above a border m begins with a square root, so the root is the variable of integration.
         if let Some(border) = self.borders().iter().map(|b| self.depth(*b)).find(|b| *b > 0.0 && *b < to) {
             let beyond = from.max(border);
             let density = |h: f64| (low + straight[1] * (h - from)) * self.reduced_stiffness(h);
@@ -316,20 +312,20 @@ impl Profile {
         width * GAUSS.iter().map(node).sum::<f64>()
     }
 
-    /// Radius of a flat punch, m; none for every other profile.
+    /// Returns the radius of a flat punch, m; `None` for other profiles.
     pub(crate) fn punch(&self) -> Option<f64> {
         of_kind!(self, kind => kind.punch())
     }
 
-    /// Whether it has a shape in three dimensions, and so a gap, a pressure and fields: all but lists of springs and normal laws, of
-    /// which nothing but the forces is known.
-    // A normal law has a foundation, and Abel's inversion makes of it the one axisymmetric shape that it could belong to. No one has
-    // said that the contact is axisymmetric.
+    /// Returns whether the profile defines a shape in three dimensions, and therefore a gap, a pressure and fields.
+    ///
+    /// All profiles have a shape except lists of springs and normal laws, which define only forces.
+    // A normal law alone does not state that the contact is axisymmetric.
     pub fn has_shape(&self) -> bool {
         self.peak().is_some()
     }
 
-    /// The foundation, where it is given spring by spring.
+    /// Returns the list of springs, if the profile is one.
     pub(crate) fn as_foundation(&self) -> Option<&Foundation> {
         of_kind!(self, kind => kind.as_foundation())
     }

@@ -1,9 +1,8 @@
 //! Numerical quadrature.
 
-/// Five nodes of Gauss and Legendre on [-1, 1] and half their weights, exact for polynomials up to degree 9: the mean of
-/// a function is the weighted sum of its values.
-// √h over a strip of 1/16 of its height: three nodes are 5e-13 off, four and five as little as rounding; over a quarter of it
-// four are 1.4e-11 off and five 5e-14.
+/// Five-point Gauss–Legendre rule on [-1, 1]: nodes and half of their weights. The weighted sum is the mean of the function.
+///
+/// The rule is exact for polynomials up to degree 9.
 pub(crate) const GAUSS: [(f64, f64); 5] = [
     (-0.906_179_845_938_664, 0.118_463_442_528_094_54),
     (-0.538_469_310_105_683_1, 0.239_314_335_249_683_24),
@@ -12,15 +11,14 @@ pub(crate) const GAUSS: [(f64, f64); 5] = [
     (0.906_179_845_938_664, 0.118_463_442_528_094_54),
 ];
 
-/// ∫f over a range by the five nodes.
+/// Integrates f over a range with the five-point Gauss–Legendre rule.
 pub(crate) fn gauss([from, to]: [f64; 2], f: impl Fn(f64) -> f64) -> f64 {
     let (middle, half) = (0.5 * (from + to), 0.5 * (to - from));
     (to - from) * GAUSS.iter().map(|(x, weight)| weight * f(middle + half * x)).sum::<f64>()
 }
 
-/// Nodes of the rule of Kronrod with fifteen points on [0, 1) (the others are their mirror images), their weights, and those of
-/// Gauss' rule with seven, which takes every second node.
-// QUADPACK's QK15 (Piessens et al. 1983).
+/// Gauss–Kronrod rule with 15 points: nodes on [0, 1), their Kronrod weights and their weights in the 7-point Gauss rule.
+// QUADPACK's QK15 (Piessens et al. 1983). The negative nodes are mirror images.
 const KRONROD: [(f64, f64, f64); 8] = [
     (0.991_455_371_120_812_6, 0.022_935_322_010_529_224, 0.0),
     (0.949_107_912_342_758_5, 0.063_092_092_629_978_55, 0.129_484_966_168_869_7),
@@ -32,8 +30,9 @@ const KRONROD: [(f64, f64, f64); 8] = [
     (0.0, 0.209_482_141_084_727_83, 0.417_959_183_673_469_4),
 ];
 
-/// ∫f over a range by Kronrod's fifteen points, and how far Gauss' seven among them are off: an estimate of the error that is
-/// far too large where f is smooth.
+/// Integrates f over a range with the 15-point Gauss–Kronrod rule. Returns the integral and its difference to the 7-point Gauss rule.
+///
+/// For a smooth f the difference is much larger than the error.
 pub(crate) fn kronrod([from, to]: [f64; 2], f: impl Fn(f64) -> f64) -> (f64, f64) {
     let (middle, half) = (0.5 * (from + to), 0.5 * (to - from));
     let (mut fine, mut coarse) = (0.0, 0.0);
@@ -45,7 +44,7 @@ pub(crate) fn kronrod([from, to]: [f64; 2], f: impl Fn(f64) -> f64) -> (f64, f64
     (half * fine, (half * (fine - coarse)).abs())
 }
 
-/// Twelve nodes on [-1, 1] and half their weights, exact up to degree 23.
+/// Twelve-point Gauss–Legendre rule on [-1, 1]: nodes and half of their weights, exact up to degree 23.
 pub(crate) const GAUSS_12: [(f64, f64); 12] = [
     (-0.981_560_634_246_719_2, 0.023_587_668_193_255_914),
     (-0.904_117_256_370_474_9, 0.053_469_662_997_659_21),

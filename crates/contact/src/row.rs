@@ -1,11 +1,10 @@
-//! The row of springs: the handbook's algorithm (chapter 11), exact along straight chords.
+//! Row of springs: the algorithm of the handbook (chapter 11), exact along straight paths in (d, u).
 //!
-//! A spring at height h touches while h < d and carries G\* times its length and stretch, with the stretch
-//! clamped to ±κ(d-h) (4.22). Kept per spring is its anchor p, where it would be unstretched: while it sticks
-//! nothing changes, so nothing drifts, however many steps there are. The handbook keeps stretches and adds Δu to each of them
-//! in every step.
+//! A spring of height h touches while h < d. The tangential force is G\* times length and stretch; the stretch is limited to ±κ(d-h)
+//! (4.22). The state contains one rest position p per spring. While a spring sticks, its rest position does not change, so rounding
+//! errors do not accumulate. The handbook instead stores stretches and adds Δu in every step.
 //!
-//! The row shares no formula of forces with the [`Curve`](crate::Curve): each is the other's test.
+//! The row has no force formula in common with [`Curve`](crate::Curve), so that each engine is a test of the other.
 
 mod chord;
 mod lanes;
@@ -19,27 +18,25 @@ pub use springs::{Springs, SpringsError};
 use crate::{Apex, ContactError, ContactState, Interface, Move, Outcome, Response, Segment, SpringState};
 use chord::Chord;
 
-/// The state of a row of springs: all that its future depends on.
-///
-/// Every method wants the [`Springs`] the row was made for and the interface it belongs to.
+/// State of a row of springs. All methods need the same [`Springs`] and interface with which the row was created.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Row {
     apex: Apex,
-    /// Anchor of each distinct spring by ascending height, m; 0 while it does not touch.
+    /// Rest position of each distinct spring in order of height, m; 0 for springs out of contact.
     anchors: Vec<f64>,
-    /// Number of distinct springs that touch: the lowest ones.
+    /// Number of distinct springs in contact; these are the lowest ones.
     touching: usize,
-    /// Whether u fell in the last move in which it changed. Tells the sign of slip where the limit is 0.
+    /// Whether u decreased in the last move in which it changed. The flag gives the sign of slip where the friction limit is 0.
     backward: bool,
 }
 
 impl Row {
-    /// An untouched row at d = 0, u = 0.
+    /// Creates an untouched row at d = 0, u = 0.
     pub fn new(springs: &Springs) -> Self {
         Self::at(springs, Apex::default())
     }
 
-    /// A row at an apex, springs unstretched.
+    /// Creates a row with unstretched springs at an apex.
     pub fn at(springs: &Springs, apex: Apex) -> Self {
         let touching = springs.below(apex.d);
         let mut anchors = vec![0.0; springs.heights().len()];
@@ -47,33 +44,31 @@ impl Row {
         Self { apex, anchors, touching, backward: false }
     }
 
-    /// Becomes the copy of another row of as many springs, in the room there is.
+    /// Copies another row with the same number of springs into this one and reuses the allocated space.
     pub(crate) fn copy(&mut self, from: &Self) {
         let Self { apex, anchors, touching, backward } = from;
         self.anchors.clone_from(anchors);
         (self.apex, self.touching, self.backward) = (*apex, *touching, *backward);
     }
 
-    /// Where the row stands.
+    /// Returns the current indentation and displacement.
     pub fn apex(&self) -> Apex {
         self.apex
     }
 
-    /// Counts displacements from another origin, `by` further back: u and anchors grow by as much. Nothing else changes.
+    /// Moves the origin of displacements: u and all rest positions grow by `by` (m).
     pub fn shift(&mut self, by: f64) {
         self.apex.u += by;
         self.anchors[..self.touching].iter_mut().for_each(|anchor| *anchor += by);
     }
 
-    /// Number of distinct springs that touch once the indentation is d.
+    /// Returns the number of distinct springs in contact at the indentation d.
     #[inline]
     fn touching_at(&self, springs: &Springs, d: f64) -> usize {
         if d == self.apex.d { self.touching } else { springs.below_near(d, self.touching) }
     }
 
-    /// `F_x` at the end of a chord, N: the cheapest question.
-    // 19 ns by a row of 64 springs, 2.5e-4 of the limit force off on the way back from 0.7 u_c; 205 ns and 1e-6 by one of 1024,
-    // whose friction work is 1e-5 off. The exact curve takes 26.
+    /// Returns the tangential force `F_x` at the end of a straight path, N.
     #[inline]
     pub fn force(&self, springs: &Springs, law: &Interface, to: Apex) -> f64 {
         let slope = law.stick_slope();
@@ -87,10 +82,10 @@ impl Row {
         law.tangential_modulus() * sum
     }
 
-    /// `F_x` at the end of a move and its tangents there: ∂F/∂u = G\* times the length that sticks,
-    /// ∂F/∂d = G\*κ times the length that slips forward less the length that slips backward.
+    /// Returns the tangential force `F_x` at the end of a move and its derivatives.
     ///
-    /// A row has no use for an integrated force: growth along a curved path is taken as the chord to its end.
+    /// ∂F/∂u is G\* times the length that sticks. ∂F/∂d is G\*κ times the difference of the lengths that slip forward and backward. A
+    /// growth path is treated as the straight path to its end.
     pub fn trial(&self, springs: &Springs, law: &Interface, to: Move) -> Response {
         let (to, slope) = (to.end(), law.stick_slope());
         let after = self.touching_at(springs, to.d);
@@ -115,7 +110,7 @@ impl Row {
         }
     }
 
-    /// Everything that a move would give, its friction work included. Costs several trials.
+    /// Returns force, energies and state at the end of a move, including the friction work.
     pub fn preview(&self, springs: &Springs, law: &Interface, to: Move) -> Outcome {
         let chord = Chord::new(self.apex, to.end(), law.stick_slope());
         let after = self.touching_at(springs, chord.to.d);
@@ -144,12 +139,14 @@ impl Row {
         }
     }
 
-    /// Accepts a segment and returns its friction work, J, at least 0. Every kind of segment is taken as the
-    /// chord to its end: a row under a growing load wants steps that leave its path no bend.
+    /// Commits a segment and returns its friction work, J, at least 0.
+    ///
+    /// Every segment is treated as the straight path to its end. Under a growing load the steps must therefore be short enough to
+    /// resolve a curved path.
     ///
     /// # Errors
     ///
-    /// If the end is not finite, outgrows the row or lies beyond the points of its profile; the state is then untouched.
+    /// Fails if the end is not finite, or exceeds the range of the row or the last point of its profile. The state is then unchanged.
     pub fn commit(
         &mut self,
         springs: &Springs,
@@ -164,7 +161,7 @@ impl Row {
         if to.d > springs.reach() {
             return Err(ContactError::Outgrown { d: to.d, reach: springs.reach() });
         }
-        // All that can fail has been asked: from here on the row moves, and moves whole.
+        // All errors have been checked; the commit cannot fail from here on.
         let chord = Chord::new(self.apex, to, law.stick_slope());
         let (before, after) = (self.touching, self.touching_at(springs, to.d));
         let mut work = chord.leaving_work(springs, &self.anchors, after, before);
@@ -181,11 +178,11 @@ impl Row {
             self.backward = to.u < self.apex.u;
         }
         (self.apex, self.touching) = (to, after);
-        // No term is below zero but for its rounding: work is never taken back.
+        // Each term is at least 0 except for rounding.
         Ok((law.tangential_modulus() * work).max(0.0))
     }
 
-    /// Tangential elastic energy ½G\*Σ length·stretch², J.
+    /// Returns the tangential elastic energy ½G\*Σ length·stretch², J.
     pub fn elastic(&self, springs: &Springs, law: &Interface) -> f64 {
         let touching = springs.first(self.touching);
         let square = |((&h, &length), &anchor): ((&f64, &f64), &f64)| {
@@ -196,7 +193,7 @@ impl Row {
         0.5 * law.tangential_modulus() * sum
     }
 
-    /// Stretch u - p of every spring, m, in the order of [`Springs::positions`]; 0 while it does not touch.
+    /// Returns the stretch u - p of every spring, m, in the order of [`Springs::positions`]; 0 for springs out of contact.
     pub fn stretches<'a>(
         &'a self,
         springs: &'a Springs,
@@ -205,7 +202,7 @@ impl Row {
         springs.ranks().iter().map(move |&rank| self.stretch(springs, law, rank))
     }
 
-    /// Height and anchor of every distinct spring that touches, m, from the lowest one on.
+    /// Returns height and rest position of every distinct spring in contact, m, from the lowest one on.
     pub(crate) fn anchors<'a>(
         &'a self,
         springs: &'a Springs,
@@ -215,12 +212,12 @@ impl Row {
         touching.map(move |(rank, &h)| (h, self.apex.u - self.stretch(springs, law, rank)))
     }
 
-    /// State of the lowest spring, the last to slip: where it does, all that touch do.
+    /// Returns the state of the lowest spring, which is the last to slip. If the lowest spring slips, the contact is in gross slip.
     pub fn lowest(&self, springs: &Springs, law: &Interface) -> SpringState {
         self.state(springs, law, 0)
     }
 
-    /// State of every spring, in the order of [`Springs::positions`].
+    /// Returns the state of every spring, in the order of [`Springs::positions`].
     pub fn states<'a>(
         &'a self,
         springs: &'a Springs,
@@ -229,12 +226,12 @@ impl Row {
         springs.ranks().iter().map(move |&rank| self.state(springs, law, rank))
     }
 
-    /// Limit κ(d-h) of the distinct spring of a rank, m.
+    /// Returns the friction limit κ(d-h) of a distinct spring, m.
     fn limit(&self, springs: &Springs, law: &Interface, rank: usize) -> f64 {
         law.stick_slope() * (self.apex.d - springs.heights()[rank])
     }
 
-    /// Its stretch, m.
+    /// Returns the stretch of a distinct spring, m.
     fn stretch(&self, springs: &Springs, law: &Interface, rank: usize) -> f64 {
         if rank >= self.touching {
             return 0.0;
@@ -242,7 +239,7 @@ impl Row {
         lanes::clamp(self.apex.u - self.anchors[rank], self.limit(springs, law, rank))
     }
 
-    /// Its state.
+    /// Returns the state of a distinct spring.
     fn state(&self, springs: &Springs, law: &Interface, rank: usize) -> SpringState {
         if rank >= self.touching {
             return SpringState::Open;
@@ -258,7 +255,7 @@ impl Row {
     }
 }
 
-/// State of a row from the number of springs that touch and that are at their limit.
+/// Returns the state of the contact from the numbers of springs in contact and at their friction limit.
 fn whole_state(touching: usize, slipping: usize) -> ContactState {
     match slipping {
         _ if touching == 0 => ContactState::Open,

@@ -1,57 +1,55 @@
-//! Elastic similarity of two bodies, and what the theory neglects without it.
+//! Elastic similarity of two bodies, and the error of the theory for bodies that are not similar.
 
 use crate::Pair;
 use std::fmt;
 
-/// How far two bodies are from elastically similar.
+/// Deviation of two bodies from elastic similarity, measured by Dundurs' constant β (Dundurs, J. Appl. Mech. 36, 650, 1969).
 ///
-/// Between similar bodies, (1-2ν₁)/G₁ = (1-2ν₂)/G₂, pressure moves both surfaces alike along the contact, and tangential stress
-/// moves both alike across it: pressing and sliding are two problems, as the theory takes them. Otherwise Dundurs' constant β (Dundurs,
-/// J. Appl. Mech. 36, 650, 1969) is not 0, and what they do to each other is neglected. What is known of its size:
+/// For elastically similar bodies, (1-2ν₁)/G₁ = (1-2ν₂)/G₂, normal and tangential contact are uncoupled, as the theory assumes.
+/// Otherwise β is not 0, and the theory neglects the coupling. Size of the error:
 ///
-/// * **Second order.** Exchange of the two bodies turns the sign of β and no force: forces over displacements are even in β,
-///   and what is missing of them begins with β². (Stresses miss terms of the first order: a contact that is only pressed has radial
-///   shear of the order of βp, where friction bears it; elsewhere it slips.)
-/// * **Normal stiffness, nothing slips.** 4Ga ln(3-4ν)/(1-2ν) of a rigid punch that is stuck to a half-space, instead of
-///   4Ga/(1-ν) (Mossakovskii 1954; Spence, Proc. R. Soc. A 305, 55, 1968); for the same radius the same factor of any round profile
-///   (Borodich, Keer, Proc. R. Soc. A 460, 507, 2004). With β = (1-2ν)/(2(1-ν)) that is artanh(β)/β = 1 + β²/3 + …, for two
-///   elastic bodies the same function of their β. Where some of it slips it is less, without friction 1.
-/// * **An example.** A nearly rigid sphere on ν = 0 (β = 0.5, factor ln 3 = 1.099), μ = 0.2986: the approach under a given load is 2.1 %
-///   smaller by the boundary-element program CONTACT, whose example this is, than by this theory (`docs/validation/contact.md`).
+/// * **Forces: order β².** Exchange of the two bodies changes the sign of β but no force, so forces are even in β. Stresses have an
+///   error of order β: a contact that is only pressed has radial shear of order βp and slips at its edge.
+/// * **Normal stiffness without slip.** A rigid punch that sticks to a half-space has the stiffness 4Ga ln(3-4ν)/(1-2ν) (Mossakovskii
+///   1954; Spence, Proc. R. Soc. A 305, 55, 1968). The theory gives 4Ga/(1-ν). The ratio is the same for any round profile of the
+///   same radius (Borodich, Keer, Proc. R. Soc. A 460, 507, 2004). With β = (1-2ν)/(2(1-ν)) the ratio is artanh(β)/β = 1 + β²/3 + ….
+///   Two elastic bodies have the same ratio with their own β. Slip reduces the ratio; without friction it is 1.
+/// * **Example.** A nearly rigid sphere on a body with ν = 0 has β = 0.5 and a ratio of ln 3 = 1.099. For μ = 0.2986 the
+///   boundary-element program CONTACT finds an approach that is 2.1 % smaller than here (`docs/validation/contact.md`).
 ///
-/// Of the tangential force nothing but the order is known here.
+/// For the tangential force only the order of the error is known.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Similarity {
     beta: f64,
 }
 
-/// Rounding of β of two materials that are similar.
+/// Largest |β| of elastically similar materials, due to rounding.
 const ROUNDING: f64 = 1e-12;
 
 impl Pair {
-    /// How far the bodies are from elastically similar; [`Similarity`] says in words what that means.
+    /// Returns the deviation of the bodies from elastic similarity. The result can be printed as text.
     pub fn similarity(&self) -> Similarity {
         Similarity { beta: self.dundurs_beta() }
     }
 }
 
 impl Similarity {
-    /// Dundurs' β: 0 for similar bodies, ±0.5 at most for ν ≥ 0.
+    /// Returns Dundurs' constant β: 0 for similar bodies, at most ±0.5 for ν ≥ 0.
     pub fn dundurs_beta(&self) -> f64 {
         self.beta
     }
 
-    /// Whether the theory is exact but for rounding of β.
+    /// Returns whether the bodies are elastically similar, so that the theory is exact.
     pub fn is_exact(&self) -> bool {
         self.beta.abs() < ROUNDING
     }
 
-    /// artanh(β)/β - 1: by how much of itself the normal stiffness at a given contact radius is too low if nothing slips.
+    /// Returns artanh(β)/β - 1: the relative error of the normal stiffness at a given contact radius without slip.
     pub fn neglected_stiffness(&self) -> f64 {
         if self.is_exact() {
             return 0.0;
         }
-        // The quotient would lose β² beside 1. β² ≤ 0.5625: 64 terms are all.
+        // The series avoids the loss of β² against 1; with β² ≤ 0.5625, 64 terms are sufficient.
         let square = self.beta * self.beta;
         (1..=64).rev().fold(0.0, |sum, k| square * (1.0 / f64::from(2 * k + 1) + sum))
     }
@@ -65,8 +63,9 @@ impl fmt::Display for Similarity {
         let percent = |part: f64| format!("{} %", short(100.0 * part, 2));
         write!(
             f,
-            "not elastically similar (β = {}): pressing and sliding are coupled, which the theory leaves out. Forces miss terms of \
-             order β² = {}; at a given contact radius the normal stiffness is up to {} too low (if nothing slips; less with friction)",
+            "not elastically similar (β = {}): the theory neglects the coupling of normal and tangential \
+             contact. Forces lack terms of order β² = {}; at a given contact radius the normal stiffness is \
+             up to {} too low (without slip; less with friction)",
             short(self.beta, 3),
             percent(self.beta * self.beta),
             percent(self.neglected_stiffness()),
@@ -74,7 +73,7 @@ impl fmt::Display for Similarity {
     }
 }
 
-/// So many digits.
+/// Formats a value with the given number of significant digits.
 fn short(value: f64, digits: i32) -> String {
     let places = digits - 1 - math::log10(value.abs()).floor() as i32;
     if (0..=6).contains(&places) {
@@ -93,7 +92,7 @@ mod tests {
         Pair::new(material(first), material(second)).similarity()
     }
 
-    /// A rigid punch, as far as a ratio of moduli of 1e12 makes it one.
+    /// Rigid material, by a ratio of moduli of 1e12.
     const RIGID: (f64, f64) = (1e21, 0.3);
 
     #[test]
@@ -115,7 +114,7 @@ mod tests {
         let (one, other) = (pair(ruby, steel), pair(steel, ruby));
         assert_eq!(one.dundurs_beta(), -other.dundurs_beta());
         assert_eq!(one.neglected_stiffness(), other.neglected_stiffness());
-        // β²/3 of a small β.
+        // For small β the result is β²/3.
         let small = one.dundurs_beta().powi(2) / 3.0;
         assert!((one.neglected_stiffness() / small - 1.0).abs() < 0.01);
     }
@@ -124,10 +123,11 @@ mod tests {
     fn words_name_the_size() {
         assert_eq!(
             pair((400e9, 0.27), (210e9, 0.30)).to_string(),
-            "not elastically similar (β = -0.0764): pressing and sliding are coupled, which the theory leaves out. Forces miss terms of \
-             order β² = 0.58 %; at a given contact radius the normal stiffness is up to 0.20 % too low (if nothing slips; less with friction)"
+            "not elastically similar (β = -0.0764): the theory neglects the coupling of normal and \
+             tangential contact. Forces lack terms of order β² = 0.58 %; at a given contact radius the \
+             normal stiffness is up to 0.20 % too low (without slip; less with friction)"
         );
-        // One material; a rigid body on an incompressible one.
+        // Equal materials, and a rigid body on an incompressible one.
         for similar in [pair((210e9, 0.3), (210e9, 0.3)), pair((1e6, 0.5), (1e21, 0.5))] {
             assert!(similar.is_exact());
             assert_eq!(similar.to_string(), "elastically similar (β = 0): the theory is exact");

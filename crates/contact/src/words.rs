@@ -1,58 +1,56 @@
-//! Memories and branches as plain words, for those who keep them: a number is its bits.
+//! Serialization of memories and branches as 64-bit words.
 //!
-//! Only state is written. What the model holds (moduli, slopes, a row's springs, M and N of a profile) is attached again in
-//! reading, so that what is read is what was written to the last bit, and cannot contradict its model. A reader refuses words
-//! on which a later use would stumble: a memory that was read behaves, whatever the words were.
+//! Only the state is written. Constant data such as moduli, springs and integrals of the profile come from the model when the state
+//! is read. The restored state is identical to the last bit. Readers reject invalid words, so that a restored memory is always valid.
 
 use crate::{Apex, Curve, Engine, Interface, Memory, Row, SpringRow};
 use std::sync::Arc;
 
-/// Reads words one after the other. Each question takes what it asked for, or gives none: at the end of the words, and for
-/// a word that is not what was asked for.
+/// Reader of 64-bit words. Every method returns `None` at the end and for a word that is not of the requested kind.
 #[derive(Debug, Clone)]
 pub struct Words<'a> {
     left: &'a [u64],
 }
 
 impl<'a> Words<'a> {
-    /// From the first word on.
+    /// Creates a reader at the first word.
     pub fn new(words: &'a [u64]) -> Self {
         Self { left: words }
     }
 
-    /// Words not yet read.
+    /// Returns the number of words that are left.
     pub fn left(&self) -> usize {
         self.left.len()
     }
 
-    /// Whether all words are read.
+    /// Returns whether all words have been read.
     pub fn is_empty(&self) -> bool {
         self.left.is_empty()
     }
 
-    /// The next word.
+    /// Reads the next word.
     pub fn word(&mut self) -> Option<u64> {
         let (first, rest) = self.left.split_first()?;
         self.left = rest;
         Some(*first)
     }
 
-    /// A number, to the bit: whatever number it is.
+    /// Reads any floating-point number, including NaN.
     pub fn real(&mut self) -> Option<f64> {
         self.word().map(f64::from_bits)
     }
 
-    /// A number that is one; it may be infinite.
+    /// Reads a number that is not NaN; it may be infinite.
     pub fn number(&mut self) -> Option<f64> {
         self.real().filter(|real| !real.is_nan())
     }
 
-    /// A finite number.
+    /// Reads a finite number.
     pub fn finite(&mut self) -> Option<f64> {
         self.real().filter(|real| real.is_finite())
     }
 
-    /// A flag: 0 or 1 and nothing else.
+    /// Reads a flag: the word 0 or 1.
     pub fn flag(&mut self) -> Option<bool> {
         match self.word()? {
             0 => Some(false),
@@ -61,19 +59,20 @@ impl<'a> Words<'a> {
         }
     }
 
-    /// How many things follow, of a word or more each: no more than `most`, and no more than there are words left.
-    // What is then made room for is never more than what was read.
+    /// Reads the number of items that follow, each of at least one word. Accepts at most `most`, and at most the number of words
+    /// left.
+    // A caller can therefore never allocate more than the words left.
     pub fn count(&mut self, most: usize) -> Option<usize> {
         let count = usize::try_from(self.word()?).ok()?;
         (count <= most.min(self.left())).then_some(count)
     }
 
-    /// How many times something has happened: so few that they can go on being counted.
+    /// Reads a counter of occurrences of at most `u64::MAX / 2`, so that counting can continue.
     pub fn tally(&mut self) -> Option<u64> {
         self.word().filter(|tally| *tally <= u64::MAX / 2)
     }
 
-    /// Where a contact stands.
+    /// Reads an apex.
     pub(crate) fn apex(&mut self) -> Option<Apex> {
         Some(Apex { d: self.finite()?, u: self.finite()? })
     }
@@ -85,7 +84,7 @@ pub(crate) fn push<const N: usize>(words: &mut Vec<u64>, reals: [f64; N]) {
 }
 
 impl Memory {
-    /// Writes the state: what [`Self::read`] needs beside the interface and the engine.
+    /// Writes the state of the memory.
     pub fn write(&self, words: &mut Vec<u64>) {
         match self {
             Self::Curve(curve) => {
@@ -99,8 +98,9 @@ impl Memory {
         }
     }
 
-    /// Reads what [`Self::write`] wrote of a contact with this interface and this engine; none for words that it did not
-    /// write. The words after it are left.
+    /// Reads a state that [`Self::write`] wrote, for a contact with this interface and engine.
+    ///
+    /// Returns `None` for invalid words. Words after the state are left in the reader.
     pub fn read(law: &Interface, engine: &Engine, words: &mut Words<'_>) -> Option<Self> {
         match (words.word()?, engine) {
             (0, Engine::Curve) => Curve::read(law, words).map(Self::Curve),

@@ -1,4 +1,4 @@
-//! One simulated second of the benchmark drive P1 (1000 periods of a sawtooth, one contact), by every stepper.
+//! Benchmark of one simulated second of drive P1 (1000 periods of a sawtooth, one contact), for every stepper.
 
 #![allow(clippy::unwrap_used, reason = "a benchmark fails by panicking")]
 
@@ -13,7 +13,7 @@ fn named<T>(name: &str, part: T) -> Named<T> {
     Named { name: name.to_owned(), part }
 }
 
-/// As in `tests/data/drive_p1.json`.
+/// Drive P1 of `tests/data/drive_p1.json`.
 fn p1() -> Scene {
     let steel = Material::new(210e9, 0.3).unwrap();
     let shape = Shape::Sawtooth { stroke: 0.5e-6, flyback: 0.1e-3 };

@@ -1,15 +1,14 @@
-//! Cost of an evaluation against the size of the scene: one to eight contacts, one to three free coordinates.
+//! Cost of an evaluation versus the size of the model: one to eight contacts, one to three free coordinates.
 //!
-//! A slider stands on balls on a foot that saws, its weight in proportion to their number. With x alone the balls bear
-//! constant forces; with z, and with pitch, the motion presses them, and with pitch two springs along z hold the slider
-//! upright on however few balls. Time per evaluation is that of whole runs by the event stepper at 1e-6, growth of memory and events
-//! included; scenes are run in turn, each time is the shortest of its turns. It must grow no faster than contacts ×
-//! coordinates.
+//! A slider stands on balls on a foot with a sawtooth motion; its weight is proportional to their number. With x alone the normal
+//! forces are constant; with z and pitch the motion determines them, and with pitch two springs along z hold the slider upright.
+//! The time per evaluation is that of whole runs with the event stepper at 1e-6. Each time is the shortest of several runs. It
+//! must not grow faster than contacts × coordinates.
 //!
-//! `size CONTACTS COORDINATES PERIODS` runs one scene once and prints its counts: for a counter of instructions, which
-//! is the steadier measure. The difference of two numbers of periods leaves building and start out.
+//! `size CONTACTS COORDINATES PERIODS` runs one model once and prints its counts, to count instructions. The difference between
+//! two numbers of periods excludes construction and start.
 //!
-//! `size start` times the equilibrium before a run of 100 to 10 000 contacts instead: it must grow as their number does.
+//! `size start` measures the equilibrium before a run with 100 to 10 000 contacts: it must grow in proportion to their number.
 
 #![allow(clippy::unwrap_used, clippy::print_stdout, reason = "a benchmark prints, and fails by panicking")]
 
@@ -28,7 +27,7 @@ const TURNS: u32 = 25;
 /// Force on each ball, N.
 const FORCE: f64 = 0.3;
 const GRAVITY: f64 = 9.81;
-/// Places of the balls along x lie within this distance of the middle, m; the springs there.
+/// Largest distance of balls and springs from the middle along x, m.
 const REACH: f64 = 12e-3;
 /// Height of the centre of mass, m.
 const HEIGHT: f64 = 4e-3;
@@ -63,7 +62,7 @@ fn scene(contacts: usize, coordinates: usize) -> Scene {
         pitch: free(2),
     };
     let foot = Body { x: Coordinate::follows(0), ..Body::default() };
-    // Spread evenly; a single one in the middle.
+    // Evenly distributed; a single one is in the middle.
     let place = |i: usize| REACH * ((2 * i + 1) as f64 / contacts as f64 - 1.0);
     let balls = (0..contacts).map(|i| named(&format!("ball{i}"), ball(place(i), coordinates)));
     let upright = |x: f64| Spring {
@@ -87,7 +86,7 @@ fn scene(contacts: usize, coordinates: usize) -> Scene {
     }
 }
 
-/// Work of a run, and its time without the equilibrium before it, s.
+/// Returns the counts of a run and its time without the initial equilibrium, s.
 fn timed(model: &Model, periods: u32) -> (Counts, f64) {
     let stepper = Stepper::Event { tolerance: 1e-6 };
     let duration = PERIOD * f64::from(periods);
@@ -98,7 +97,7 @@ fn timed(model: &Model, periods: u32) -> (Counts, f64) {
     (state.counts(), begun.elapsed().as_secs_f64())
 }
 
-/// One size of scene, what its runs do, and the shortest time of one, s.
+/// Size of a model, counts of its runs, and the shortest time of one, s.
 struct Cell {
     contacts: usize,
     coordinates: usize,
@@ -118,13 +117,13 @@ impl Cell {
         (self.counts, self.time) = (counts, self.time.min(time));
     }
 
-    /// s
+    /// Returns the time per evaluation, s.
     fn evaluation(&self) -> f64 {
         self.time / self.counts.evaluations as f64
     }
 }
 
-/// Prints the time of building and of the equilibrium per contact.
+/// Prints the times of construction and equilibrium per contact.
 fn starts() {
     println!("contacts × coordinates   µs/contact to build   and to settle");
     for (contacts, coordinates) in [1, 2, 3].into_iter().flat_map(|n| [100, 1000, 10_000].map(|c| (c, n))) {

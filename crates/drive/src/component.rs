@@ -1,15 +1,15 @@
-//! The contract of whatever has states, guards, a memory and an energy.
+//! Components: model elements with states, event functions (guards), a memory and an energy.
 //!
-//! A component reads what waveforms, other components and bodies do, and answers with a signal that bodies and actuators
-//! may follow, with forces between bodies, or with both. Between two events it obeys one law; a guard of that law is
-//! positive while it holds, and where one falls through zero the component says which law comes next. Contacts are the
-//! first components; a scene may bring others, each a [`Block`].
+//! A component reads waveforms, other components and the motion of bodies. It produces a signal that bodies and actuators may
+//! follow, or forces between bodies, or both. Between two events it obeys one smooth law. The event functions of a law are
+//! positive while it holds. When one crosses zero, the component chooses the next law. Contacts are components; a model may
+//! contain others, each a [`Block`].
 //!
 //! ```text
-//! inputs ──► slopes, signal, efforts      evaluation borrows shared and leaves no trace
+//! inputs ──► slopes, signal, efforts      evaluation uses shared references and changes nothing
 //!        ──► guards ──► next law          at an event
-//!        ──► commit                       once per accepted step: the only thing that moves the memory
-//!        ──► turn, jump                   where rates of inputs may jump, and where inputs themselves do
+//!        ──► commit                       once per accepted step: the only change of the memory
+//!        ──► turn, jump                   where rates of inputs may jump, and where inputs jump
 //! ```
 
 use crate::linearised::block_eigenvalues;
@@ -18,28 +18,28 @@ use crate::{EventKind, Sample};
 use std::fmt;
 use std::sync::Arc;
 
-/// A component: constants only. What it remembers and the law it obeys are handed in.
+/// A model element with states, event functions, a memory and an energy. It holds constants only; law and memory are arguments.
 pub trait Component: fmt::Debug {
-    /// The law it obeys between two events.
+    /// Law that it obeys between two events.
     type Law;
-    /// What it remembers of the past beside its states: plain data.
+    /// Memory of the past in addition to its states, as plain data.
     type Memory;
-    /// A guard.
+    /// Event function of a law.
     type Guard: Copy + PartialEq;
-    /// What it reads at a moment.
+    /// Inputs at one time.
     type Inputs: ?Sized;
-    /// The accepted path of a step.
+    /// Accepted path of a step.
     type Segment;
-    /// Why it cannot follow a path.
+    /// Error for a path that it cannot follow.
     type Error;
 
-    /// Its states and their natural scales.
+    /// Returns its states and their natural scales.
     fn states(&self) -> States;
 
-    /// The guards of a law; all are positive while it holds.
+    /// Returns the event functions of a law. All are positive while the law holds.
     fn guards(&self, law: &Self::Law) -> &[Self::Guard];
 
-    /// Value of a guard.
+    /// Returns the value of an event function.
     fn guard(
         &self,
         guard: Self::Guard,
@@ -47,7 +47,7 @@ pub trait Component: fmt::Debug {
         at: &Moment<'_, Self::Inputs>,
     ) -> f64;
 
-    /// What it means that a guard fell: the event's kind and the law after it.
+    /// Returns the kind of the event at a zero crossing of an event function, and the law after it.
     fn next(
         &self,
         guard: Self::Guard,
@@ -55,57 +55,58 @@ pub trait Component: fmt::Debug {
         at: &Moment<'_, Self::Inputs>,
     ) -> (EventKind, Self::Law);
 
-    /// Accepts the path of a step: moves the memory, and gives the work lost on the way that no state counts, J.
+    /// Accepts the path of a step and updates the memory. Returns the dissipated work that no state contains, J.
     ///
     /// # Errors
     ///
-    /// Where it cannot follow; the memory is then as it was.
+    /// If it cannot follow the path; the memory is then unchanged.
     fn commit(&self, memory: &mut Self::Memory, segment: &Self::Segment) -> Result<f64, Self::Error>;
 
-    /// Energy that it stores, J.
+    /// Returns the stored energy, J.
     fn energy(&self, standing: Standing<'_, Self::Law, Self::Memory>, at: &Moment<'_, Self::Inputs>) -> f64;
 
-    /// Names of its columns with their SI units, such as `u_m`.
+    /// Returns the names of its columns with their SI units, such as `u_m`.
     fn columns(&self) -> Vec<&'static str>;
 }
 
-/// The states of a component.
+/// States of a component.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct States {
-    /// Natural scale of each, in its own unit, above 0: errors are measured against it.
+    /// Natural scale of each state, in its unit, above 0. Allowed errors are relative to it.
     pub scales: Vec<f64>,
-    /// Integrals beside them, on whose value nothing depends.
+    /// Number of additional integrals, on which nothing depends.
     pub integrals: usize,
 }
 
-/// What a component does and remembers.
+/// Law and memory of a component at one time.
 #[derive(Debug)]
 pub struct Standing<'a, L, M> {
-    /// The law it obeys.
+    /// Present law.
     pub law: &'a L,
-    /// What it remembers.
+    /// Present memory.
     pub memory: &'a M,
 }
 
-/// What a component finds at a moment.
+/// Time, inputs and states of a component at one time.
 #[derive(Debug)]
 pub struct Moment<'a, I: ?Sized> {
     /// Time, s.
     pub t: f64,
-    /// What it reads.
+    /// Inputs.
     pub inputs: &'a I,
-    /// Its states.
+    /// States.
     pub states: &'a [f64],
-    /// Whether steps end where a guard falls. If not, laws change at the ends of steps, late by up to one.
+    /// Whether steps end at zero crossings of event functions. Otherwise laws change at the ends of steps, up to one step late.
     pub located: bool,
 }
 
-/// A motion that a component cannot follow, in words.
+/// Message of a block that cannot follow its inputs.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Refused(pub String);
 
-/// A component that a scene brings along: its law is a number, its memory a list of numbers, it reads samples. Law, memory
-/// and states are all that its future depends on, and are plain data: as bytes they need no word of its own.
+/// A component that is added to a [`Scene`](crate::Scene): driver electronics, hysteresis or creep, for example. Its law is a
+/// number, its memory a list of numbers and its inputs are samples of signals. Law, memory and states determine its future; all
+/// are plain data.
 pub trait Block:
     Component<
         Law = usize,
@@ -117,20 +118,20 @@ pub trait Block:
     > + Send
     + Sync
 {
-    /// What it reads, in the order of the samples.
+    /// Returns its inputs, in the order of the samples.
     fn inputs(&self) -> &[Input];
 
-    /// How many laws it has, numbered from 0; those of a saved state beyond them are refused. By default all numbers are laws, for a
-    /// block that takes any without a panic.
+    /// Returns the number of its laws, which are numbered from 0. Saved states with other laws are refused. By default every
+    /// number is a law.
     fn laws(&self) -> usize {
         usize::MAX
     }
 
-    /// Its states and its memory at t = 0, in law 0, from the inputs there. Memory keeps its length.
+    /// Returns its states and its memory at t = 0, in law 0, from the inputs there. The length of the memory never changes.
     fn start(&self, inputs: &[Sample]) -> (Vec<f64>, Vec<f64>);
 
-    /// Slopes of its states, to be filled, and the forces and powers that it makes. A block that has no states and reads no length is
-    /// not asked: it makes neither.
+    /// Writes the slopes of its states and its efforts, and returns its powers. Not called for a block that has no states and
+    /// reads no length.
     fn slopes(
         &self,
         standing: Standing<'_, usize, Vec<f64>>,
@@ -139,17 +140,17 @@ pub trait Block:
         efforts: &mut [f64],
     ) -> Powers;
 
-    /// The signal that it makes, and its first two derivatives.
+    /// Returns its output signal with the first two derivatives.
     fn signal(&self, standing: Standing<'_, usize, Vec<f64>>, at: &Moment<'_, [Sample]>) -> Sample;
 
-    /// Smallest and largest value of that signal, from those of its inputs.
+    /// Returns the smallest and the largest value of its signal, from the ranges of its inputs.
     fn range(&self, inputs: &[(f64, f64)]) -> (f64, f64);
 
-    /// The law from here on where that is to be decided afresh, with the event's kind: when a run begins, and wherever the rates
-    /// of its inputs may have jumped, at a corner of a waveform or where another block has changed its law.
+    /// Chooses the law anew; returns the kind of the event and the law. Called at the start of a run, and where rates of inputs
+    /// may jump. Rates jump at corners of waveforms and where another block changes its law.
     ///
-    /// A guard that has been down all along does not fall: what goes by the sign of a rate says here which one it is. None keeps
-    /// the law, and so does a block that has only one per state.
+    /// A law that depends on the sign of a rate is chosen here, because an event function that is already negative has no zero
+    /// crossing. None keeps the law.
     fn turn(
         &self,
         standing: Standing<'_, usize, Vec<f64>>,
@@ -159,66 +160,68 @@ pub trait Block:
         None
     }
 
-    /// Its states after its inputs have jumped to what they are at this moment: a straight path in no time. Memory follows by a
-    /// [`commit`](Component::commit) of no duration, the law by [`turn`](Self::turn). States stay where they are but for those of
-    /// a block that answers to how far and not how fast its inputs go.
+    /// Updates its states after a jump of its inputs, a straight path in zero time. By default states do not change. A
+    /// rate-independent block, whose states depend on the path only, updates them here.
+    ///
+    /// The memory follows by a [`commit`](Component::commit) of zero duration, the law by [`turn`](Self::turn).
     fn jump(&self, standing: Standing<'_, usize, Vec<f64>>, at: &Moment<'_, [Sample]>, states: &mut [f64]) {
         let _ = (standing, at, states);
     }
 
-    /// Whether its signal jumps where an input does.
+    /// Whether its signal jumps where an input jumps.
     fn passes_jumps(&self) -> bool {
         false
     }
 
-    /// Natural scale of a guard, in its own unit: its rounding and how near to zero it is as good as there go by it.
+    /// Returns the natural scale of an event function, in its unit. Rounding and nearness to zero are relative to it.
     fn guard_scale(&self, guard: usize) -> f64;
 
-    /// Its natural rate, 1/s: events that lie much closer together than a period of it count as accumulating.
+    /// Returns its natural rate, 1/s. Events much closer than its inverse count as accumulating.
     fn rate(&self) -> f64;
 
-    /// Eigenvalues λ = a + ib of its states' own motions e^{λt} at these inputs, as (a, b), 1/s: they bound fixed steps. By default
-    /// those of its slopes' gradient where it starts, in law 0, by differences over a scale of each state: exact where the
-    /// slopes are linear in the states. A block whose states go by how fast an input goes tells the fastest.
+    /// Returns the eigenvalues λ = a + ib of its states at these inputs, as (a, b), 1/s. They limit fixed time steps.
+    ///
+    /// The default is the Jacobian of its slopes at the start in law 0, by finite differences. This is exact for linear slopes. A
+    /// block whose rates depend on the rate of an input returns the fastest.
     fn eigenvalues(&self, inputs: &[Sample]) -> Vec<(f64, f64)> {
         block_eigenvalues(self, inputs)
     }
 
-    /// Most events that follow from one turn of an input, at least 1: they may be as close together as they like, and so many times
-    /// more of them accumulate.
+    /// Returns the largest number of events that one reversal of an input may cause, at least 1. They may be simultaneous; the
+    /// limit for accumulating events is larger by this factor.
     fn events_per_turn(&self) -> u32 {
         1
     }
 
-    /// Whether what it makes from here on depends on a state, by its place among its own: not where that only counts, as work done
-    /// does, nor where this law puts something else in its place. A motion may be steady though such states go on.
+    /// Whether its output depends on a state, given by its index. False for a state that only accumulates, such as work, or that
+    /// has no effect in this law. A motion can be periodic although such states are not.
     fn depends(&self, law: usize, state: usize) -> bool {
         let _ = (law, state);
         true
     }
 
-    /// Begins anew, at time `t` (s), whatever it only counts. What it makes stays the same.
+    /// Resets accumulating states at time `t` (s). Its output does not change.
     fn count_from(&self, t: f64, states: &mut [f64], memory: &mut [f64]) {
         let _ = (t, states, memory);
     }
 
-    /// Adds the values of its columns to a row.
+    /// Appends the values of its columns to a row.
     fn fill(&self, standing: Standing<'_, usize, Vec<f64>>, at: &Moment<'_, [Sample]>, row: &mut Vec<f64>);
 }
 
-/// What a block reads.
+/// Input of a block.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Input {
-    /// A signal: the waveform at this place of the scene, or after the last waveform the block at this place.
+    /// Signal by index: waveforms first, then blocks.
     Signal(usize),
-    /// The displacement of a point of the first side less that of one on the second, m. The block's effort is the force
-    /// on the first side along it, N; its opposite acts on the second.
+    /// Displacement of a point of the first side minus that of a point of the second side, m. The effort of the block is the
+    /// force on the first side along it, N; the opposite force acts on the second side.
     Length {
-        /// The sides.
+        /// The two sides.
         between: [Side; 2],
-        /// The point on either.
+        /// Point on each side.
         at: [Point; 2],
-        /// Along x or z.
+        /// Direction, x or z.
         direction: Direction,
     },
 }
@@ -226,30 +229,30 @@ pub enum Input {
 /// Powers of a block, W.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Powers {
-    /// What comes in from outside the scene.
+    /// Power supplied from outside the model.
     pub input: f64,
-    /// What is lost.
+    /// Dissipated power.
     pub loss: f64,
 }
 
-/// The accepted path of a block through a step.
+/// Accepted path of a block in one step.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Passage {
-    /// When it ends, s.
+    /// End of the step, s.
     pub t: f64,
-    /// As in [`Moment::located`].
+    /// See [`Moment::located`].
     pub located: bool,
-    /// How long the step took, s.
+    /// Duration of the step, s.
     pub duration: f64,
-    /// The law in the step.
+    /// Law during the step.
     pub law: usize,
-    /// The inputs at its end.
+    /// Inputs at the end.
     pub inputs: Vec<Sample>,
-    /// The states at its end.
+    /// States at the end.
     pub states: Vec<f64>,
 }
 
-/// A shared block. Two are equal if they are the same.
+/// Shared block. Two are equal if they refer to the same object.
 #[derive(Debug, Clone)]
 pub struct SharedBlock(pub Arc<dyn Block>);
 

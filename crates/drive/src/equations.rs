@@ -1,12 +1,11 @@
-//! The equations of motion, evaluated on borrowed memory.
+//! Equations of motion, evaluated with a read-only memory.
 //!
-//! M q̈ = Σ forces of contacts, links, loads and blocks, beside it the integrals on which nothing depends
-//! (work put in, dissipation, elastic energy and friction of growing contacts). Steppers ask for slopes or,
-//! where no force depends on a velocity, for accelerations alone; records and guards read motions and signals
-//! of a moment by the same functions.
+//! M q̈ = Σ forces of contacts, links, loads and blocks, plus integrals on which nothing depends: work, dissipation, elastic
+//! energy and friction work of growing contacts. Steppers evaluate slopes, or only accelerations if no force depends on a
+//! velocity. Records and event functions use the same functions.
 //!
-//! Nothing here is written to but the slopes: a trial evaluation has no way to leave a trace. Nothing here
-//! chooses a law or knows an event: laws go on smoothly beyond the moment that will end them.
+//! An evaluation writes slopes only and leaves no other trace. It does not choose laws: laws are smooth beyond the event that
+//! ends them.
 
 mod balance;
 mod blocks;
@@ -25,34 +24,31 @@ use stickslip_contact::Memory;
 use stickslip_stepper::{Conservative, System};
 use sum::{Positions, Sum};
 
-/// How far beyond a piece, in its lengths, a step that may cross corners still counts as on it.
-// It need not be sharp: no run differs at 1e-8 or 1e-10.
+/// Relative tolerance of the end of a piece, for steps that may cross corners.
 const CORNER_SLACK: f64 = 1e-9;
 
-/// Right-hand side of a drive: shared borrows only, so that no evaluation leaves a trace.
+/// Right-hand side of a drive. It holds shared references only, so evaluation has no side effects.
 #[derive(Clone, Copy)]
 pub(crate) struct Equations<'a> {
     pub(crate) model: &'a Model,
-    /// The smooth piece of each waveform.
+    /// Current smooth piece of each waveform.
     pub(crate) pieces: &'a [Piece],
-    /// What each waveform generates; empty where none does.
+    /// State of each generated waveform; empty without any.
     pub(crate) generators: &'a [Option<Generating>],
-    /// What the contacts remember, as committed last.
+    /// Committed memories of the contacts.
     pub(crate) memories: &'a [Memory],
-    /// The law of each contact.
+    /// Present law of each contact.
     pub(crate) modes: &'a [Mode],
     pub(crate) blocks: &'a [BlockState],
     pub(crate) layout: Layout,
     /// Whether a step may cross corners of waveforms, as fixed steps do.
     pub(crate) crossing: bool,
-    /// What is known to stay the same until the next event.
+    /// Precomputed quantities that are constant until the next event.
     pub(crate) interval: Option<&'a Interval<'a>>,
 }
 
 impl<'a> Equations<'a> {
-    /// The equations on a state as it stands.
-    ///
-    /// `layout` may leave out the components of growing contacts, as runs by chords do.
+    /// Returns the equations for a state. `layout` may omit the components of growing contacts.
     pub(crate) fn on(model: &'a Model, state: &'a State, layout: Layout, crossing: bool) -> Self {
         let State { pieces, generators, memories, modes, blocks, .. } = state;
         Self { model, pieces, generators, memories, modes, blocks, layout, crossing, interval: None }
@@ -60,12 +56,12 @@ impl<'a> Equations<'a> {
 }
 
 impl<'a> Equations<'a> {
-    /// What a contact remembers, and its mode.
+    /// Returns memory and law of a contact.
     pub(crate) fn law(&self, c: usize) -> (&'a Memory, &'a Mode) {
         (&self.memories[c], &self.modes[c])
     }
 
-    /// Waveform `w` at time t. Within a smooth piece this is exact up to and including its end.
+    /// Returns waveform `w` at time t; exact within a smooth piece, including its end.
     #[inline(always)]
     pub(crate) fn sample(&self, w: usize, t: f64) -> Sample {
         let (waveform, piece) = (&self.model.waveforms[w], &self.pieces[w]);
@@ -75,13 +71,12 @@ impl<'a> Equations<'a> {
         waveform.sample(piece, t)
     }
 
-    /// The same for a step that may cross corners.
-    ///
-    /// Beyond its piece by more than 1e-9 of the piece's length the right one is looked for.
+    /// Returns waveform `w` for a step that may cross corners. More than 1e-9 of its length beyond a piece, the right piece is
+    /// searched.
     #[inline(never)]
     fn across(&self, w: usize, t: f64) -> Sample {
         let (waveform, piece) = (&self.model.waveforms[w], &self.pieces[w]);
-        // A step aligned with a corner may miss it by rounding; that is still the same piece.
+        // A step aligned with a corner may miss it by rounding.
         let slack = CORNER_SLACK * (piece.end - piece.start);
         if t < piece.start - slack || t > piece.end + slack {
             let beside = match self.generators.get(w) {
@@ -93,8 +88,7 @@ impl<'a> Equations<'a> {
         waveform.sample(piece, t)
     }
 
-    /// A coordinate and its rate.
-    /// m and m/s, or rad and rad/s.
+    /// Returns a coordinate and its rate: m and m/s, or rad and rad/s.
     pub(crate) fn place(&self, place: Binding, t: f64, y: impl Fn(usize) -> f64) -> [f64; 2] {
         match place {
             Binding::Held(x) => [x, 0.0],
@@ -106,16 +100,16 @@ impl<'a> Equations<'a> {
         }
     }
 
-    /// A measure at one moment.
+    /// Returns a measure at one time.
     ///
-    /// constant + Σ aq + Σ bw over free coordinates q and followed signals w, with the rates of both. Without
-    /// velocities the rate is that of the followers alone.
+    /// It is constant + Σ aq + Σ bw over free coordinates q and followed signals w. A [`View`] without velocities gives the rate
+    /// of the signals only.
     #[inline(always)]
     pub(crate) fn read<V: View>(&self, measure: &Measure, at: &V) -> Reading {
         let (mut own, mut rate) = (0.0, 0.0);
         for &(i, a) in &measure.free {
             own += a * at.component(i);
-            // Nyström's stages know no velocities: the branch is gone when compiled.
+            // A compile-time branch: Nyström stages have no velocities.
             if V::MOVES {
                 rate += a * at.component(self.layout.velocity(i));
             }
@@ -126,11 +120,11 @@ impl<'a> Equations<'a> {
             followed += a * sample.value;
             driven += a * sample.rate;
         }
-        // Two bodies far from their start may be close to each other: their difference first.
+        // Large displacements of two bodies cancel first.
         Reading { value: measure.constant + (own + followed), rate: rate + driven, driven }
     }
 
-    /// The value of a measure at one moment, to the last bit that of [`Self::read`].
+    /// Returns the value of a measure, with the same bits as [`Self::read`].
     #[inline(always)]
     fn length(&self, measure: &Measure, at: &impl View) -> f64 {
         let (mut own, mut followed) = (0.0, 0.0);
@@ -143,18 +137,16 @@ impl<'a> Equations<'a> {
         measure.constant + (own + followed)
     }
 
-    /// Second derivative of a measure at a moment, m/s²; `free` gives that of a free coordinate.
-    ///
-    /// What the followers make of it is exact within a smooth piece.
+    /// Returns the second derivative of a measure, m/s²; `free` returns that of a free coordinate. Prescribed motions are exact
+    /// within a smooth piece.
     pub(crate) fn acceleration(&self, measure: &Measure, at: &impl View, free: impl Fn(usize) -> f64) -> f64 {
         let followed = measure.driven.iter().map(|(w, a)| a * self.signal(*w, at).acceleration);
         measure.free.iter().map(|(i, a)| a * free(*i)).sum::<f64>() + followed.sum::<f64>()
     }
 
-    /// Motion of a contact; `y` reads a component.
+    /// Returns the motion of a contact; `y` returns a component of the state.
     ///
-    /// d, u (m) and their rates (m/s); u counted from its shifted origin, d below zero where the contact is
-    /// apart.
+    /// It contains d, u (m) and their rates (m/s). u counts from its shifted origin; d is negative for an open contact.
     #[inline]
     pub(crate) fn motion(&self, contact: &Contact, t: f64, y: impl Fn(usize) -> f64) -> Motion {
         let at = Components { t, y };
@@ -169,7 +161,7 @@ impl<'a> Equations<'a> {
         Motion { d, u: u.value, dd, du: u.rate }
     }
 
-    /// Where a contact stands, d and u, m; no rates: for who asks for none.
+    /// Returns d and u of a contact, m, without rates.
     #[inline]
     pub(crate) fn standing(&self, contact: &Contact, t: f64, y: impl Fn(usize) -> f64) -> Motion {
         let at = Components { t, y };
@@ -180,13 +172,13 @@ impl<'a> Equations<'a> {
         Motion { d, u: self.length(&contact.u, &at), ..Motion::default() }
     }
 
-    /// u of a contact, m, from its shifted origin, and its rate, m/s.
+    /// Returns u of a contact from its shifted origin, m, and its rate, m/s.
     #[inline]
     pub(crate) fn slide(&self, contact: &Contact, t: f64, y: impl Fn(usize) -> f64) -> Reading {
         self.read(&contact.u, &Components { t, y })
     }
 
-    /// Prescribed indentation and its rate.
+    /// Returns the prescribed indentation (m) and its rate (m/s).
     #[inline(always)]
     pub(crate) fn pressed(&self, contact: &Contact, t: f64) -> (f64, f64) {
         match &contact.press {
@@ -198,23 +190,22 @@ impl<'a> Equations<'a> {
                 };
                 contact.pressed(self.sample(*w, t), lull)
             }
-            // The bodies say.
             Press::Coupled(_) => (0.0, 0.0),
         }
     }
 }
 
 impl Equations<'_> {
-    /// All that acts until the next event, where it is laid out.
+    /// Returns the precomputed equations until the next event, if they are complete.
     #[inline(always)]
     fn kernel(&self) -> Option<&Kernel<'_>> {
         self.interval.map(|interval| &interval.kernel).filter(|kernel| kernel.is_whole())
     }
 
-    /// Accelerations without any velocity, and the power put in, W.
+    /// Computes accelerations without velocities, and the input power, W.
     ///
-    /// `out` is q̈ of the free coordinates and then the one integral. Only for models without dampers,
-    /// varying loads, growth and blocks: their powers need velocities.
+    /// `out` has q̈ of the free coordinates, then the integral. Valid for models without dampers, varying loads, growth and
+    /// blocks only.
     #[inline(never)]
     fn accelerate(&self, at: &Positions<'_>, out: &mut [f64]) {
         let (dv, input) = out.split_at_mut(self.layout.free);
@@ -223,7 +214,7 @@ impl Equations<'_> {
         if !self.model.links.is_empty() {
             self.links(at, &mut sum);
         }
-        // Nothing dissipates but contacts, which book for themselves.
+        // Contacts compute their friction work from the memory; nothing else dissipates.
         (input[0], _) = sum.accelerate(self.model);
     }
 }
@@ -249,23 +240,23 @@ impl System for Equations<'_> {
         }
     }
 
-    /// Flight and gross slip under constant loads.
+    /// True in flight and in gross slip under constant loads.
     fn coasts(&self) -> bool {
         self.interval.is_some_and(Interval::is_constant)
     }
 }
 
 impl Equations<'_> {
-    /// Slopes of all components, whatever acts. Apart: who asks the kernel, ten times a step, needs none of its registers.
+    /// Writes the slopes of all components in the general case. Not inlined: the precomputed equations are used far more often.
     #[inline(never)]
     fn all_slopes(&self, t: f64, y: &[f64], dy: &mut [f64]) {
         let layout = self.layout;
         let v = &y[layout.free..2 * layout.free];
         let (dx, rest) = dy.split_at_mut(layout.free);
         let (dv, extra) = rest.split_at_mut(layout.free);
-        // Positions first, then velocities: ẋ is part of the state itself.
+        // Slopes of positions are the velocities of the state.
         dx.copy_from_slice(v);
-        // Contacts that are apart leave theirs alone.
+        // Open contacts leave their slopes at zero.
         extra.fill(0.0);
         let mut sum = Sum::new(self.model, dv);
         let at = Components { t, y: |i: usize| y[i] };
@@ -294,7 +285,7 @@ impl Conservative for Equations<'_> {
     #[inline(always)]
     fn accelerations(&self, t: f64, x: &[f64], out: &mut [f64]) {
         match (x, out, self.interval) {
-            // One slider, as in most drives: no loop over coordinates is left.
+            // One slider, as in most drives: no loop over coordinates.
             ([x], [acceleration, input], Some(Interval { slider: Some(slider), pulls, .. })) => {
                 (*acceleration, *input) = (slider.acceleration, slider.power);
                 let mut add = |pull: &Pull<'_>| {
@@ -302,7 +293,6 @@ impl Conservative for Equations<'_> {
                     *acceleration += pull.acceleration * reduced_force;
                     *input += pull.power * reduced_force;
                 };
-                // A single pull without a loop: the benchmark drive asks for nothing else.
                 match &pulls[..] {
                     [pull] => add(pull),
                     pulls => pulls.iter().for_each(add),
@@ -315,7 +305,7 @@ impl Conservative for Equations<'_> {
         }
     }
 
-    /// Gross slip under constant loads: a parabola.
+    /// True in gross slip under constant loads: the motion is a parabola.
     fn coasts(&self) -> bool {
         self.interval.is_some_and(Interval::is_constant)
     }

@@ -1,11 +1,7 @@
-//! The start of a run: given, or the static equilibrium under what acts at t = 0.
+//! Initial state of a run: given, or the static equilibrium at t = 0.
 //!
-//! The loads are put on in proportion, and the contacts remember the way: which of them slips depends on it. A body that
-//! is drawn above what will hold it is first set down by a millionth of its loads.
-//!
-//! A balance under all loads at once is not enough: with friction there are many, and the one that loads put
-//! on in proportion come to is taken. Nothing moves here and no time passes. The state at t = 0 also begins
-//! the books: what is stored then is where energies count from.
+//! With friction there are many equilibria. The loads are increased in proportion, and contacts remember this path. The energy
+//! balance begins at this state. A body above its support is first set down by a millionth of its loads.
 
 mod balance;
 mod balanced;
@@ -26,33 +22,32 @@ use std::cell::RefCell;
 use std::rc::Rc;
 use stickslip_contact::{Apex, Memory, Segment};
 
-/// Parts in which the loads are put on where several coordinates share them.
-// Each part leaves a knot, whose loop closes later: with 640 a climber has 2 528 events in ten cycles instead of 1 370 and ends
-// 4e-6 u_c elsewhere; with a single one 2e-5 u_c.
+/// Number of load increments if several coordinates share the loads.
 const PARTS: u32 = 64;
-/// Most free coordinates whose equilibrium is sought: the work grows with the cube of their number, seconds for these.
+/// Largest number of free coordinates for an equilibrium; the cost grows with the cube of their number.
 const MOST: usize = 200;
-/// The pseudo-time with which a search begins whose place may lie anywhere.
+/// Initial pseudo-time of a search without a known nearby equilibrium.
 const TAU: f64 = 1.0;
-/// Share of the loads that sets the bodies down: what the contacts remember of the way through the air is as small.
-// With ten times or a tenth as much a climber ends less than 1e-6 u_c elsewhere.
+/// Fraction of the loads that sets the bodies down, so that contacts are hardly loaded on this path.
 const LANDING: f64 = 1e-6;
-/// A slide that is worth a second look, in u_c, and what part of the way another balance has to be near to be taken instead.
+/// Slip beyond which a second equilibrium is sought, in u_c; and the ratio of distances below which it is chosen.
 const FAR: f64 = 100.0;
 const NEARER: f64 = 0.5;
 
 impl Model {
-    /// The state at t = 0 of a plan's run.
+    /// Returns the state at t = 0 for a plan.
     ///
-    /// Fails where a number of the plan is out of its range, where an equilibrium is asked for and there is none, where the
-    /// plan's stepper cannot follow the model's waveforms, and where its fixed step is unstable.
+    /// # Errors
+    ///
+    /// [`SceneError`]: a number of the plan is out of range, or there is no static equilibrium. Also if the stepper cannot follow
+    /// jumps of waveforms, or its fixed step is unstable.
     pub fn start(&self, plan: &Plan) -> Result<State, SceneError> {
         let mut state = State::blank();
         self.start_in(plan, &mut state, &mut Vec::new())?;
         Ok(state)
     }
 
-    /// The same in the room of another state; `row` is scratch. After an error the state is of no use.
+    /// Computes the state at t = 0 in existing storage; `row` is scratch. After an error the state is undefined.
     pub(crate) fn start_in(
         &self,
         plan: &Plan,
@@ -60,7 +55,7 @@ impl Model {
         row: &mut Vec<f64>,
     ) -> Result<(), SceneError> {
         plan.check()?;
-        // A free mass does not follow a jump: only a step that ends there can tell its two sides apart.
+        // After a jump the motion of a free mass depends on a step ending there.
         let jumps = !self.free.is_empty() && self.waveforms.iter().any(Waveform::has_jumps);
         let follows =
             plan.stepper.locates_events() || plan.stepper.ends_at_corners() && self.balanced.is_empty();
@@ -71,12 +66,11 @@ impl Model {
         self.begin(state, row)
     }
 
-    /// The state at t = 0 where nothing is wrong with a plan.
+    /// Computes the state at t = 0 for a valid plan.
     fn begin(&self, state: &mut State, row: &mut Vec<f64>) -> Result<(), SceneError> {
         self.put_at_rest(state);
         if self.equilibrium && !self.free.is_empty() {
-            // Copies hold what they must and no more: the room that a run needs lies so far apart that looking through ten
-            // thousand of them took seven times as long.
+            // Clones need less memory than the run, which makes the search faster.
             state.memories = state.memories.clone();
             Settling::new(self, state).settle(state)?;
             state.memories.iter_mut().for_each(Memory::make_room);
@@ -86,27 +80,26 @@ impl Model {
         Ok(())
     }
 
-    /// Begins the books of energies with a state: nothing has been put in or lost before it.
+    /// Starts the energy balance at a state: nothing has been supplied or dissipated before.
     pub(crate) fn open_books(&self, state: &mut State, row: &mut Vec<f64>) {
         let layout = state.layout(self);
         (state.y[layout.input()], state.y[layout.damping()]) = (0.0, 0.0);
         (0..layout.growing).for_each(|slot| state.y[layout.friction(slot)] = 0.0);
         state.friction.fill(0.0);
         (state.lost, state.origin) = (0.0, 0.0);
-        // What pressed and lifted before the start is no work of the run: it is read off the present state,
-        // and taken off here.
+        // The work of normal loads and weight is computed from the state; its initial value is subtracted.
         let varying = self.contacts.iter().filter(|c| c.press.waveform().is_some());
         let equations = self.equations(state);
         let pressed = |c: &Contact| c.interface.normal_energy(equations.pressed(c, state.t).0);
         state.jumps = -varying.map(|c| c.count * pressed(c)).sum::<f64>()
             - self.lifted(|i| state.shifts[i] + state.y[i]);
-        // By the row itself: whatever it counts as stored, the books close on it at the start.
+        // Uses the record's own row, so that the balance is exactly closed at the start.
         record::fill(&self.equations(state), state, state.t, &|i| state.y[i], row);
-        // The books' error there is minus what is stored: that is where they start.
+        // The balance error of the row is minus the stored energy.
         state.origin = -row.last().copied().unwrap_or(0.0);
     }
 
-    /// Refuses a fixed step with which the stiffest motion grows.
+    /// Refuses an unstable fixed step.
     fn check_step(&self, stepper: Stepper) -> Result<(), SceneError> {
         let Accuracy::Step(step) = stepper.accuracy() else { return Ok(()) };
         let limit = self.longest_step(stepper).unwrap_or(f64::INFINITY);
@@ -121,12 +114,12 @@ impl Model {
     }
 }
 
-/// A model on its way to an equilibrium at t = 0.
+/// Search for the static equilibrium at t = 0.
 struct Settling<'m> {
     model: &'m Model,
-    /// Indentations that bodies do not set, m: no place changes them, and one that follows a force takes a search each time.
+    /// Prescribed indentations, m; precomputed, because those from forces require a search.
     depths: Vec<f64>,
-    /// What each contact answered last: of many sliders most stand still while the others find their place.
+    /// Last response of each contact: most contacts rest in many iterations.
     answers: RefCell<Vec<Answer>>,
 }
 
@@ -141,39 +134,36 @@ impl<'m> Settling<'m> {
         }
     }
 
-    /// Puts the loads on in proportion and follows the equilibrium.
+    /// Increases the loads in proportion and follows the equilibrium.
     fn settle(&self, state: &mut State) -> Result<(), SceneError> {
         let n = self.model.free.len();
         if n > MOST {
             return Err(SceneFault::TooManyFree { most: MOST, count: n }.of(Place::Run, Field::Start));
         }
-        // In equilibrium nothing moves; velocities that the scene names are of a start that is given.
+        // In equilibrium velocities are zero; initial velocities apply to a given start.
         for i in 0..n {
             state.y[self.model.layout().velocity(i)] = 0.0;
         }
         let given = state.clone();
         let initial = self.statics(state, &state.y).net;
-        // One coordinate and no contact pressed by it: the way under a growing load is one chord, whatever
-        // its parts.
+        // For one coordinate with prescribed normal loads, the path is one chord.
         let alone = n == 1 && self.model.contacts.iter().all(|c| c.coupling().is_none());
         let parts = if alone { 1 } else { PARTS };
         let landing = (!alone).then_some(LANDING);
         let (mut reached, mut tau) = (false, TAU);
         for share in landing.into_iter().chain((1..=parts).map(|k| f64::from(k) / f64::from(parts))) {
-            // In proportion: the forces still missing are a share of the imbalance at the start, friction and
-            // springs included.
+            // The missing force is a fraction of the initial imbalance, including friction and springs.
             let missing = &initial * (1.0 - share);
             let balance = Search::new(self, state, (&missing, &vec![false; n])).from(&state.y, tau);
             tau = if balance.holds { NEWTON } else { TAU };
             if balance.holds {
                 self.stand(state, &balance)?;
-            // Under the whole load nothing more will come: now it is found coordinate by coordinate, or there
-            // is none.
+            // At full load the equilibrium is found coordinate by coordinate, or does not exist.
             } else if share == 1.0 {
                 let balance = self.released(state)?;
                 self.stand(state, &balance)?;
             } else if !reached {
-                // A part of the loads may not yet press a body against what holds it in the end.
+                // Part of the loads may not yet press a body onto its support.
                 self.released(state)?;
                 reached = true;
             }
@@ -181,8 +171,8 @@ impl<'m> Settling<'m> {
         self.come_back(given, state)
     }
 
-    /// What has slid far is looked for once more where it began. While loads grow in proportion friction may hold less of them than in the
-    /// end, and a body that slides for want of it stays wherever it is when there is enough: metres away, and in balance.
+    /// Searches again from the given positions if a contact has slipped far. During proportional loading friction may be too
+    /// small for a time, and a body may slide to a distant equilibrium.
     fn come_back(&self, given: State, state: &mut State) -> Result<(), SceneError> {
         let [from, to] = [&given, &*state].map(|state| self.apexes(state, &state.y).collect::<Vec<_>>());
         let mut ways = self.model.contacts.iter().zip(from.iter().zip(&to));
@@ -204,14 +194,14 @@ impl<'m> Settling<'m> {
         Ok(())
     }
 
-    /// The balance nearest to y with some forces still missing and some coordinates held.
+    /// Returns the equilibrium nearest to y, with some forces still missing and some coordinates held.
     fn balance(&self, state: &State, missing: &DVector<f64>, y: &[f64], held: &[bool]) -> Rc<Balance> {
         Search::new(self, state, (missing, held)).from(y, TAU)
     }
 
-    /// Takes over a balance: the contacts go there on straight paths.
+    /// Accepts an equilibrium: the contacts move there on straight paths.
     fn stand(&self, state: &mut State, balance: &Balance) -> Result<(), SceneError> {
-        // With their memories their answers change.
+        // Responses depend on the memories.
         self.answers.borrow_mut().fill(Answer::NONE);
         let apexes: Vec<Apex> = self.apexes(state, &balance.y).collect();
         let memories = self.model.contacts.iter().zip(&mut state.memories);
@@ -224,8 +214,8 @@ impl<'m> Settling<'m> {
         Ok(())
     }
 
-    /// The balance under all loads, found by letting go of one coordinate after the other: first those along z, which
-    /// set the normal forces, then those along x, which live on friction, then pitch.
+    /// Returns the equilibrium under all loads by releasing one coordinate after the other: z, which determines normal forces,
+    /// then x, then pitch.
     fn released(&self, state: &State) -> Result<Rc<Balance>, SceneError> {
         let n = self.model.free.len();
         let (nothing, mut held) = (DVector::zeros(n), vec![true; n]);
@@ -245,8 +235,8 @@ impl<'m> Settling<'m> {
         Ok(balance)
     }
 
-    /// Names the coordinate without an equilibrium: one of those `along` an axis without which all others are in
-    /// balance, or else the `first` that could not be let go of.
+    /// Returns the error that names the coordinate without equilibrium. It is one of those `along` an axis without which all
+    /// others are in balance, or the `first` that could not be released.
     fn lost(
         &self,
         state: &State,
@@ -268,16 +258,16 @@ impl<'m> Settling<'m> {
             others
         };
         let place = along.iter().copied().find(|i| without(*i, y).holds).unwrap_or(first);
-        // Held where it went when nothing held it.
+        // Held at the position that it reached when released.
         let held_there = without(place, &gone.y);
-        // What tips or comes loose may find all its own forces gone, and it is another coordinate that is left without balance.
+        // If its own force vanishes there, the coordinate farthest from balance is reported.
         let (place, unbalanced) = match farthest.filter(|_| !held_there.is_off(place)) {
             Some(other) => (other, gone.residual[other]),
             None => (place, held_there.residual[place]),
         };
         let Free { body, axis, .. } = self.model.free[place];
         let body = self.model.bodies[body].name.clone();
-        // Alone along its axis it bears nothing but its own.
+        // Whether other bodies act along the same axis.
         let shared = self.model.free.iter().filter(|free| free.axis == axis).count() > 1;
         SceneFault::NoEquilibrium { body, axis, unbalanced, shared }.of(Place::Run, Field::Start)
     }

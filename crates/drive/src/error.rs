@@ -1,4 +1,4 @@
-//! What can be wrong with a scene, and what can stop a run.
+//! Errors of models and runs.
 
 mod fault;
 mod part;
@@ -10,50 +10,50 @@ use crate::scene::Axis;
 use stickslip_contact::ContactError;
 use thiserror::Error;
 
-/// Why a run stopped itself: what, where, when. [`RunError::advice`] says what to try.
+/// Reason why a run stopped, with time and location. [`RunError::advice`] suggests a remedy.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum RunError {
-    /// Step control asks for steps below the resolution of time, or below any that helps.
-    #[error("at t = {t:.6e} s even a step of {step:.3e} s misses the tolerance")]
+    /// The step control requires steps below the resolution of time, or below its limit.
+    #[error("at t = {t:.6e} s even a time step of {step:.3e} s exceeds the tolerance")]
     StepTooSmall {
         /// Time, s.
         t: f64,
-        /// Step, s.
+        /// Step length, s.
         step: f64,
     },
-    /// A fixed step too long for the fastest motion of the scene, or for a state of a block.
-    #[error("the step of {step:e} s is unstable here: the fastest motion allows less than {limit:.4e} s")]
+    /// The fixed step is unstable for the fastest motion, or for a state of a block.
+    #[error("the time step of {step:e} s is unstable: the stability limit is {limit:.4e} s")]
     Unstable {
-        /// Step, s.
+        /// Step length, s.
         step: f64,
         /// Longest stable step, s.
         limit: f64,
     },
-    /// A coordinate is no longer a number.
-    #[error("at t = {t:.6e} s the motion of `{body}`, or the work on it, is no longer finite")]
+    /// A coordinate is no longer finite.
+    #[error("at t = {t:.6e} s the motion of `{body}`, or the work on it, is not finite")]
     NotFinite {
         /// Time, s.
         t: f64,
         /// Name of the body.
         body: String,
     },
-    /// Too many steps.
+    /// The limit of steps is reached.
     #[error("the limit of {limit} steps was reached at t = {t:.6e} s")]
     TooManySteps {
         /// Time, s.
         t: f64,
-        /// The limit.
+        /// Limit.
         limit: u64,
     },
-    /// Too many events.
+    /// The limit of events is reached.
     #[error("the limit of {limit} events was reached at t = {t:.6e} s")]
     TooManyEvents {
         /// Time, s.
         t: f64,
-        /// The limit.
+        /// Limit.
         limit: u64,
     },
-    /// Events accumulate at one moment.
+    /// Events of a contact accumulate (Zeno behaviour).
     #[error("events of contact `{contact}` accumulate at t = {t:.6e} s: {count} within {window:.3e} s")]
     Zeno {
         /// Time, s.
@@ -62,10 +62,10 @@ pub enum RunError {
         contact: String,
         /// Number of events.
         count: u32,
-        /// Length of the window, s.
+        /// Length of the time window, s.
         window: f64,
     },
-    /// Events of a block accumulate at one moment.
+    /// Events of a block accumulate.
     #[error("events of block `{block}` accumulate at t = {t:.6e} s: {count} within {window:.3e} s")]
     Chatter {
         /// Time, s.
@@ -74,17 +74,17 @@ pub enum RunError {
         block: String,
         /// Number of events.
         count: u32,
-        /// Length of the window, s.
+        /// Length of the time window, s.
         window: f64,
     },
-    /// Steps that do not move on.
-    #[error("at t = {t:.6e} s {attempts} steps have moved the run on by {advance:.3e} s")]
+    /// Attempts hardly advance the time.
+    #[error("at t = {t:.6e} s the last {attempts} time steps advanced the run by only {advance:.3e} s")]
     Crawl {
         /// Time, s.
         t: f64,
         /// Number of attempts.
         attempts: u64,
-        /// What they came to, s.
+        /// Time advanced, s.
         advance: f64,
     },
     /// A contact cannot follow the motion.
@@ -94,12 +94,12 @@ pub enum RunError {
         t: f64,
         /// Name of the contact.
         contact: String,
-        /// Why.
+        /// Reason.
         source: ContactError,
     },
-    /// Nothing balances the load on a coordinate without mass any more: gross slip, or a contact that has parted.
+    /// Nothing balances the load on a balanced coordinate any more: gross slip, or lift-off.
     #[error(
-        "nothing balances {load:.3e} N along {} of `{body}` from t = {t:.15e} s on: {}",
+        "no force balances {load:.3e} N along {} of `{body}` from t = {t:.15e} s on: {}",
         .axis.key(),
         held(*.load, *.limit)
     )]
@@ -108,11 +108,11 @@ pub enum RunError {
         t: f64,
         /// Name of the body.
         body: String,
-        /// Its coordinate.
+        /// Coordinate.
         axis: Axis,
-        /// What pulls, N.
+        /// Load, N.
         load: f64,
-        /// What the contacts hold, N.
+        /// Limit of the contacts, N.
         limit: f64,
     },
     /// A block cannot follow its inputs.
@@ -122,42 +122,44 @@ pub enum RunError {
         t: f64,
         /// Name of the block.
         block: String,
-        /// Why, in its words.
+        /// Reason, by the block.
         why: String,
     },
-    /// The wall-clock limit.
+    /// The limit of wall-clock time is reached.
     #[error("the limit of {limit} s of wall time was reached at t = {t:.6e} s")]
     OutOfTime {
         /// Time, s.
         t: f64,
-        /// The limit, s.
+        /// Limit, s.
         limit: f64,
     },
-    /// A run was to be advanced to a time before the one it has reached.
-    #[error("cannot go from t = {t:.6e} s to t = {until:.6e} s: time runs forward")]
+    /// The requested time is before the present time.
+    #[error("cannot advance from t = {t:.6e} s to the earlier time t = {until:.6e} s")]
     Backwards {
         /// Time, s.
         t: f64,
-        /// Where it was to go, s.
+        /// Requested time, s.
         until: f64,
     },
-    /// A stepper whose state cannot be held.
-    #[error("a run of the stepper `{stepper}` cannot be held")]
+    /// The state of this stepper cannot be held between calls.
+    #[error("a run with the stepper `{stepper}` cannot be advanced in parts")]
     NotHeld {
-        /// Its name.
+        /// Name of the stepper.
         stepper: &'static str,
     },
-    /// An input has no value for the time ahead.
-    #[error("input {input} has no value after t = {known:.6e} s, and the run is to go to t = {until:.6e} s")]
+    /// An input has no value for the requested time.
+    #[error(
+        "input {input} has no value after t = {known:.6e} s, but the run was to advance to t = {until:.6e} s"
+    )]
     InputMissing {
-        /// Place of the waveform in the scene.
+        /// Index of the waveform.
         input: usize,
-        /// Until when it has one, s.
+        /// End of the known values, s.
         known: f64,
-        /// Where the run is to go, s.
+        /// Requested time, s.
         until: f64,
     },
-    /// Whoever watches the run asked it to stop.
+    /// The watcher of the run requested to stop.
     #[error("interrupted at t = {t:.6e} s")]
     Interrupted {
         /// Time, s.
@@ -165,55 +167,54 @@ pub enum RunError {
     },
 }
 
-/// Load and limit that differ by less are told as one number.
+/// Relative difference below which load and limit are reported as one number.
 const ALIKE: f64 = 1e-3;
 
-/// What contacts hold of a load, N, in words: a load that grows is at their limit where it is too much for them.
+/// Returns a text about the limit of the contacts, N. Limit and load may be equal: gross slip begins at the limit.
 fn held(load: f64, limit: f64) -> String {
     if (load.abs() - limit).abs() <= ALIKE * limit {
-        "its contacts hold no more".to_owned()
+        "this is the friction limit of its contacts".to_owned()
     } else {
-        format!("its contacts hold {limit:.3e} N")
+        format!("the friction limit of its contacts is {limit:.3e} N")
     }
 }
 
 impl RunError {
-    /// Whether the run was halted from outside and stands between two steps, from where it can go on: by whoever watches it,
-    /// or by a limit on its steps or its time.
+    /// Whether the run was halted between two steps and can continue: by the watcher, or by a limit of steps or wall-clock time.
     pub fn is_halt(&self) -> bool {
         matches!(self, Self::Interrupted { .. } | Self::OutOfTime { .. } | Self::TooManySteps { .. })
     }
 
-    /// What to try.
+    /// Returns a suggested remedy.
     pub fn advice(&self) -> &'static str {
         match self {
             Self::StepTooSmall { .. } => {
-                "loosen the tolerance, or look for a length, mass or stiffness off by orders of magnitude"
+                "increase the tolerance, or check lengths, masses and stiffnesses for errors of orders of magnitude"
             }
             Self::Unstable { .. } => {
-                "take a step well below the limit, or the event stepper, which needs none"
+                "use a time step well below the limit, or the stepper event, which needs no time step"
             }
             Self::NotFinite { .. } => {
-                "look for a number off by orders of magnitude; `stickslip info` tells the longest stable step"
+                "check the numbers for errors of orders of magnitude; `stickslip info` prints the largest stable time step"
             }
-            Self::TooManySteps { .. } => "raise run.limits.steps, loosen the tolerance or shorten the run",
-            Self::TooManyEvents { .. } => "raise run.limits.events or shorten the run",
+            Self::TooManySteps { .. } => "increase run.limits.steps or the tolerance, or shorten the run",
+            Self::TooManyEvents { .. } => "increase run.limits.events or shorten the run",
             Self::Zeno { .. } | Self::Chatter { .. } | Self::Crawl { .. } => {
-                "take another tolerance, or a fixed step, which looks for no events"
+                "use another tolerance, or a stepper with a fixed time step, which locates no events"
             }
             Self::Contact { source: ContactError::Beyond { .. }, .. } => {
-                "give the profile points further out, or press it less"
+                "extend the profile to larger radii, or reduce the normal load"
             }
-            Self::Contact { .. } => "enlarge the span of the row, or use the engine \"curve\"",
+            Self::Contact { .. } => "increase the span of the row, or use the engine \"curve\"",
             Self::Unbalanced { .. } => {
-                "lower the load or press harder; to see what comes after, hold the body by a spring or make it \"free\" with a mass"
+                "reduce the load or increase the normal force; to simulate the motion after this, hold the body by a spring or make it \"free\" with a mass"
             }
-            Self::Block { .. } => "look at what the block says of itself",
-            Self::OutOfTime { .. } => "raise run.limits.wall or shorten the run",
-            Self::Backwards { .. } => "advance to a time after the present one",
-            Self::NotHeld { .. } => "take the stepper event, verlet or rk4",
-            Self::InputMissing { .. } => "give the input its next piece before advancing",
-            Self::Interrupted { .. } => "run again to the end",
+            Self::Block { .. } => "see the message of the block",
+            Self::OutOfTime { .. } => "increase run.limits.wall or shorten the run",
+            Self::Backwards { .. } => "advance to a later time",
+            Self::NotHeld { .. } => "use the stepper `event`, `verlet` or `rk4`",
+            Self::InputMissing { .. } => "set the next value of the input before advancing",
+            Self::Interrupted { .. } => "run the scenario again",
         }
     }
 }

@@ -1,37 +1,37 @@
-//! Events: the moments at which the law of motion changes.
+//! Events: times at which the law of motion changes.
 //!
-//! An event of a step from t₀ to t₁ lies in the half-open interval (t₀, t₁]; a guard that is zero at t₀ is the
-//! event just handled and counts again only after it has been positive.
+//! An event of a step from t₀ to t₁ lies in the half-open interval (t₀, t₁]. An event function that is zero at t₀ belongs to the
+//! event just handled; it counts again after it has been positive.
 
-/// One event.
+/// Event of a run.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Event {
     /// Time, s.
     pub t: f64,
-    /// Where it comes from.
+    /// Source of the event.
     pub source: Source,
-    /// What happened.
+    /// Kind of the event.
     pub kind: EventKind,
 }
 
-/// Where an event comes from.
+/// Source of an event.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Source {
-    /// Contact at this place of the scene.
+    /// Contact by its index.
     Contact(usize),
-    /// Waveform at this place of the scene.
+    /// Waveform by its index.
     Waveform(usize),
-    /// Block at this place of the scene.
+    /// Block by its index.
     Block(usize),
 }
 
-/// What happened.
+/// Kind of an event.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum EventKind {
-    /// The sense of sliding turns. Where the indentation varies that of the edge that drags, and not u.
+    /// The sense of slip reverses. Under varying indentation this is the sense of the slipping edge, not of u.
     Reversal,
-    /// u turns without a law that ends, or not when one does: told of the contacts of a body that the record watches, and only
-    /// where [`Model::tells_turns`](crate::Model::tells_turns). No run counts it among its events.
+    /// u̇ changes its sign at a time that is no event of the contact's law. Reported for contacts of watched bodies only, and
+    /// only if [`Model::tells_turns`](crate::Model::tells_turns). It does not count as an event of the run.
     Turn,
     /// A piece of the memory is used up: a hysteresis loop closes.
     LoopClosed,
@@ -41,22 +41,22 @@ pub enum EventKind {
     GrossSlipEnds,
     /// The contact begins to grow in full stick.
     FullStick,
-    /// Slip begins in a contact that grew in full stick.
+    /// Slip begins in a contact that has grown in full stick.
     SlipBegins,
     /// Two bodies touch.
     Touch,
-    /// Two bodies part.
+    /// Two bodies separate.
     LiftOff,
-    /// A waveform turns a corner.
+    /// A waveform has a corner.
     Corner,
     /// A waveform jumps.
     Jump,
-    /// A guard of a block fell: what that means, in the block's own word.
+    /// An event function of a block crosses zero; the text is the block's name for it.
     Own(&'static str),
 }
 
 impl EventKind {
-    /// Name in `events.csv`.
+    /// Returns the name in `events.csv`.
     pub fn name(self) -> &'static str {
         match self {
             Self::Reversal => "reversal",

@@ -1,8 +1,8 @@
-//! What a scene means before it runs: numbers that follow from scene, model and plan alone.
+//! Properties of a model that are known before a run.
 //!
-//! In reading order: [`Setup`], which all are told of; [`Pressed`] and [`Loaded`] (a contact at an indentation), with
-//! [`zero_step_stroke`]; [`Prescribed`] (slip on a path that waveforms prescribe); [`Follower`] (what follows a waveform); [`Mode`] (small motions); [`ExpectedEvents`], and what
-//! [`rows`] and [`fixed_steps`] a run has.
+//! Contents: [`Setup`], the common argument; [`Pressed`] and [`Loaded`], a contact at an indentation; [`zero_step_stroke`];
+//! [`Prescribed`], slip on a path that waveforms prescribe; [`Follower`], a quantity that follows a waveform; [`Mode`], a normal
+//! mode; [`ExpectedEvents`]; the numbers of [`rows`] and [`fixed_steps`] of a run.
 
 mod events;
 mod extent;
@@ -20,13 +20,13 @@ pub use modes::{Mode, modes};
 pub use prescribed::{Prescribed, common_period};
 pub use pressed::{Loaded, Pressed, has_constant_load, zero_step_stroke};
 
-/// A scene with the model that was made of it and the state at t = 0.
+/// A [`Scene`] with its [`Model`] and its [`State`] at t = 0.
 #[derive(Debug, Clone, Copy)]
 pub struct Setup<'a> {
-    /// What is there.
+    /// Description of the drive.
     pub scene: &'a Scene,
-    /// Its constants.
+    /// Model made from it.
     pub model: &'a Model,
-    /// Where a run begins.
+    /// State at t = 0.
     pub start: &'a State,
 }

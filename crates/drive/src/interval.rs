@@ -1,14 +1,13 @@
-//! The smooth interval between two events, with everything worked out that stays the same in it.
+//! Smooth interval between two events, with precomputed constants.
 //!
-//! Between events each contact follows one law and each waveform one piece. Most contacts of most scenes are then pressed
-//! at a constant indentation, cut one piece of their memory and are dragged by a sum of sines or by straight waveforms: for
-//! these u is linear in the coordinates, and the force is one closed form of u. Contacts that are apart act on nothing and are
-//! not looked at until their gap closes. What is left goes through the general [`Equations`](crate::equations::Equations).
+//! Between events each contact obeys one law and each waveform one piece. Most contacts have constant indentation and follow one
+//! branch over prescribed motions that are linear or sinusoidal. Their u is linear in the coordinates, and their force is a
+//! closed form of u. Open contacts exert no force. All others use the general [`Equations`](crate::equations::Equations).
 //!
-//! An interval is made anew after each event, from the state alone, or takes up the laws of those contacts that fired; it is
-//! read by everybody until the next: evaluations ask it
-//! for forces, the watch for guards, the leap for the swing of a single slider. What is done about each contact is decided by
-//! [`treatment`](crate::method::treatment), by which method the interval is taken by [`choice`](crate::method::choice).
+//! An interval is rebuilt after each event from the state, or only updated for the contacts with an event. Evaluations use it for
+//! forces, the event detection for event functions, and the closed-form solution for the oscillation of a single slider. See
+//! [`treatment`](crate::method::treatment) for the treatment of a contact and [`choice`](crate::method::choice) for the method of
+//! an interval.
 
 mod closed;
 mod followed;
@@ -29,36 +28,35 @@ use crate::model::{Free, Model};
 use crate::state::State;
 use stickslip_contact::Branch;
 
-/// What evaluations between two events need. Scratch: made anew after each event.
+/// Precomputed data of the smooth interval between two events. Scratch memory, rebuilt after each event.
 #[derive(Debug, Clone)]
 pub(crate) struct Interval<'a> {
-    /// Contacts whose force is a closed form of u: pressed at a constant depth, dragged in one sense.
+    /// Contacts whose force is a closed form of u, at constant indentation and with one sense of slip.
     pub(crate) closed: Vec<Closed<'a>>,
-    /// Contacts that go through the general equations.
+    /// Contacts that use the general equations.
     pub(crate) others: Vec<usize>,
-    /// Contacts that are apart and may touch.
+    /// Open contacts that may touch.
     pub(crate) apart: Vec<usize>,
-    /// By contact: its place among those of closed form.
+    /// Index of each contact among those of closed form.
     places: Vec<Option<usize>>,
-    /// What decides the method: of the scene, and of the interval.
+    /// Properties of model and interval that determine the method.
     pub(crate) scene: SceneTraits,
     pub(crate) traits: IntervalTraits,
-    /// That slider, where nothing but contacts of closed form acts on it.
+    /// Single slider on which only contacts of closed form act.
     pub(crate) slider: Option<Slider>,
-    /// What its contacts make of it.
+    /// Contributions of the contacts to the slider's acceleration.
     pub(crate) pulls: Vec<Pull<'a>>,
-    /// All that acts, laid out for evaluations, where it has such a form.
+    /// Precomputed forces for evaluations, if they have such a form.
     pub(crate) kernel: Kernel<'a>,
 }
 
-/// A list without its items, which may borrow from what is gone soon, as room for others: a list is collected in the room of the
-/// one that it comes from.
+/// Returns the memory of a list without its items, for items of another type.
 fn emptied<T, U>(list: Vec<T>) -> Vec<U> {
     list.into_iter().filter_map(|_| None).collect()
 }
 
 impl<'a> Interval<'a> {
-    /// Room for all contacts of a model.
+    /// Returns an interval with memory for all contacts of a model.
     pub(crate) fn of(model: &Model) -> Self {
         let count = model.contacts.len();
         Self {
@@ -74,7 +72,7 @@ impl<'a> Interval<'a> {
         }
     }
 
-    /// Room for all contacts of another model.
+    /// Reuses the memory for another model.
     pub(crate) fn renewed(mut self, model: &Model) -> Self {
         self.closed.reserve(model.contacts.len());
         self.pulls.reserve(model.contacts.len());
@@ -84,7 +82,7 @@ impl<'a> Interval<'a> {
         Self { scene: SceneTraits::of(model), traits: IntervalTraits::default(), slider: None, ..self }
     }
 
-    /// The room that it takes, empty: it knows no model.
+    /// Returns its memory, empty and without a model.
     pub(crate) fn emptied(self) -> Interval<'static> {
         Interval {
             closed: emptied(self.closed),
@@ -99,26 +97,26 @@ impl<'a> Interval<'a> {
         }
     }
 
-    /// Contact `c`, if its form is closed.
+    /// Returns contact `c` if its force has a closed form.
     #[inline]
     pub(crate) fn closed_form(&self, c: usize) -> Option<&Closed<'a>> {
         self.places.get(c).copied().flatten().map(|place| &self.closed[place])
     }
 
-    /// The contacts whose motion a contact of closed form's closed forms do not give.
+    /// Returns the contacts without a closed form, including open ones.
     #[inline(always)]
     pub(crate) fn open_form(&self) -> impl Iterator<Item = usize> + '_ {
         self.others.iter().chain(&self.apart).copied()
     }
 
-    /// Whether there are none.
+    /// Whether all contacts have a closed form.
     #[inline(always)]
     pub(crate) fn is_closed(&self) -> bool {
         self.others.is_empty() && self.apart.is_empty()
     }
 
-    /// Takes up the new laws of some contacts, all else being as it was before the event; false, with nothing done, where one
-    /// of them has no closed form before and after it.
+    /// Updates the laws of some contacts after an event that changed nothing else. Returns false, without a change, if one of
+    /// them has no closed form before and after the event.
     pub(crate) fn renew(
         &mut self,
         model: &'a Model,
@@ -140,19 +138,19 @@ impl<'a> Interval<'a> {
         }
         self.traits.slides = self.slides(state);
         self.traits.asked = false;
-        // All else that the kernel lays out is as it was.
+        // All other precomputed data is still valid.
         if !self.kernel.is_whole() {
             self.act(model, state);
         }
         true
     }
 
-    /// Whether every contact that is not apart is in gross slip.
+    /// Whether every closed contact is in gross slip.
     fn slides(&self, state: &State) -> bool {
         state.modes.iter().all(|mode| mode.is_gross() || *mode == Mode::Open)
     }
 
-    /// Works out what stays the same from a state on.
+    /// Computes the constants of the interval that begins at a state.
     pub(crate) fn begin(&mut self, model: &'a Model, state: &State) {
         self.closed.clear();
         self.others.clear();
@@ -183,7 +181,7 @@ impl<'a> Interval<'a> {
         self.act(model, state);
     }
 
-    /// What acts: the contacts on a single slider, or all that the kernel lays out.
+    /// Computes the forces on a single slider, or the general precomputed forces.
     fn act(&mut self, model: &'a Model, state: &State) {
         self.pulls.clear();
         self.slider = match &model.free[..] {
@@ -192,33 +190,33 @@ impl<'a> Interval<'a> {
             }
             _ => None,
         };
-        // A single slider has a shorter form still.
+        // A single slider has an even shorter form.
         match self.slider {
             Some(_) => self.kernel.clear(),
             None => self.kernel.lay_out((model, state), &self.closed, &self.others),
         }
     }
 
-    /// Whether the motion is to be taken in one leap to the next event.
+    /// Whether the interval is solved in one step to the next event.
     #[inline(always)]
     pub(crate) fn leaps(&self) -> bool {
         self.traits.leaps(&self.scene)
     }
 
-    /// Counts what is done about each contact.
+    /// Counts the treatment of each contact.
     pub(crate) fn count(&self, tally: &mut Tally) {
         self.closed.iter().for_each(|closed| tally.interval(closed.index, Treatment::Closed));
         self.others.iter().for_each(|c| tally.interval(*c, Treatment::General));
         self.apart.iter().for_each(|c| tally.interval(*c, Treatment::Apart));
     }
 
-    /// Whether accelerations and powers are the same throughout.
+    /// Whether accelerations and powers are constant in the interval.
     #[inline(always)]
     pub(crate) fn is_constant(&self) -> bool {
         self.traits.is_constant(&self.scene)
     }
 
-    /// The contacts of closed form as they act on a single slider; none where a follower moves at no constant rate.
+    /// Returns the contacts of closed form as they act on a single slider. None if a prescribed motion has no constant rate.
     fn pull(&mut self, slider: &Free) -> Option<Slider> {
         let mut sum = Slider { acceleration: slider.mobility * slider.force, power: 0.0 };
         for closed in &self.closed {

@@ -1,17 +1,16 @@
-//! Rigid bodies, actuators, waveforms and frictional contacts as equations of motion, and their runs.
+//! Equations of motion of rigid bodies, actuators, waveforms and frictional contacts, and their simulation.
 //!
-//! A [`Scene`] says what is there; [`Model::new`] checks it and assembles the constants. A run is the sentence
-//! that joins four things: the [`Model`] (constant), the [`State`] (all that the future depends on), a
-//! workspace (scratch) and a [`Record`] (output): [`Model::start`] makes the state, [`run`] moves it along a
-//! [`Plan`] to its end; a [`Run`] is held by its caller and moved from moment to moment.
+//! A [`Scene`] describes bodies, contacts and drives; [`Model::new`] checks it and computes constants. A run connects the
+//! [`Model`] (constant), the [`State`] (all that the future depends on), a workspace (scratch) and a [`Record`] (output).
+//! [`Model::start`] creates the state. [`run`] advances it along a [`Plan`] to the end; a [`Run`] advances on request.
 //!
-//! In reading order: [`Scene`], [`Waveform`], [`Plan`]; [`Model`] and its small motions, [`Linearised`]; [`State`]; the
-//! equations of motion; guards and events; the runs, event-aware, at fixed step and by the plain reference; what is written down;
-//! [`facts`], which are told before anything runs.
+//! Contents: [`Scene`], [`Waveform`], [`Plan`]; [`Model`] and its linearisation [`Linearised`]; [`State`]; equations of motion;
+//! event functions and events; runs with event location, with fixed steps and by a reference method; records; [`facts`],
+//! properties known before a run.
 //!
-//! Coordinates are x, z and the small pitch of each body, displacements from the position drawn, in SI: free, fixed or
-//! following a waveform. Where no force depends on a velocity the runs take a Runge–Kutta–Nyström method, elsewhere,
-//! and before singular moments, Dormand and Prince's of order 8.
+//! The coordinates are x, z and the small pitch of each body, as displacements from the reference position in SI units. A
+//! coordinate is free, fixed, balanced or follows a waveform. If no force depends on a velocity, runs use a Runge–Kutta–Nyström
+//! method. Otherwise, and before singular moments, they use the Dormand–Prince method of order 8; stiff models use Radau IIA.
 
 pub mod component;
 mod contact;

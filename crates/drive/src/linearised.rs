@@ -1,8 +1,8 @@
-//! Small motions: the equations of motion linearised with all contacts stuck, M ẍ + C ẋ + K x = 0.
+//! Equations of motion linearised with all contacts stuck: M ẍ + C ẋ + K x = 0.
 //!
-//! Rows of contacts and links are those of the model's Jacobian: a stiffness k along a row a adds k aᵢaⱼ to K. A stuck contact
-//! has 2G\*a along the slide and, where bodies press it, 2E\*a along the normal; one that slips only has less. So the
-//! fastest motion here bounds what a step must resolve, and its stability that of a fixed step.
+//! The rows of contacts and links are those of the model's Jacobian: a stiffness k along a row a adds k aᵢaⱼ to K. A stuck
+//! contact has 2G\*a along the slide and, if bodies press it, 2E\*a along the normal. Slip reduces the stiffness. The highest
+//! frequency therefore limits time steps.
 
 mod blocks;
 mod frame;
@@ -22,38 +22,37 @@ use nalgebra::{Complex, ComplexField, DMatrix, DVector, Schur, SymmetricEigen};
 use reach::{longest, rk4_reach};
 use std::f64::consts::SQRT_2;
 
-/// Sweeps of an eigenvalue iteration per row before it counts as failed; a handful is usual.
-// With 10 all of the examples still converge; where one fails, as with 1, a longest step comes out 3e5 times too short.
+/// Largest number of sweeps of an eigenvalue iteration per row.
 const SWEEPS: usize = 100;
-/// Indentations of a contact, m; negative: open.
+/// Range of a contact's indentation, m; negative when open.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Indentations {
-    /// The smallest over all time.
+    /// Smallest indentation at any time.
     pub least: f64,
-    /// At t = 0.
+    /// Indentation at t = 0.
     pub start: f64,
-    /// The largest over all time.
+    /// Largest indentation at any time.
     pub most: f64,
 }
 
-/// Mass, damping and stiffness matrix of the free coordinates with all contacts stuck. Where a contact slips its
-/// stiffness falls to 0, so these are the stiffest motions that the scene has.
+/// Mass, damping and stiffness matrix of the free coordinates with all contacts stuck. These are the stiffest motions of the
+/// model.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Linearised {
     coordinates: Vec<String>,
-    /// By contact: what a coordinate moves it, as (place among the coordinates, displacement per coordinate).
+    /// Displacement of each contact as (index of the coordinate, displacement per coordinate).
     contacts: Vec<Row>,
     mass: DVector<f64>,
     damping: DMatrix<f64>,
     stiffness: DMatrix<f64>,
 }
 
-/// A normal mode.
+/// Normal mode.
 #[derive(Debug, Clone, PartialEq)]
 pub struct NormalMode {
-    /// Angular frequency without damping, rad/s; 0 where nothing holds the motion.
+    /// Undamped angular frequency, rad/s; 0 for a free motion.
     pub frequency: f64,
-    /// φᵀCφ/(2ω φᵀMφ): share of critical damping, exact where damping does not couple the modes; 0 at frequency 0.
+    /// Damping ratio φᵀCφ/(2ω φᵀMφ), exact if damping does not couple the modes; 0 at frequency 0.
     pub damping_ratio: f64,
     /// Displacement of each coordinate; the largest is 1.
     pub shape: Vec<f64>,
@@ -65,17 +64,17 @@ pub struct NormalMode {
 type Row = Vec<(usize, f64)>;
 
 impl Model {
-    /// Indentations of contact `index` over all time, from a state at t = 0 on; a table's beyond the end of the run count,
-    /// too. Of a coupled contact the largest is an expectation: what the loads and motions at the start can press.
+    /// Returns the range of the indentation of contact `index` from a state at t = 0. Includes the part of a table beyond the end
+    /// of the run. For a coupled contact the largest indentation is an estimate from the initial loads and motions.
     pub fn indentations(&self, state: &State, index: usize) -> Option<Indentations> {
         self.indentations_from(state.memories().get(index)?.apex().d, index)
     }
 
-    /// The same where it is `start` at t = 0.
+    /// Returns the same range for an indentation `start` at t = 0, m.
     fn indentations_from(&self, start: f64, index: usize) -> Option<Indentations> {
         let contact = self.contacts.get(index)?;
         let Some(waveform) = contact.press.waveform() else {
-            // A coupled contact leaves its bodies, or goes as deep as its natural scale expects.
+            // A coupled contact may open, or reach its natural depth.
             let coupled = contact.coupling().is_some();
             let (least, most) =
                 if coupled { (start.min(0.0), contact.natural.depth.max(start)) } else { (start, start) };
@@ -86,14 +85,13 @@ impl Model {
         Some(Indentations { least: at(low), start, most: at(high) })
     }
 
-    /// The motions about a `state` in which all contacts stick, each at the indentation (m) that `depth` picks.
+    /// Returns the linearised motions about a `state` with all contacts stuck, each at the indentation (m) that `depth` selects.
     pub fn linearised(&self, state: &State, depth: impl Fn(&Indentations) -> f64) -> Linearised {
         self.whole(|c| self.indentations(state, c).map_or(0.0, |d| depth(&d)))
     }
 
-    /// Angular frequency, rad/s, of contact `index` alone, all its members stuck at indentation d (m), between its two
-    /// bodies: ω² = k Σ 1/m over those that are free along it; 0 without friction.
-    /// None where neither is free.
+    /// Returns the angular frequency of contact `index` alone between its two bodies, rad/s, with all members stuck at
+    /// indentation d (m): ω² = k Σ 1/m over the free bodies. It is 0 without friction, and none if neither body is free.
     pub fn contact_resonance(&self, index: usize, d: f64) -> Option<f64> {
         let contact = self.contacts.get(index)?;
         let mobility = contact.u.mobility(|i| self.free[i].mobility);
@@ -102,7 +100,7 @@ impl Model {
         (mobility > 0.0).then(|| (stiffness * mobility).sqrt())
     }
 
-    /// ω of a single coordinate without dampers, rad/s, as deep as its contacts get: the root of k/m, without a matrix.
+    /// Returns ω of a single undamped coordinate at the largest indentations, rad/s, without a matrix.
     fn only_frequency(&self) -> Option<f64> {
         let [free] = &self.free[..] else { return None };
         let damped = self.links.iter().any(|link| link.damping != 0.0)
@@ -131,13 +129,14 @@ impl Model {
         eigenvalue.is_finite().then(|| eigenvalue.sqrt())
     }
 
-    /// Whether something settles so much faster than all else goes on that the stepper `event` goes by implicit steps over it.
+    /// Whether the model is stiff: a decaying motion is much faster than all others. The stepper `event` then uses implicit
+    /// steps.
     pub fn is_stiff(&self) -> bool {
         self.stiff
     }
 
-    /// Longest stable step of a stepper at fixed step, s, with all contacts stuck and as deep as they get, and of what the
-    /// states of blocks do of themselves; infinite where nothing swings or settles. None for steppers that choose their steps.
+    /// Returns the longest stable step of a fixed-step stepper, s, with all contacts stuck at their largest indentation and for
+    /// the states of blocks. Infinite without oscillation and decay; none for adaptive steppers.
     pub fn longest_step(&self, stepper: Stepper) -> Option<f64> {
         let Reach { motion, state } = stepper.reach()?;
         let motions = self.parts(|d| d.most).iter().map(motion).fold(f64::INFINITY, f64::min);
@@ -145,9 +144,7 @@ impl Model {
     }
 }
 
-/// Adds what a spring or damper along a row does to the coordinates.
-///
-/// value·rᵀr with the row r: symmetric, and never negative.
+/// Adds value·rᵀr to a matrix, the effect of a spring or damper along a row r.
 fn add(matrix: &mut DMatrix<f64>, row: &[(usize, f64)], value: f64) {
     for (i, a) in row {
         for (j, b) in row {
@@ -157,34 +154,33 @@ fn add(matrix: &mut DMatrix<f64>, row: &[(usize, f64)], value: f64) {
 }
 
 impl Linearised {
-    /// Names of the free coordinates, such as `slider.x`.
+    /// Returns the names of the free coordinates, such as `slider.x`.
     pub fn coordinates(&self) -> &[String] {
         &self.coordinates
     }
 
-    /// Diagonal of the mass matrix M, kg.
+    /// Returns the diagonal of the mass matrix M, kg.
     pub fn mass(&self) -> &DVector<f64> {
         &self.mass
     }
 
-    /// Damping matrix C, N s/m.
+    /// Returns the damping matrix C, N s/m.
     pub fn damping(&self) -> &DMatrix<f64> {
         &self.damping
     }
 
-    /// Stiffness matrix K, N/m.
+    /// Returns the stiffness matrix K, N/m.
     pub fn stiffness(&self) -> &DMatrix<f64> {
         &self.stiffness
     }
 
-    /// Normal modes by rising frequency; none where the numbers are beyond what a matrix can hold.
+    /// Returns the normal modes by increasing frequency. Empty if the eigenvalue iteration fails.
     pub fn modes(&self) -> Vec<NormalMode> {
         if self.mass.is_empty() {
             return Vec::new();
         }
         let Some(eigen) = symmetric(self.by_mass(&self.stiffness)) else { return Vec::new() };
-        // What nothing holds has the eigenvalue 0 but for rounding, of either sign: its root would be a
-        // frequency or none at all.
+        // A free motion has the eigenvalue 0 up to rounding of either sign.
         let rounding = self.mass.len() as f64 * f64::EPSILON * eigen.eigenvalues.amax();
         let mode = |(k, value): (usize, &f64)| {
             let frequency = if *value > rounding { value.sqrt() } else { 0.0 };
@@ -195,7 +191,7 @@ impl Linearised {
         modes
     }
 
-    /// The mode of an eigenvector of M^{-1/2} K M^{-1/2}, of length 1.
+    /// Returns the mode of a unit eigenvector of M^{-1/2} K M^{-1/2}.
     fn mode(&self, frequency: f64, vector: &DVector<f64>) -> NormalMode {
         let damped = vector.dot(&(self.by_mass(&self.damping) * vector));
         let displaced = vector.zip_map(&self.mass, |x, mass| x / mass.sqrt());
@@ -204,27 +200,29 @@ impl Linearised {
         let moved = |row: &Row| row.iter().map(|(i, share)| share * shape[*i]).sum();
         NormalMode {
             frequency,
-            // A free motion has no critical damping to be a share of.
+            // A free motion has no critical damping.
             damping_ratio: if frequency > 0.0 { 0.5 * damped / frequency } else { 0.0 },
             contacts: self.contacts.iter().map(moved).collect(),
             shape,
         }
     }
 
-    /// M^{-1/2} A M^{-1/2}.
+    /// Returns M^{-1/2} A M^{-1/2}.
     fn by_mass(&self, matrix: &DMatrix<f64>) -> DMatrix<f64> {
         let root = self.mass.map(f64::sqrt);
         DMatrix::from_fn(matrix.nrows(), matrix.ncols(), |i, j| matrix[(i, j)] / (root[i] * root[j]))
     }
 
-    /// ω of the fastest mode, rad/s; 0 without any.
+    /// Returns the largest ω of all modes, rad/s; 0 without modes.
     fn highest_frequency(&self) -> f64 {
         self.modes().last().map_or(0.0, |mode| mode.frequency)
     }
 
-    /// Velocity Verlet with the predicted velocity in the damping, see `stickslip_stepper::Verlet`: a motion x ξⁿ obeys
-    /// [ξ M + h²K ξ²/(ξ-1)² + hC (3ξ-1)/(2(ξ-1))] x = 0, which leaves the unit circle at ξ = -1, where an eigenvalue of
-    /// M⁻¹(h²K/4 + hC) reaches 1. Without damping h = 2/ω, with one damped mode (hω)² + 8ζhω = 4.
+    /// Returns the longest stable step of velocity Verlet with the predicted velocity in the damping, s; see
+    /// `stickslip_stepper::Verlet`.
+    ///
+    /// A motion x ξⁿ satisfies [ξ M + h²K ξ²/(ξ-1)² + hC (3ξ-1)/(2(ξ-1))] x = 0. It leaves the unit circle at ξ = -1, where an
+    /// eigenvalue of M⁻¹(h²K/4 + hC) reaches 1. Without damping h = 2/ω; with one damped mode (hω)² + 8ζhω = 4.
     fn longest_verlet_step(&self) -> f64 {
         let (stiffness, damping) = (self.by_mass(&self.stiffness), self.by_mass(&self.damping));
         let largest =
@@ -234,12 +232,12 @@ impl Linearised {
         if rate == 0.0 {
             return undamped;
         }
-        // A matrix without negative eigenvalues has one as large as its largest entry: no step beyond 1/rate is stable.
+        // A positive semidefinite matrix has an eigenvalue of at least its largest entry, so no step above 1/rate is stable.
         longest(undamped.min(1.0 / rate), |h| largest(h).is_some_and(|value| value <= 1.0))
     }
 
-    /// Classical Runge–Kutta: |1 + z + z²/2 + z³/6 + z⁴/24| ≤ 1 with z = hλ for every λ of λ²M + λC + K. Without damping
-    /// h = √8/ω.
+    /// Returns the longest stable step of the classical Runge–Kutta method, s: |1 + z + z²/2 + z³/6 + z⁴/24| ≤ 1 with z = hλ for
+    /// every λ of λ²M + λC + K. Without damping h = √8/ω.
     fn longest_rk4_step(&self) -> f64 {
         let frequency = self.highest_frequency();
         if self.damping.amax() == 0.0 {
@@ -249,12 +247,11 @@ impl Linearised {
         rates.iter().filter(|rate| rate.modulus() > 0.0).map(rk4_reach).fold(f64::INFINITY, f64::min)
     }
 
-    /// All λ of λ²M + λC + K, 1/s, as those of a matrix of first order in x and v/`frequency`, which have like sizes.
+    /// Returns all λ of λ²M + λC + K, 1/s, as eigenvalues of a first-order system in x and v/`frequency`.
     fn rates(&self, frequency: f64) -> Vec<Complex<f64>> {
         let n = self.mass.len();
         let mut matrix = DMatrix::zeros(2 * n, 2 * n);
-        // v is counted in units of x times this frequency: entries of like sizes, which an eigenvalue
-        // iteration needs for its digits.
+        // This scaling gives entries of similar size, for accurate eigenvalues.
         matrix.view_mut((0, n), (n, n)).fill_diagonal(frequency);
         matrix.view_mut((n, 0), (n, n)).copy_from(&(self.by_mass(&self.stiffness) / -frequency));
         matrix.view_mut((n, n), (n, n)).copy_from(&-self.by_mass(&self.damping));
@@ -262,20 +259,19 @@ impl Linearised {
     }
 }
 
-/// All eigenvalues of a matrix; none where an entry is not finite or the iteration does not end.
+/// Returns all eigenvalues of a matrix. Empty if an entry is not finite or the iteration fails.
 fn eigenvalues(matrix: DMatrix<f64>) -> Vec<Complex<f64>> {
     let sweeps = matrix.nrows() * SWEEPS;
     let schur = finite(matrix).and_then(|matrix| Schur::try_new(matrix, f64::EPSILON, sweeps.max(1)));
     schur.map_or_else(Vec::new, |schur| schur.complex_eigenvalues().iter().copied().collect())
 }
 
-/// The matrix if all its entries are finite: the iterations of nalgebra do not end otherwise.
+/// Returns the matrix if all entries are finite; the iterations of nalgebra would not end otherwise.
 fn finite(matrix: DMatrix<f64>) -> Option<DMatrix<f64>> {
     matrix.iter().all(|entry| entry.is_finite()).then_some(matrix)
 }
 
-/// Eigenvalues and vectors of a symmetric matrix; none where an entry is not finite or the iteration does not
-/// end.
+/// Returns eigenvalues and eigenvectors of a symmetric matrix. None if an entry is not finite or the iteration fails.
 fn symmetric(matrix: DMatrix<f64>) -> Option<SymmetricEigen<f64, nalgebra::Dyn>> {
     let sweeps = matrix.nrows() * SWEEPS;
     SymmetricEigen::try_new(finite(matrix)?, f64::EPSILON, sweeps.max(1))

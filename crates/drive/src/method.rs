@@ -1,22 +1,19 @@
-//! Which method integrates what, and why: decided here and nowhere else.
+//! Choice of the integration method, with its reason.
 //!
-//! A run asks [`choice`] at the beginning of every interval between two events and [`treatment`] of every contact in it;
-//! [`Model::expected`] asks the same two functions of the intervals that a scene can come to, so that what is told of a run
-//! beforehand is what it does.
+//! A run calls [`choice`] at the beginning of every interval between two events, and [`treatment`] for every contact.
+//! [`Model::expected`] calls the same functions for all possible intervals, so the prediction agrees with the run.
 //!
 //! | method | free coordinates | forces |
 //! | --- | --- | --- |
 //! | [`Method::Walk`] | none | prescribed paths |
-//! | [`Method::Parabola`] | any; one over followers on sines | constant until the next event |
-//! | [`Method::Swing`] | one | closed forms of u under straight followers |
-//! | [`Method::Nystrom`] | any | without velocities |
-//! | [`Method::Radau`] | any | of what settles far faster than all else goes on |
+//! | [`Method::Parabola`] | any; one over sinusoidal prescribed motions | constant until the next event |
+//! | [`Method::Swing`] | one | closed forms of u with linear prescribed motions |
+//! | [`Method::Nystrom`] | any | independent of velocities |
+//! | [`Method::Radau`] | any | stiff |
 //! | [`Method::DormandPrince`] | any | all others |
 //!
-//! At tolerances down to [`TIGHTEST_BRIEF`] a step of the two explicit methods that an event will end soon goes by one of
-//! fewer stages, [`Method::brief`].
-//!
-//! A graded step goes by Dormand and Prince's pair wherever it is taken: its stages ask for velocities.
+//! At tolerances down to [`TIGHTEST_BRIEF`] both explicit methods have a variant with fewer stages, [`Method::brief`], for steps
+//! that an event will soon cut. Graded steps always use Dormand–Prince, because their stages need velocities.
 
 mod expected;
 mod tally;
@@ -30,38 +27,38 @@ pub use why::Why;
 use crate::model::Model;
 use stickslip_contact::Branch;
 
-/// Tightest tolerance at which steps of few stages are taken.
+/// Smallest tolerance at which steps with few stages are used.
 const TIGHTEST_BRIEF: f64 = 1e-6;
 
-/// How a stretch of time is taken.
+/// Integration method of a time interval.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Method {
-    /// Nothing is free: the contacts are walked along their prescribed path from event to event.
+    /// Without free coordinates: the contacts move along their prescribed path from event to event.
     Walk,
-    /// A single slider swings from event to event by one quadrature of time.
+    /// Closed-form oscillation of a single slider from event to event, by one quadrature.
     Swing,
-    /// All forces are constant: positions run along parabolas, nothing is evaluated.
+    /// Parabolas under constant forces, without evaluations.
     Parabola,
-    /// Steps of the Runge–Kutta–Nyström pair of order 8(6).
+    /// Runge–Kutta–Nyström steps of order 8(6).
     Nystrom,
-    /// Steps of Nyström's method of order 5, of half the stages, where an event is near and the tolerance allows.
+    /// Nyström steps of order 5 with half the stages, near an event, if the tolerance allows them.
     BriefNystrom,
-    /// Steps of Dormand and Prince's Runge–Kutta pair of order 8(5,3).
+    /// Dormand–Prince steps of order 8(5,3).
     DormandPrince,
-    /// Steps of their pair of order 5(4), of half the stages, where an event is near and the tolerance allows.
+    /// Dormand–Prince steps of order 5(4) with half the stages, near an event, if the tolerance allows them.
     Brief,
-    /// Steps of the implicit method Radau IIA of order 9: what settles within a step need not be followed.
+    /// Implicit Radau IIA steps of order 9, for stiff models.
     Radau,
-    /// A step of order 8(5,3) whose stages crowd towards a singular moment at one of its ends.
+    /// Graded step of order 8(5,3), with stages concentrated near a singular moment at one of its ends.
     Graded,
-    /// Runge–Kutta steps by the whole law of the contacts, against their halves, where events accumulate.
+    /// Runge–Kutta steps with step doubling on the full force law, where events accumulate.
     Whole,
-    /// Steps of whichever stepper was asked for, one without located events.
+    /// Steps of the requested stepper, without event location.
     AskedFor,
 }
 
 impl Method {
-    /// The method of a step that an event will end soon, of fewer stages than this one's; none where there is none.
+    /// Returns the variant with fewer stages for a step that an event will soon cut. None if there is none.
     pub(crate) fn in_few_stages(self) -> Option<Self> {
         match self {
             Self::Nystrom => Some(Self::BriefNystrom),
@@ -70,10 +67,9 @@ impl Method {
         }
     }
 
-    /// The same where such steps are worth their errors: down to a tolerance, and where no springs of a row slip one by one on the way.
-    // Few stages step over what these do. Of two drawn drives on 16 springs errors at 1e-6 were 600 and 270 tolerances with such steps, and
-    // are 10 and 0.2 for 10 % more evaluations. At 1e-9 they spare nothing, and at 1e-10 the books of a stage on damped springs, which no
-    // estimate sees, were twice as far off (1.1e-8).
+    /// Returns that variant if it is accurate enough. None below a tolerance, and for rows of springs under constant load, whose
+    /// springs slip one by one.
+    // Few stages miss the kinks of single springs. At small tolerances they save nothing.
     pub(crate) fn brief(self, model: &Model, tolerance: f64) -> Option<Self> {
         let slips = |contact: &Contact| !contact.engine.branches() && !contact.inert && contact.is_constant();
         let few = self.in_few_stages()?;
@@ -81,29 +77,29 @@ impl Method {
     }
 }
 
-/// What is done about one contact between two events.
+/// Treatment of a contact between two events.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Treatment {
-    /// Nothing: it is never pressed.
+    /// Never evaluated: it is never pressed.
     Spared,
-    /// Only its gap is looked at.
+    /// Open: only its gap is monitored.
     Apart,
-    /// Its force is one closed form of u, and its memory stays where it is until the next event.
+    /// The force is a closed form of u; the memory is updated at the next event only.
     Closed,
-    /// It goes through the general equations, and its memory through every step.
+    /// General equations; the memory is updated in every step.
     General,
 }
 
-/// What of a scene decides the method.
+/// Properties of a model that determine the method.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct SceneTraits {
     /// Number of free coordinates.
     pub(crate) free: usize,
-    /// Whether places without mass are solved for.
+    /// Whether coordinates are balanced.
     pub(crate) balanced: bool,
-    /// Whether something settles far faster than all else goes on.
+    /// Whether the model is stiff.
     pub(crate) stiff: bool,
-    /// Why forces depend on velocities, if they do.
+    /// Reason why forces depend on velocities, if they do.
     pub(crate) velocities: Option<Why>,
     /// Whether springs, dampers or actuators act.
     pub(crate) links: bool,
@@ -111,18 +107,18 @@ pub(crate) struct SceneTraits {
     pub(crate) loads: bool,
 }
 
-/// What of an interval between two events decides it.
+/// Properties of an interval between two events that determine the method.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(crate) struct IntervalTraits {
-    /// Whether every contact that is not apart is in gross slip.
+    /// Whether every closed contact is in gross slip.
     pub(crate) slides: bool,
-    /// Whether what drags the contacts of closed form moves at constant rates.
+    /// Whether the prescribed motions of the contacts of closed form have constant rates.
     pub(crate) straight: bool,
-    /// Whether a contact goes through the general equations.
+    /// Whether a contact uses the general equations.
     pub(crate) general: bool,
     /// Whether a gap may close.
     pub(crate) gap: bool,
-    /// Whether the closed form of a swing has been asked for: what has none now has none until the next event.
+    /// Whether a closed-form oscillation was tried without success. It is then not tried again until the next event.
     pub(crate) asked: bool,
 }
 
@@ -139,16 +135,16 @@ impl SceneTraits {
     }
 }
 
-/// Why a model's forces, or the rates of what is integrated beside its motion, depend on velocities.
+/// Returns the reason why forces, or rates of integrals, depend on velocities.
 fn velocities(model: &Model) -> Option<Why> {
     let damped = model.links.iter().any(|link| link.damping > 0.0);
     let stuck = model.contacts.iter().any(|contact| contact.interface.damping() > 0.0);
     match () {
         () if damped => Some(Why::Damper),
         () if stuck => Some(Why::ContactDamping),
-        // The power of a load that varies is a force times a velocity.
+        // The power of a varying load is a force times a velocity.
         () if !model.loads.is_empty() => Some(Why::VaryingLoad),
-        // Ḟ = G*m(d)u̇ is a rate, and Nyström's stages have no velocities.
+        // Ḟ = G*m(d)u̇ needs velocities, which Nyström stages do not have.
         () if model.growing > 0 => Some(Why::Growth),
         () if !model.blocks.is_empty() => Some(Why::Block),
         () => None,
@@ -156,23 +152,23 @@ fn velocities(model: &Model) -> Option<Why> {
 }
 
 impl IntervalTraits {
-    /// Whether nothing acts but contacts of closed form and constant loads.
+    /// Whether only contacts of closed form and loads act.
     fn is_closed(&self, scene: &SceneTraits) -> bool {
         !self.general && !scene.links
     }
 
-    /// The same where what drags them moves at constant rates.
+    /// Whether in addition their prescribed motions have constant rates.
     pub(crate) fn is_simple(&self, scene: &SceneTraits) -> bool {
         self.straight && self.is_closed(scene)
     }
 
-    /// Whether all forces are the same throughout.
+    /// Whether all forces are constant.
     pub(crate) fn is_constant(&self, scene: &SceneTraits) -> bool {
         self.slides && self.is_simple(scene) && !scene.loads
     }
 
-    /// Whether the interval of a single slider is to be taken in one leap to its next event: in gross slip also over followers
-    /// on sines, which change nothing of the forces.
+    /// Whether the interval of a single slider can be solved in one step to its next event. In gross slip this includes
+    /// sinusoidal prescribed motions, which do not change the forces.
     #[inline(always)]
     pub(crate) fn leaps(&self, scene: &SceneTraits) -> bool {
         let has_form = self.is_closed(scene) && (self.straight || self.slides);
@@ -180,9 +176,9 @@ impl IntervalTraits {
     }
 }
 
-/// The method of an interval, and why.
+/// Returns the method of an interval, with its reason.
 pub(crate) fn choice(scene: &SceneTraits, interval: &IntervalTraits) -> (Method, Why) {
-    // Before the swing: a parabola is exact for any number of free coordinates.
+    // A parabola is exact for any number of coordinates and comes first.
     if scene.free > 0 && interval.is_constant(scene) {
         (Method::Parabola, Why::ConstantForces)
     } else if interval.leaps(scene) {
@@ -196,12 +192,12 @@ pub(crate) fn choice(scene: &SceneTraits, interval: &IntervalTraits) -> (Method,
     }
 }
 
-/// The method of intervals without a closed form.
+/// Returns the method of intervals without a closed form, with its reason.
 pub(crate) fn stepping(scene: &SceneTraits) -> (Method, Why) {
     match scene.velocities {
-        // Only time goes on: steps then go from event to event of the contacts.
+        // Positions follow from time; steps lead from event to event.
         _ if scene.balanced => (Method::Walk, Why::Balanced),
-        // States of blocks may be stiff where nothing is free.
+        // States of blocks may be stiff even without free coordinates.
         _ if scene.stiff => (Method::Radau, Why::Stiff),
         _ if scene.free == 0 => (Method::Walk, Why::NothingFree),
         None => (Method::Nystrom, Why::NoVelocities),
@@ -209,13 +205,13 @@ pub(crate) fn stepping(scene: &SceneTraits) -> (Method, Why) {
     }
 }
 
-/// Whether nothing of a contact on a branch resists u̇, so that at a constant depth its force is a form of u alone: damping is
-/// that of the springs that stick, and in gross slip none does.
+/// Whether a contact on a branch has no damping force. Only sticking springs are damped, and in gross slip none stick.
 pub(crate) fn is_undamped(contact: &Contact, branch: &Branch) -> bool {
     contact.interface.damping() == 0.0 || branch.is_gross()
 }
 
-/// What is done about a contact in a mode, and why; `followed` is what its followers make of u where that has a closed form.
+/// Returns the treatment of a contact under a law, with its reason. `followed` says whether the prescribed part of u has a closed
+/// form.
 #[inline(always)]
 pub(crate) fn treatment(contact: &Contact, mode: &Mode, followed: impl FnOnce() -> bool) -> (Treatment, Why) {
     match (mode, &contact.press) {

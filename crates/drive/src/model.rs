@@ -1,9 +1,8 @@
-//! The constants of a drive, checked and assembled.
+//! Constants of a drive, checked and assembled.
 //!
-//! [`Model::new`] is the only way from a scene to a model: whatever can be wrong with a scene is refused
-//! there, with the part and the field, so that a run has nothing left to refuse but motion itself. A model
-//! never changes; runs borrow it, and any number of them may at once. Lengths between bodies are linear forms
-//! of the coordinates ([`Measure`]) with constant coefficients: rotations are small.
+//! [`Model::new`] checks a [`Scene`](crate::Scene) completely and reports errors by part and field; a run can fail only for its
+//! motion. A model never changes and may be shared by many runs. Rotations are small, so lengths between bodies are linear forms
+//! of the coordinates ([`Measure`]).
 
 mod balanced;
 mod block;
@@ -29,105 +28,104 @@ use crate::contact::{Contact, Press};
 use crate::scene::Axis;
 use stickslip_contact::Interface;
 
-/// Least scale of work, in parts of that of the largest contact.
-// Works go with the square of a friction coefficient, as force and u_c both do. Of a body on two lists of heights, one with a
-// friction of 1e-6 and the other of 0.46, the smaller work was some 1e-12 of the larger: a tolerance of 1e-8 asked for works far below
-// their rounding, and runs stopped. With 1e-6 they end, but take detours at 1e-10; with 1e-4 they take none.
+/// Smallest scale of work relative to that of the contact with the largest work.
+// Work is proportional to the square of a friction coefficient; without this limit, tolerances of nearly frictionless contacts
+// would be below rounding.
 const LEAST_WORK: f64 = 1e-4;
 
-/// A checked scene as constants: what evaluation needs and nothing else.
+/// Constants of a drive, made from a valid [`Scene`](crate::Scene).
 #[derive(Debug, Clone, PartialEq)]
 pub struct Model {
-    /// In the scene's order; those that nothing follows are held still.
+    /// Waveforms in the order of the [`Scene`](crate::Scene); unused ones are constant.
     pub(crate) waveforms: Vec<Waveform>,
     pub(crate) bodies: Vec<Body>,
-    /// Free coordinates, body by body, x, z and pitch.
+    /// Free coordinates by body, in the order x, z, pitch.
     pub(crate) free: Vec<Free>,
-    /// In the scene's order.
+    /// Contacts in the order of the [`Scene`](crate::Scene).
     pub(crate) contacts: Vec<Contact>,
     pub(crate) blocks: Vec<Wired>,
-    /// Coordinates without mass, body by body, x and z.
+    /// Balanced coordinates by body, in the order x, z.
     pub(crate) balanced: Vec<Balanced>,
-    /// Springs, then actuators, of those that act.
+    /// Springs and then actuators that can exert a varying force.
     pub(crate) links: Vec<Link>,
-    /// Those that vary; constant ones are in the force of their coordinate.
+    /// Varying loads; constant ones are in the force of their coordinate.
     pub(crate) loads: Vec<Load>,
-    /// Number of contacts whose force is a state while they grow.
+    /// Number of contacts whose force is a state during growth in full stick.
     pub(crate) growing: usize,
     /// Whether a run starts in static equilibrium.
     pub(crate) equilibrium: bool,
-    /// What of the scene no run will ever look at.
+    /// Parts without effect, which the model omits.
     pub(crate) spared: Spared,
-    /// How far ahead and back rates of balanced coordinates are compared for their own rate, s.
+    /// Time step of the numerical derivative for balanced coordinates, s.
     pub(crate) moment: f64,
-    /// Largest |λ|, 1/s, of the motions e^{λt} with all contacts stuck and as deep as they get.
+    /// Largest |λ| of the motions e^{λt} with all contacts stuck at their largest indentation, 1/s.
     pub(crate) fastest: f64,
-    /// Whether something settles so much faster than all else goes on that explicit steps would only follow it.
+    /// Whether the model is stiff.
     pub(crate) stiff: bool,
 }
 
-/// What a coordinate is bound to.
+/// Type of a coordinate.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Binding {
-    /// Stays here, m or rad.
+    /// Fixed at this position, m or rad.
     Held(f64),
-    /// A free coordinate.
+    /// Free coordinate by index.
     Free(usize),
-    /// Follows a waveform.
+    /// Follows a signal, given by its index.
     Driven(usize),
 }
 
-/// A body under its name.
+/// Body with its name.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Body {
     pub(crate) name: String,
-    /// What its x, z and pitch are bound to.
+    /// Types of its x, z and pitch.
     pub(crate) bindings: [Binding; 3],
 }
 
-/// A free coordinate.
+/// Free coordinate.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Free {
     pub(crate) body: usize,
     pub(crate) axis: Axis,
     /// Mass, kg, or moment of inertia, kg m².
     pub(crate) mass: f64,
-    /// Its inverse.
+    /// Inverse of the mass.
     pub(crate) mobility: f64,
     /// Gravity and constant loads, N or N m.
     pub(crate) force: f64,
-    /// Where it starts and how fast.
+    /// Initial position and velocity.
     pub(crate) start: (f64, f64),
-    /// Whether it only ever counts against another place of its contacts, so that its origin may move with it.
+    /// Whether only contacts depend on it, so that its origin may move with it.
     pub(crate) travels: bool,
     /// Natural scales of position and velocity, m and m/s or rad and rad/s.
     pub(crate) scale: (f64, f64),
 }
 
-/// Natural scales of a contact at the deepest indentation that its scene names.
+/// Natural scales of a contact at its largest expected indentation. The stepper's tolerance is relative to them.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct NaturalScale {
-    /// u_c, m.
+    /// Gross slip displacement u_c, m.
     pub displacement: f64,
-    /// μF_N, N.
+    /// Friction limit μF_N, N.
     pub force: f64,
-    /// u_c ω, m/s, ω the angular frequency of the stiffest body it touches; of the drive where none is free.
+    /// u_c ω, m/s, with the largest natural angular frequency ω of its bodies, or that of the drive if none is free.
     pub velocity: f64,
 }
 
-/// Spring, damper or actuator: force on the second body k(s-e) + c(ṡ-ė) + preload, e the displacement of its end on the
-/// second body less that on the first.
+/// Spring, damper or actuator with the force k(s-e) + c(ṡ-ė) + preload on the second body. e is the displacement of its second
+/// end minus that of the first.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Link {
-    /// e, m.
+    /// Elongation e, m.
     pub(crate) elongation: Measure,
-    /// k, N/m.
+    /// Stiffness k, N/m.
     pub(crate) stiffness: f64,
-    /// c, N s/m.
+    /// Damping c, N s/m.
     pub(crate) damping: f64,
-    /// N; pushes the ends apart where it is positive.
+    /// Preload, N; pushes the ends apart if positive.
     pub(crate) preload: f64,
-    /// s, m.
+    /// Free stroke s, m.
     pub(crate) stroke: Stroke,
 }
 
@@ -138,17 +136,17 @@ pub(crate) enum Stroke {
     Driven(usize),
 }
 
-/// A load that varies in time, on a free coordinate: arm times the waveform.
+/// Varying load on a free coordinate: arm times waveform.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Load {
     pub(crate) free: usize,
-    /// 1, or m where a force turns.
+    /// 1, or m for the moment of a force.
     pub(crate) arm: f64,
     pub(crate) waveform: usize,
 }
 
 impl Model {
-    /// Of no scene yet.
+    /// Returns an empty model.
     pub(crate) fn blank() -> Self {
         Self {
             waveforms: Vec::new(),
@@ -168,41 +166,41 @@ impl Model {
         }
     }
 
-    /// Names of the bodies, in the scene's order.
+    /// Returns the names of the bodies in order.
     pub fn bodies(&self) -> impl Iterator<Item = &str> {
         self.bodies.iter().map(|b| b.name.as_str())
     }
 
-    /// Names and laws of the contacts, in the scene's order.
+    /// Returns names and interfaces of the contacts in order.
     pub fn contacts(&self) -> impl Iterator<Item = (&str, &Interface)> {
         self.contacts.iter().map(|c| (c.name.as_str(), &c.interface))
     }
 
-    /// Whether any waveform jumps: within a jump contacts give way without an event of their own.
+    /// Whether any waveform jumps. Within a jump gross slip may begin without an event.
     #[must_use]
     pub fn jumps(&self) -> bool {
         self.waveforms.iter().any(Waveform::has_jumps)
     }
 
-    /// Gross-slip displacement u_c (m) and normal force of one contact (N) of contact `index` at t = 0.
+    /// Returns the gross slip displacement u_c (m) and the normal force of one contact (N) of contact `index` at t = 0.
     pub fn contact_scale(&self, index: usize) -> Option<(f64, f64)> {
         let contact = self.contacts.get(index)?;
         let d = self.indentation(contact);
         Some((contact.interface.gross_slip_displacement(d), contact.interface.normal_force(d)))
     }
 
-    /// Largest width 2a of contact `index`, m; 0 for one that is never pressed.
+    /// Returns the largest width 2a of contact `index`, m; 0 if it is never pressed.
     pub fn contact_width(&self, index: usize) -> Option<f64> {
         let deepest = self.indentations(&self.rest(), index)?.most;
         self.contacts.get(index).map(|contact| 2.0 * contact.interface.profile().radius(deepest))
     }
 
-    /// Angular frequency of small oscillations with this contact stuck, rad/s; natural scale of its events.
+    /// Returns the angular frequency of small oscillations with this contact stuck, rad/s, the natural frequency of its events.
     pub fn contact_frequency(&self, index: usize) -> Option<f64> {
         self.contacts.get(index).map(|c| c.natural.frequency)
     }
 
-    /// Natural scales of contact `index`, one of its identical members: what the stepper's tolerance is relative to.
+    /// Returns the natural scales of contact `index`, for one of its identical members.
     pub fn contact_natural(&self, index: usize) -> Option<NaturalScale> {
         self.contacts.get(index).map(|c| NaturalScale {
             displacement: c.natural.displacement,
@@ -211,10 +209,10 @@ impl Model {
         })
     }
 
-    /// Natural scale of work, J: μF_N u_c of the smallest contact, and no less than [`LEAST_WORK`] of the largest.
+    /// Returns the natural scale of work, J: μF_N u_c of the smallest contact, at least [`LEAST_WORK`] of the largest.
     ///
-    /// Where no contact has friction, the largest mv² of a free coordinate at its natural speed, or what balanced coordinates
-    /// store; 1 J where that is nothing, too.
+    /// Without friction it is the largest mv² of a free coordinate at its natural velocity, or the energy that balanced
+    /// coordinates store; otherwise 1 J.
     pub(crate) fn work_scale(&self) -> f64 {
         let works = || self.contacts.iter().map(Contact::natural_work);
         let smallest = works().filter(|w| *w > 0.0).fold(f64::INFINITY, f64::min);
@@ -226,12 +224,12 @@ impl Model {
         if swing.is_normal() { swing } else { self.stored_scale().unwrap_or(1.0) }
     }
 
-    /// Work of gravity and constant loads on the way to the positions `x` from 0, J.
+    /// Returns the work of gravity and constant loads from 0 to the positions `x`, J.
     pub(crate) fn lifted(&self, x: impl Fn(usize) -> f64) -> f64 {
         self.free.iter().enumerate().map(|(i, free)| free.force * x(i)).sum()
     }
 
-    /// Indentation of a contact at t = 0, m, with the free coordinates where they start.
+    /// Returns the indentation of a contact at t = 0, m, with the free coordinates at their start.
     pub(crate) fn indentation(&self, contact: &Contact) -> f64 {
         let first = |w: usize| self.signals().first(w);
         match &contact.press {

@@ -1,43 +1,44 @@
-//! How a scene is run: how long, by which stepper, what is written down.
+//! Plan of a run: duration, stepper and output.
 
 use crate::linearised::Reach;
 use crate::{Field, Part, SceneError, SceneFault};
 
-/// How a scene is run.
+/// Plan of a run.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Plan {
     /// Simulated time, s, above 0.
     pub duration: f64,
-    /// Time stepping.
+    /// Stepper.
     pub stepper: Stepper,
-    /// Guards against endless work.
+    /// Limits of a run.
     pub limits: Limits,
-    /// Interval of the rows of the trace, s; none: only the first and the last row.
+    /// Interval of the rows of the trace, s. None: only the first and the last row.
     pub every: Option<f64>,
-    /// Whether the run may end before its time, with the steps of a drive constant.
+    /// Early end at constant step length, if wanted.
     pub until_steady: Option<UntilSteady>,
 }
 
-/// An early end: that of the period with which the steps of a periodic drive are constant, each of the last three as long
-/// as the one before it. Up to there the run is the same to the last bit.
+/// Early end of a run when the step length is steady: each of the last three steps agrees with the previous one. The run ends
+/// with a period; up to there its bits do not change.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct UntilSteady {
-    /// Place in [`Scene::waveforms`](crate::Scene::waveforms) of the waveform whose periods are counted, from its delay on;
-    /// without a period nothing ends.
+    /// Index in [`Scene::waveforms`](crate::Scene::waveforms) of the waveform whose periods are counted from its delay. Without a
+    /// period the run does not end early.
     pub waveform: usize,
-    /// Place in [`Scene::bodies`](crate::Scene::bodies) of the body whose way along x in a period is the step; unless that
-    /// is free nothing ends.
+    /// Index in [`Scene::bodies`](crate::Scene::bodies) of the body whose displacement along x per period is the step length. It
+    /// must be free.
     pub body: usize,
-    /// How much "as long" allows, above 0: a share of the step or, if that is longer, of the natural length of the body,
-    /// u_c of its contacts.
+    /// Allowed change, above 0, relative to the step length or to the natural length of the body (u_c of its contacts), whichever
+    /// is longer.
     pub change: f64,
 }
 
 impl Plan {
-    /// Whether its numbers lie in their ranges; what starts a run asks.
+    /// Checks the ranges of all numbers; [`Model::start`](crate::Model::start) calls it.
     ///
     /// # Errors
-    /// The first number that does not.
+    ///
+    /// [`SceneError`]: the first number out of range.
     pub fn check(&self) -> Result<(), SceneError> {
         let above_zero = |field: Field, value: f64| {
             if value > 0.0 && value.is_finite() {
@@ -59,71 +60,70 @@ impl Plan {
     }
 }
 
-/// Time stepping. Tolerances are relative to natural scales (u_c, μF_N and the velocities they make).
+/// Stepper. Tolerances are relative to natural scales (u_c, μF_N and the corresponding velocities).
 ///
-/// Fixed steps and the reference follow chords: of second order at best where contacts slip, whatever the
-/// order of the method.
+/// Fixed steps and the reference method follow straight paths of contacts: under slip they have at most order 2.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Stepper {
-    /// Embedded pair of order 8 with located events.
+    /// Methods of order 8 and closed forms, with event location.
     Event {
-        /// Local error per step, 1e-13 to 1e-2.
+        /// Local error per step, relative to natural scales, 1e-13 to 1e-2.
         tolerance: f64,
     },
-    /// Velocity Verlet at a fixed step.
+    /// Velocity Verlet with a fixed step.
     Verlet {
-        /// Step, s.
+        /// Step length, s.
         step: f64,
     },
-    /// Classical Runge–Kutta of order 4 at a fixed step.
+    /// Classical Runge–Kutta method of order 4 with a fixed step.
     Rk4 {
-        /// Step, s.
+        /// Step length, s.
         step: f64,
     },
-    /// Frames of one length, each of a bounded number of Runge–Kutta steps of order 4, for whoever has to keep real time.
+    /// Frames of fixed length with a bounded number of Runge–Kutta steps of order 4, for real-time simulation.
     ///
-    /// Steps end where waveforms have corners; jumps of waveforms are taken. Memories of contacts stay small. How many steps
-    /// a frame has is a constant of the model: [`Model::substeps`](crate::Model::substeps).
+    /// Steps end at corners and jumps of waveforms. The memory of contacts is limited. The number of steps in a frame is a
+    /// constant of the model: [`Model::substeps`](crate::Model::substeps).
     Frames {
-        /// Frame, s.
+        /// Length of a frame, s.
         length: f64,
-        /// What may be lost of a stroke in a stroke, 1e-9 to 1e-1.
+        /// Allowed error per stroke, relative to the stroke, 1e-9 to 1e-1.
         accuracy: f64,
     },
-    /// Dormand–Prince 5(4), without events: the plain explicit reference.
+    /// Dormand–Prince 5(4) without events, as a reference.
     Dopri5 {
-        /// Local error per step, 1e-13 to 1e-2.
+        /// Local error per step, relative to natural scales, 1e-13 to 1e-2.
         tolerance: f64,
     },
 }
 
-/// The number that sets how exact a stepper is.
+/// Parameter that determines the accuracy of a stepper.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Accuracy {
-    /// Local error per step, relative to natural scales: the stepper chooses its steps.
+    /// Local error per step, relative to natural scales, of an adaptive stepper.
     Tolerance(f64),
-    /// Fixed step, s.
+    /// Step length, s.
     Step(f64),
-    /// Steps of one length, so many a frame that an error is kept.
+    /// Frames with a number of steps that follows from an allowed error.
     Frame {
-        /// Frame, s.
+        /// Length of a frame, s.
         length: f64,
-        /// What may be lost of a stroke in a stroke.
+        /// Allowed error per stroke, relative to the stroke.
         error: f64,
     },
 }
 
-/// What is known of a stepper without a model.
+/// Properties of a stepper.
 struct Facts {
     name: &'static str,
     accuracy: Accuracy,
     locates_events: bool,
-    /// How long its steps may be; steppers with a tolerance find it themselves.
+    /// Stability limits; none for adaptive steppers.
     reach: Option<Reach>,
 }
 
 impl Stepper {
-    /// The table of all steppers.
+    /// Returns the properties of a stepper.
     fn facts(self) -> Facts {
         let adaptive = |name, tolerance, locates_events| Facts {
             name,
@@ -149,40 +149,40 @@ impl Stepper {
         }
     }
 
-    /// Its name, in scenario files and results.
+    /// Returns the name in scenarios and results.
     pub fn name(self) -> &'static str {
         self.facts().name
     }
 
-    /// Its tolerance or its step.
+    /// Returns its tolerance, step or frame.
     pub fn accuracy(self) -> Accuracy {
         self.facts().accuracy
     }
 
-    /// Whether its steps end at events, jumps of waveforms among them; others step across them.
+    /// Whether its steps end at events, including jumps of waveforms.
     pub fn locates_events(self) -> bool {
         self.facts().locates_events
     }
 
-    /// Whether its steps end where waveforms have corners, so that a jump is a path of its own.
+    /// Whether its steps end at corners of waveforms, so that jumps are separate paths.
     pub fn ends_at_corners(self) -> bool {
         self.locates_events() || matches!(self, Self::Frames { .. })
     }
 
-    /// How long its steps may be; none of steppers that choose them.
+    /// Returns its stability limits; none for adaptive steppers.
     pub(crate) fn reach(self) -> Option<Reach> {
         self.facts().reach
     }
 }
 
-/// Guards against endless work.
+/// Limits of a run.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Limits {
-    /// Most accepted and rejected steps of a run.
+    /// Largest number of attempted steps.
     pub steps: u64,
-    /// Most located events of a run.
+    /// Largest number of located events.
     pub events: u64,
-    /// Most wall-clock time, s.
+    /// Largest wall-clock time, s.
     pub wall: Option<f64>,
 }
 

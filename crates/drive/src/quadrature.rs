@@ -1,35 +1,30 @@
-//! Gaussian quadrature that tells how far it can be trusted.
+//! Gaussian quadrature with an error estimate.
 //!
-//! Time of a swing and of a lift-off is a mean over [0, 1] of a smooth function. Rules of 4, 8, 16 and 32
-//! nodes are tried in turn from the first that may do; each tells its error from the last coefficients of the
-//! polynomial through its values, without a second rule. Nothing is allocated, and the compiler makes every rule. Over whole arcs
-//! from turn to turn the nodes are Chebyshev's, equally spaced in the angle: there the function goes on evenly beyond both ends.
+//! The time of an oscillation or a lift-off is a mean of a smooth function over [0, 1]. Rules with 4, 8, 16 and 32 nodes are
+//! tried in order. Each estimates its error from the last coefficients of the interpolating polynomial. Rules are constants. From
+//! turning point to turning point the nodes are those of Gauss–Chebyshev, equally spaced in the angle, because the function is
+//! periodic there.
 
 use crate::sine::sine;
 use std::array;
 use std::f64::consts::PI;
 
-/// Nodes of the finest rule.
-// 64 change no run. With 16 drives at a tolerance of 1e-13 take up to a third more evaluations.
+/// Number of nodes of the finest rule.
 const MOST: usize = 32;
-/// Errors below which a rule is not worth trying: so smooth are few functions.
-// Ten times as large they make a free decay at 1e-9 60 % dearer. A tenth saves some drives a quarter of their evaluations
-// there, for errors half as large again.
+/// Errors below which rules with 4, 8 and 16 nodes are not tried.
 const HOPELESS: [f64; 3] = [1e-3, 1e-8, 1e-16];
-/// How much more than c² is allowed for: of two functions with the same last coefficients one is the rougher.
-// 1 saves P1 16 % of its evaluations at 1e-6, for three times the error; 100 costs 51 %, for a sixtieth.
+/// Safety factor of the error estimate c².
 const CAUTION: f64 = 10.0;
-/// Newton steps to a node: from Tricomi's guess three reach the last place.
-// Two leave P1 at 1e-9 an error of 3.5e-10 u_c instead of 3e-13.
+/// Number of Newton steps to a node; three from Tricomi's guess reach the last place.
 const NEWTON: usize = 4;
 
-/// Values that are asked for together: a function of so many numbers takes hardly longer than one of a single number.
+/// Number of values that are evaluated together.
 pub(crate) const LANES: usize = 4;
 
-/// Numbers that are worked on together.
+/// Values that are evaluated together.
 pub(crate) type Lanes = [f64; LANES];
 
-/// What they come to.
+/// Returns their sum.
 #[inline(always)]
 pub(crate) fn total([a, b, c, d]: Lanes) -> f64 {
     (a + b) + (c + d)
@@ -38,65 +33,64 @@ pub(crate) fn total([a, b, c, d]: Lanes) -> f64 {
 /// Four nodes of a rule.
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct Nodes {
-    /// Where in the interval, 0 to 1.
+    /// Positions in the interval, 0 to 1.
     pub(crate) at: Lanes,
-    /// Their shares in the mean, and in the two last Legendre coefficients of the polynomial through all values.
+    /// Weights of the mean, and of the last two Legendre coefficients of the interpolating polynomial.
     pub(crate) shares: [Lanes; 3],
 }
 
-/// A mean, and what is known about its error.
+/// A mean and its error estimate.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Mean {
     pub(crate) value: f64,
-    /// Estimate of its relative error.
+    /// Estimated relative error.
     pub(crate) error: f64,
-    /// Values that were asked for.
+    /// Number of evaluations.
     pub(crate) asked: u64,
 }
 
-/// The nodes of one rule; those beyond its number are of no meaning.
+/// Nodes of a rule; entries beyond `count` are unused.
 pub(crate) struct Rule {
     nodes: [Nodes; MOST / LANES],
     count: usize,
 }
 
-/// The rules of 4 to 32 nodes, exact for polynomials up to degree 7 to 63.
+/// Gauss–Legendre rules with 4 to 32 nodes, exact for polynomials up to degree 7 to 63.
 pub(crate) static RULES: [Rule; 4] = [Rule::new(4), Rule::new(8), Rule::new(16), Rule::new(MOST)];
 
-/// The same over an arc, of Gauss and Chebyshev.
+/// Gauss–Chebyshev rules for an arc.
 pub(crate) static ARCS: [Rule; 4] = [Rule::arc(4), Rule::arc(8), Rule::arc(16), Rule::arc(MOST)];
 
-/// Mean over the angle θ from 0 to π of a smooth function of sin²(θ/2), as [`mean`] finds it.
+/// Returns the mean over the angle θ from 0 to π of a smooth function of sin²(θ/2), as [`mean`].
 #[inline]
 pub(crate) fn mean_over_arc(allowed: f64, f: impl Fn(Lanes) -> Lanes) -> Mean {
     first_that_serves(&ARCS, (allowed, allowed), f)
 }
 
-/// Mean of a function over [0, 1], by the coarsest rule whose relative error is below `allowed`, or else by the finest.
-/// Begins with a rule from which that can be hoped for, where [0, 1] is but a `part` of the range that the function changes
-/// over.
+/// Returns the mean of a function over [0, 1] by the coarsest rule whose relative error is below `allowed`, or by the finest.
+///
+/// `part` is the length of [0, 1] relative to the range over which the function changes; it selects the first rule.
 #[inline]
 pub(crate) fn mean(allowed: f64, part: f64, f: impl Fn(Lanes) -> Lanes) -> Mean {
-    // On a part of the range the coefficients fall faster: a coarser rule has the same hope.
+    // On a part of the range the coefficients decrease faster.
     let needed = allowed / (part * part * part * part);
     first_that_serves(&RULES, (allowed, needed), f)
 }
 
-/// The rules of which so small an error can be hoped for, the coarsest first.
+/// Returns the rules that may reach an error, the coarsest first.
 #[inline(always)]
 pub(crate) fn worth_trying(rules: &[Rule; 4], needed: f64) -> std::slice::Iter<'_, Rule> {
     let first = HOPELESS.iter().filter(|hopeless| needed < **hopeless).count();
     rules[first..].iter()
 }
 
-/// The mean by the first rule whose error is below `allowed`, beginning where that can be hoped for of what is `needed`.
+/// Returns the mean by the first rule whose error is below `allowed`, starting with the first that may reach `needed`.
 #[inline(always)]
 fn first_that_serves(rules: &[Rule; 4], (allowed, needed): (f64, f64), f: impl Fn(Lanes) -> Lanes) -> Mean {
     let mut mean = Mean { value: f64::NAN, error: f64::INFINITY, asked: 0 };
     for rule in worth_trying(rules, needed) {
         let asked = mean.asked + rule.count as u64;
-        // Nodes of Gauss are not nested: nothing of the coarser rule can be used again, but its values are
-        // counted.
+        // Gauss nodes are not nested, so all evaluations count.
         mean = Mean { asked, ..rule.mean(&f) };
         if mean.error <= allowed {
             break;
@@ -106,7 +100,7 @@ fn first_that_serves(rules: &[Rule; 4], (allowed, needed): (f64, f64), f: impl F
 }
 
 impl Rule {
-    /// The rule of n nodes, at most [`MOST`]: zeros of the Legendre polynomial by Newton's method.
+    /// Returns the Gauss–Legendre rule of n nodes, at most [`MOST`], by Newton's method.
     const fn new(n: usize) -> Self {
         let (mut made, mut sum, mut i) = ([[0.0; 4]; MOST], 0.0, 0);
         while i < n {
@@ -118,19 +112,19 @@ impl Rule {
         while i > 0 {
             i -= 1;
             let [at, weight, second, first] = made[i];
-            // What rounding leaves of the sum of all weights, 1.
+            // Normalises the weights to the sum 1.
             let weight = weight / sum;
             rule.put(i, at, [weight, second * weight, first * weight]);
         }
         rule
     }
 
-    /// The rule of n nodes, at most [`MOST`], in the middle of n equal parts of the angle: exact for cosines up to degree 2n - 1.
+    /// Returns the Gauss–Chebyshev rule of n nodes, at most [`MOST`], exact for cosines up to degree 2n - 1.
     const fn arc(n: usize) -> Self {
         let (mut rule, mut i) = (Self::without_nodes(n), 0);
         let weight = 1.0 / n as f64;
         while i < n {
-            // θ = π(2i+1)/(2n); node i lies at sin²(θ/2).
+            // θ = π(2i+1)/(2n); node i is at sin²(θ/2).
             let half = sine(PI * (2 * i + 1) as f64 / (4 * n) as f64);
             let second = 2.0 * weight * cosine((n - 2) * (2 * i + 1), n);
             let first = 2.0 * weight * cosine((n - 1) * (2 * i + 1), n);
@@ -140,7 +134,7 @@ impl Rule {
         rule
     }
 
-    /// Its nodes, four by four.
+    /// Returns its nodes in groups of four.
     pub(crate) fn nodes(&self) -> impl Iterator<Item = &Nodes> {
         self.nodes[..self.count / LANES].iter()
     }
@@ -157,26 +151,25 @@ impl Rule {
         nodes.shares[2][lane] = first;
     }
 
-    /// The mean by this rule. One of n nodes is exact up to degree 2n - 1: where the coefficients of the polynomial through
-    /// its values, of degree n - 1, have fallen to c, its own error is about c².
+    /// Returns the mean by this rule. A rule of n nodes is exact up to degree 2n - 1. If the coefficients of the interpolating
+    /// polynomial have decreased to c, its error is about c².
     #[inline(always)]
     fn mean(&self, f: impl Fn(Lanes) -> Lanes) -> Mean {
         let mut sums = [[0.0; LANES]; 3];
         for nodes in self.nodes() {
-            // Four at once: roots and quotients of one node do not wait for those of another.
+            // Four nodes are evaluated together.
             let y = f(nodes.at);
             sums = array::from_fn(|k| array::from_fn(|i| sums[k][i] + nodes.shares[k][i] * y[i]));
         }
         let [value, second, first] = sums.map(total);
-        // Two coefficients: of an even or odd function every other one vanishes.
+        // Two coefficients, because every second one of an even or odd function vanishes.
         let tail = second.abs() + first.abs();
         let error = CAUTION * (tail / value).powi(2);
         Mean { value, error: if value.is_finite() { error } else { f64::INFINITY }, asked: 0 }
     }
 }
 
-/// Node `i` of n: where it is, its weight before all are made to sum up, and by how much its shares in the two last
-/// Legendre coefficients are larger.
+/// Returns position, unnormalised weight and the factors of the last two Legendre coefficients of node `i` of n.
 const fn node(n: usize, i: usize) -> [f64; 4] {
     let (count, mut steps) = (n as f64, 0);
     // Tricomi's guess.
@@ -187,7 +180,7 @@ const fn node(n: usize, i: usize) -> [f64; 4] {
         steps += 1;
     }
     let [second, first, at] = legendre(n, x);
-    // 1/((1-x²) P'²) does not change with x to first order: what rounding leaves of a node leaves no trace in its weight.
+    // 1/((1-x²) P'²) is stationary in x, so rounding of a node hardly affects its weight.
     let slope = count * (first - x * at);
     [
         0.5 + 0.5 * x,
@@ -197,7 +190,7 @@ const fn node(n: usize, i: usize) -> [f64; 4] {
     ]
 }
 
-/// Legendre polynomials of degrees n - 2, n - 1 and n at x, n ≥ 2.
+/// Returns the Legendre polynomials of degrees n - 2, n - 1 and n at x, n ≥ 2.
 const fn legendre(n: usize, x: f64) -> [f64; 3] {
     let (mut p, mut degree) = ([0.0, 1.0, x], 2);
     while degree <= n {
@@ -208,7 +201,7 @@ const fn legendre(n: usize, x: f64) -> [f64; 3] {
     p
 }
 
-/// cos(πj/(2n)): no angle is rounded that lies beyond a right one.
+/// Returns cos(πj/(2n)), reducing the angle to the first quadrant.
 const fn cosine(j: usize, n: usize) -> f64 {
     let j = j % (4 * n);
     let j = if j > 2 * n { 4 * n - j } else { j };
@@ -244,7 +237,7 @@ mod tests {
                 assert!((mean - exact).abs() < 2e-15, "{} {degree}: {mean} {exact}", rule.count);
             }
         }
-        // ⟨1/(1 + x)⟩ = 1/√2: the estimate holds, and the coarsest rule that serves is taken.
+        // ⟨1/(1 + x)⟩ = 1/√2.
         for (allowed, count) in [(1e-1, 4), (1e-7, 8), (1e-12, 16)] {
             let mean = mean_over_arc(allowed, |x| x.map(|x| (1.0 + x).recip()));
             let off = (mean.value * 2.0_f64.sqrt() - 1.0).abs();

@@ -1,4 +1,4 @@
-//! What is written down: rows on a regular grid, events, and their channels; looks into the contacts.
+//! Output of a run: rows on a regular grid, events, channels, and samples of contact memories.
 
 mod extent;
 mod trace;
@@ -16,98 +16,102 @@ use crate::scene::Axis;
 use crate::state::State;
 use stickslip_contact::{ContactState, Memory, Outcome, Segment};
 
-/// Receiver of a run's output. Whatever it does, the trajectory stays the same.
+/// Receiver of a run's output. It does not affect the trajectory.
 ///
-/// Rows come in ascending time at the plan's interval, the first and the last of the run among them; events
-/// in between, in order.
+/// Rows are in ascending time at the plan's interval, including the first and the last of the run. Events are in order between
+/// them.
 pub trait Record {
-    /// A row of values, one for each of [`Model::channels`].
+    /// Receives a row with one value per [`Model::channels`].
     fn row(&mut self, values: &[f64]);
 
-    /// An event and the row of values after it.
+    /// Receives an event and the row of values after it.
     fn event(&mut self, event: &Event, values: &[f64]);
 
-    /// The next moment at which the record wants to look into the contacts, s; none for never again. Asked before the
-    /// run and after every look; moments ascend, and those before the run's beginning are passed over.
+    /// Returns the next time at which [`Self::look`] is to be called, s; none for never again. Called before the run and after
+    /// every sample. Times ascend; those before the start of the run are skipped.
     fn next_look(&mut self) -> Option<f64> {
         None
     }
 
-    /// The memories of the contacts at the moment asked for, s, in the scene's order: what they would be if a step ended
-    /// there. A moment to which a contact cannot be followed, because it outgrows its row or is not finite, is left out.
+    /// Receives the memories of the contacts at the requested time (s), in order, as if a step ended there. Omitted if a contact
+    /// exceeds its row or is not finite.
     fn look(&mut self, t: f64, memories: &[Memory]) {
         let _ = (t, memories);
     }
 
-    /// Whether the record wants every path that a contact's memory takes; asked where a run begins. They come by [`Self::path`].
+    /// Whether [`Self::path`] is to be called for every committed path of a contact. Called when a run begins.
     fn follows(&self) -> bool {
         false
     }
 
-    /// What the memory of contact `c`, by its place in the scene, has committed: in order, all of a step before the next look.
-    /// Displacements are counted from where the bodies started. What the end of a run leaves uncommitted is in its last look.
+    /// Receives a path that the memory of contact `c` (its index) has committed. Paths are in order; those of a step precede the
+    /// next sample.
+    ///
+    /// Displacements count from the initial positions. A path that is not committed at the end of a run is part of its last
+    /// sample only.
     fn path(&mut self, c: usize, segment: Segment) {
         let _ = (c, segment);
     }
 
-    /// The next moment at which the record wants a row for itself, s; none for never again. Asked as looks are. A moment within
-    /// four last places of the end of a step is that end.
+    /// Returns the next time at which [`Self::mark`] is to be called, s; none for never again. A time within four units in the
+    /// last place of the end of a step is that end.
     fn next_mark(&mut self) -> Option<f64> {
         None
     }
 
-    /// The row of the moment asked for: read off the same step as rows, whose interval it does not depend on.
+    /// Receives the row at the requested time. It is independent of the interval of rows.
     fn mark(&mut self, values: &[f64]) {
         let _ = values;
     }
 
-    /// The bodies, by their place in the scene, whose extent along x is wanted: the one that steps, and the one that moves it; asked
-    /// before the run. Such a record reads every step.
+    /// Returns the bodies, by index, whose extent along x is wanted: the moving body and its drive. Called before the run. Every
+    /// step is then evaluated.
     fn watched(&self) -> [Option<usize>; 2] {
         [None; 2]
     }
 
-    /// How far these bodies went along x since the last call: before every mark, and whenever a run is put down. Between both ends
-    /// of a step x is the cubic that has its positions and velocities.
+    /// Receives the extents of these bodies along x since the last call: before every mark, and whenever a run is paused. Within
+    /// a step x is the cubic with positions and velocities of both ends.
     fn extents(&mut self, extents: [Extent; 2]) {
         let _ = extents;
     }
 
-    /// Asked now and then with the time reached, s; `false` interrupts the run.
+    /// Receives the time reached (s) at irregular intervals; returning `false` interrupts the run.
     fn goes_on(&mut self, t: f64) -> bool {
         let _ = t;
         true
     }
 
-    /// From when until when rows at the plan's interval are wanted, s, both included; asked where a run begins. The first and the
-    /// last row of the run come anyway.
+    /// Returns the time range of the rows at the plan's interval, s, both ends included. Called when a run begins. The first and
+    /// the last row of the run are always written.
     fn rows_within(&self) -> [f64; 2] {
         [0.0, f64::INFINITY]
     }
 
-    /// The state at which an interval between two located events ends, its laws still those of the interval; memories that wait
-    /// for an event of their own stay where they are.
+    /// Receives the state at the end of an interval between two located events, still with the laws of the interval. Memories
+    /// that wait for their own event are not updated.
     fn leaves(&mut self, state: &State) {
         let _ = state;
     }
 
-    /// The state at which an interval begins, with its laws: where a run between located events begins, and after every event.
+    /// Receives the state at the beginning of an interval with its laws: at the start of a run with event location, and after
+    /// every event.
     fn enters(&mut self, state: &State) {
         let _ = state;
     }
 
-    /// Whether events are wanted; their rows cost an evaluation each.
+    /// Whether events are wanted; each needs an evaluation for its row.
     fn wants_events(&self) -> bool {
         true
     }
 
-    /// Whether events between which a run steps come with a row; without, they cost nothing and come with an empty one.
+    /// Whether events come with a row. Otherwise the row is empty and no evaluation is needed.
     fn wants_event_rows(&self) -> bool {
         true
     }
 }
 
-/// Keeps nothing.
+/// Discards all output.
 impl Record for () {
     fn row(&mut self, _: &[f64]) {}
     fn event(&mut self, _: &Event, _: &[f64]) {}
@@ -116,7 +120,7 @@ impl Record for () {
     }
 }
 
-/// One column of a trace.
+/// Column of a trace.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Channel {
     /// Name with its SI unit, such as `slider.x_m`.
@@ -125,7 +129,7 @@ pub struct Channel {
     pub is_state: bool,
 }
 
-/// Code of a contact's state in a row.
+/// Returns the code of a contact's state in a row.
 fn state_code(state: ContactState) -> f64 {
     match state {
         ContactState::Open => 0.0,
@@ -135,7 +139,7 @@ fn state_code(state: ContactState) -> f64 {
     }
 }
 
-/// Word for a state code: open, stick, partial or slip.
+/// Returns the name of a state code: open, stick, partial or slip.
 pub fn state_name(code: f64) -> &'static str {
     match code {
         0.0 => "open",
@@ -146,19 +150,19 @@ pub fn state_name(code: f64) -> &'static str {
 }
 
 impl Model {
-    /// Channels of a row, in order, each under the name of its part and with its SI unit.
+    /// Returns the channels of a row in order, with the names of their parts and SI units.
     ///
-    /// | channels | what |
+    /// | channels | content |
     /// | --- | --- |
     /// | `time_s` | time |
-    /// | `BODY.x_m`, `.vx_m_s`, … | displacement from the position drawn and its rate, of every coordinate that is not fixed |
-    /// | `CONTACT.u_m`, `.d_m` | displacement of the first body against the second, indentation |
-    /// | `CONTACT.fx_N`, `.fn_N` | forces of all identical contacts together; that of damped stuck springs is in `fx_N` |
+    /// | `BODY.x_m`, `.vx_m_s`, … | displacement from the reference position and velocity, of every coordinate that is not fixed |
+    /// | `CONTACT.u_m`, `.d_m` | displacement of the first body relative to the second, indentation |
+    /// | `CONTACT.fx_N`, `.fn_N` | forces of all identical contacts; `fx_N` contains contact damping |
     /// | `CONTACT.a_m` | contact radius |
-    /// | `CONTACT.stick_m`, `.state` | radius inside which no spring is at its limit, and the word for it, [`state_name`] |
-    /// | `CONTACT.elastic_J`, `.friction_J` | tangential energy stored and lost, of all identical contacts together |
-    /// | `BLOCK.…` | whatever the block says of itself |
-    /// | `energy.…_J` | work put in since the start, kinetic and stored energy, lost to friction and to dampers, and what is left |
+    /// | `CONTACT.stick_m`, `.state` | stick radius; state, see [`state_name`] |
+    /// | `CONTACT.elastic_J`, `.friction_J` | tangential elastic energy and friction work of all identical contacts |
+    /// | `BLOCK.…` | columns of the block |
+    /// | `energy.…_J` | input work since the start, kinetic and elastic energy, friction and damping work, error of the energy balance |
     pub fn channels(&self) -> Vec<Channel> {
         let mut names = vec!["time_s".to_owned()];
         for (name, axis, _) in self.moving() {
@@ -170,7 +174,7 @@ impl Model {
             names.extend(quantities.map(|q| format!("{name}.{q}")));
         }
         for contact in &self.contacts {
-            // Components name their own columns: a new kind of them adds none here.
+            // Components name their own columns.
             names.extend(columns(&contact.name, contact));
         }
         for wired in &self.blocks {
@@ -181,7 +185,7 @@ impl Model {
         names.into_iter().map(|name| Channel { is_state: name.ends_with(".state"), name }).collect()
     }
 
-    /// Coordinates that are not fixed, under their bodies' names.
+    /// Returns the coordinates that are not fixed, with the names of their bodies.
     fn moving(&self) -> impl Iterator<Item = (&str, Axis, Binding)> {
         let axes = [Axis::X, Axis::Z, Axis::Pitch];
         let of = move |body: &Body| axes.into_iter().zip(body.bindings);
@@ -192,7 +196,7 @@ impl Model {
         all.filter(|(_, _, place)| !matches!(place, Binding::Held(_)))
     }
 
-    /// Name of the source of an event.
+    /// Returns the name of the source of an event; `waveform` returns the name of a waveform.
     pub fn source_name(&self, source: Source, waveform: impl Fn(usize) -> String) -> String {
         match source {
             Source::Contact(c) => self.contacts[c].name.clone(),
@@ -202,28 +206,26 @@ impl Model {
     }
 }
 
-/// Columns of a component under its name.
-///
-/// Each is the component's own word with its SI unit, such as `fx_N`.
+/// Returns the column names of a component with its name as prefix, each with its SI unit.
 fn columns(name: &str, component: &(impl Component + ?Sized)) -> impl Iterator<Item = String> {
     component.columns().into_iter().map(move |column| format!("{name}.{column}"))
 }
 
-/// Energies of a moment, J.
+/// Energies at one time, J.
 #[derive(Debug, Clone, Copy, Default)]
 struct Books {
-    /// Of followers, loads and gravity since the start.
+    /// Work of prescribed motions, loads and gravity since the start.
     input: f64,
     kinetic: f64,
-    /// Stored in contacts, along both directions, links and blocks.
+    /// Stored in contacts (both directions), links and blocks.
     elastic: f64,
     friction: f64,
 }
 
-/// Fills `row` with the channels at time t; `y` reads a component.
+/// Fills `row` with the channels at time t (s); `y` returns a component of the state.
 ///
-/// error = input - (kinetic + elastic - origin) - friction - damping, J: 0 but for the errors of integration,
-/// since each of the parts is booked for itself.
+/// The balance error is input - (kinetic + elastic - origin) - friction - damping, J. It is 0 except for integration errors,
+/// because each energy is computed separately.
 pub(crate) fn fill(
     equations: &Equations<'_>,
     state: &State,
@@ -234,14 +236,13 @@ pub(crate) fn fill(
     row.clear();
     row.push(t);
     let (model, layout) = (equations.model, equations.layout);
-    // Constant forces do their work along the way whatever the time: read off the place it has no error of
-    // integration.
+    // The work of constant forces follows from positions and has no integration error.
     let input = y(layout.input()) + model.lifted(|i| state.shifts[i] + y(i)) + state.jumps;
     let laden = if model.balanced.is_empty() { 0.0 } else { equations.laden(t, y) };
     let mut books = Books { input: input + laden, ..Books::default() };
     for (_, _, place) in model.moving() {
         let [position, rate] = equations.place(place, t, y);
-        // From where the bodies started, as it is told: the run counts from near by.
+        // Displacements count from the initial position; the state uses a shifted origin.
         row.extend([position + if let Binding::Free(i) = place { state.shifts[i] } else { 0.0 }, rate]);
     }
     for (c, contact) in model.contacts.iter().enumerate() {
@@ -257,14 +258,12 @@ pub(crate) fn fill(
         books.kinetic += 0.5 * free.mass * y(layout.velocity(i)).powi(2);
     }
     let damping = y(layout.damping()) + state.lost;
-    // Friction is booked from what was swept and not as this remainder, which would make every balance look
-    // closed.
+    // Friction is computed from slip, not as the remainder of the balance.
     let error = books.input - (books.kinetic + books.elastic - state.origin) - books.friction - damping;
     row.extend([books.input, books.kinetic, books.elastic, books.friction, damping, error]);
 }
 
-/// What the books of a moment leave open, and the sum of all that is in them, J: rounding goes by the latter. `row` is
-/// scratch.
+/// Returns the error of the energy balance and the sum of all energies, J, which determines its rounding. `row` is scratch.
 pub(crate) fn balance(
     equations: &Equations<'_>,
     state: &State,
@@ -277,10 +276,8 @@ pub(crate) fn balance(
     (books.last().copied().unwrap_or(0.0), books.iter().map(|energy| energy.abs()).sum())
 }
 
-/// Columns of one contact: the sum over its identical members.
-///
-/// Force and energies of all `count` members; displacement, depth and stick radius of one. In the books the
-/// energies of all contacts add up.
+/// Appends the columns of a contact, and adds its energies to the balance. Forces and energies are sums over all `count` members;
+/// displacement, depth and stick radius are those of one.
 fn contact_columns(
     equations: &Equations<'_>,
     state: &State,
@@ -294,8 +291,8 @@ fn contact_columns(
     let motion = equations.motion(contact, t, y);
     let slot = contact.slot.filter(|_| layout.growing > 0);
     let straight = contact.goes_straight(equations.pieces);
-    // In full stick the memory stands at the step's start: force and energy are the states, and every spring
-    // sticks. Errors of steps may leave an energy of zero a little below it; raised to zero it would be missing in the books.
+    // In full stick force and energy are states, and every spring sticks. Integration errors may make a small energy negative; it
+    // is not clipped, as the balance would change.
     let mut outcome = match (state.modes[c], slot.filter(|_| !straight)) {
         (Mode::Grow, Some(slot)) => Outcome {
             force: y(layout.force(slot)),
@@ -307,11 +304,11 @@ fn contact_columns(
         _ => equations.memories[c].preview(&contact.interface, motion.apex()),
     };
     if contact.interface.friction() == 0.0 && outcome.state == ContactState::Stick {
-        // At a limit of nothing is every spring: it slides, and remembers nothing of it.
+        // Without friction every spring slips.
         (outcome.state, outcome.stick_radius) = (ContactState::Slip, 0.0);
     }
     if let Some(slot) = slot {
-        // By the whole law and on a straight path nothing is integrated: the chord from the apex has its own.
+        // Under the full force law and on a straight path nothing is integrated: the chord has its own friction work.
         let chord = straight || matches!(state.modes[c], Mode::Whole { .. });
         let rest = match chord {
             true => outcome.friction,
@@ -322,13 +319,11 @@ fn contact_columns(
     let count = contact.count;
     let friction = state.friction[c] + count * outcome.friction;
     let normal = count * contact.interface.normal_energy(motion.d);
-    // What sets the indentation does the work of pressing; a coupled contact's bodies do it among themselves.
-    // A constant load presses before the start and does no work in the run.
+    // The source of a prescribed indentation does the work of pressing. Constant loads do no work in the run.
     if !contact.is_constant() && contact.coupling().is_none() {
         books.input += normal;
     }
-    // The force is that on the bodies, springs and damping together; energy and friction are of the springs
-    // alone.
+    // The force contains contact damping; energy and friction belong to the springs.
     let damping = match contact.interface.damping() {
         0.0 => 0.0,
         _ => contact.viscosity(equations.law(c), &motion) * motion.du,
@@ -348,7 +343,7 @@ fn contact_columns(
     ]);
 }
 
-/// Potential energy of a link, J: ½k(s-e)² less the work its preload has done.
+/// Returns the potential energy of a link, J: ½k(s-e)² minus the work of its preload.
 pub(crate) fn link_energy(equations: &Equations<'_>, link: &Link, t: f64, y: &impl Fn(usize) -> f64) -> f64 {
     let at = Components { t, y };
     let stroke = equations.stroke(link, &at).value;

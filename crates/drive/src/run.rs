@@ -1,6 +1,6 @@
-//! Runs: a model and a plan move a state, a record watches.
+//! Runs of a model.
 //!
-//! A [`Run`] is one that its caller holds; [`run`] is the same to the end of its plan.
+//! [`run`] simulates to the end of a plan; a [`Run`] advances on request.
 
 mod bounds;
 mod chords;
@@ -22,10 +22,14 @@ use crate::contact::Contact;
 use crate::record::Record;
 use crate::{Model, Plan, RunError, State, Stepper};
 
-/// Moves `state` along `plan` to its end: its duration, or earlier where it asks for no more than steady steps. What was
-/// computed before an error is in `state` and `record`.
+/// Advances `state` along `plan` to its end: after its duration, or earlier at steady steps if the plan allows it. Results before
+/// an error are in `state` and `record`.
 ///
-/// Never inlined: profilers find here all that a run costs.
+/// # Errors
+///
+/// [`RunError`]: the reason why the run stopped.
+///
+/// Never inlined, so that profilers attribute all cost to it.
 #[inline(never)]
 pub fn run(model: &Model, plan: &Plan, state: &mut State, record: &mut dyn Record) -> Result<(), RunError> {
     if let Stepper::Dopri5 { tolerance } = model.effective(plan.stepper) {
@@ -35,14 +39,14 @@ pub fn run(model: &Model, plan: &Plan, state: &mut State, record: &mut dyn Recor
 }
 
 impl Model {
-    /// The stepper that a run really takes. Where nothing is free there is nothing to integrate: the contacts are
-    /// walked along their prescribed path from event to event, whatever was asked for.
+    /// Returns the stepper that a run uses. Without free coordinates the contacts follow their prescribed path from event to
+    /// event, whatever stepper is requested.
     pub fn effective(&self, asked: Stepper) -> Stepper {
         if self.free.is_empty() && !asked.locates_events() {
             return Stepper::Event { tolerance: WALK_TOLERANCE };
         }
         match asked {
-            // Places without mass are solved for, to rounding: their events are found as well, and nothing is gained by less.
+            // Balanced positions are solved to rounding, so a larger tolerance would save nothing.
             Stepper::Event { tolerance } if !self.balanced.is_empty() => {
                 Stepper::Event { tolerance: tolerance.min(WALK_TOLERANCE) }
             }
@@ -50,12 +54,13 @@ impl Model {
         }
     }
 
-    /// Whether a run by this stepper tells turns of u of contact `index` as [`EventKind::Turn`](crate::EventKind::Turn): between
-    /// located events, under a normal that varies, slip on the curve. Everywhere else they are its reversals and ends of gross slip.
+    /// Whether a run with this stepper reports reversals of u of contact `index` as [`EventKind::Turn`](crate::EventKind::Turn).
+    /// This is the case with event location, a varying normal load and the memory curve. Otherwise they are its events `reversal`
+    /// and `gross slip ends`.
     pub fn tells_turns(&self, asked: Stepper, index: usize) -> bool {
         self.effective(asked).locates_events() && self.contacts.get(index).is_some_and(Contact::turns_unseen)
     }
 }
 
-/// Tolerance of a quasi-static walk where its scenario names a stepper without one.
+/// Tolerance of a quasi-static path if the scenario names a stepper without one.
 pub const WALK_TOLERANCE: f64 = 1e-10;

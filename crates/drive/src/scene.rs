@@ -1,4 +1,4 @@
-//! A scene: what is there, in SI, before it becomes equations. Plain data; [`crate::Model::new`] checks it.
+//! Description of a drive in SI units, as plain data; [`crate::Model::new`] checks it.
 
 mod contact;
 
@@ -9,22 +9,21 @@ use std::f64::consts::FRAC_PI_2;
 use crate::component::{Input, SharedBlock};
 use crate::{SceneFault, Waveform};
 
-/// Largest angle that is small, rad: further round bodies do not go as the model has it.
+/// Largest rotation for which the linearised kinematics of bodies are used, rad.
 ///
-/// A point that moves along its tangent goes tan θ where a rotation takes it sin θ, and leaves its circle by 1 - cos θ:
-/// 0.5 % of its arm and of its way at 0.1 rad.
+/// A point that moves along its tangent deviates from its circle by 1 - cos θ relative to its arm: 0.5 % at 0.1 rad.
 pub const SMALL_ANGLE: f64 = 0.1;
 
-/// Everything a drive consists of.
+/// Complete description of a drive.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Scene {
-    /// Waveforms, referred to by their place in this list.
+    /// Waveforms; other parts refer to them by index.
     pub waveforms: Vec<Named<Waveform>>,
-    /// Bodies beside the ground.
+    /// Bodies, in addition to the ground.
     pub bodies: Vec<Named<Body>>,
-    /// Contacts between bodies or a body and the ground.
+    /// Contacts between two bodies, or a body and the ground.
     pub contacts: Vec<Named<Contact>>,
-    /// Components that the scene brings along.
+    /// Additional components, such as driver electronics.
     pub blocks: Vec<Named<SharedBlock>>,
     /// Linear springs with dampers.
     pub springs: Vec<Named<Spring>>,
@@ -34,12 +33,12 @@ pub struct Scene {
     pub loads: Vec<Load>,
     /// Gravity; none by default.
     pub gravity: Gravity,
-    /// How the free coordinates start.
+    /// Initial state of the free coordinates.
     pub start: Start,
 }
 
 impl Scene {
-    /// SI unit of a waveform: that of what follows it first; empty where nothing does.
+    /// Returns the SI unit of a waveform, by the first quantity that follows it. Empty if nothing follows it.
     #[must_use]
     pub fn waveform_unit(&self, place: usize) -> &'static str {
         let follows = |value: Varying| matches!(value, Varying::Follows(waveform) if waveform == place);
@@ -71,14 +70,14 @@ impl Scene {
         ""
     }
 
-    /// The waveform that a signal is or, where a block makes it, what the first signal that the block reads comes from. None where
-    /// no waveform is behind it.
+    /// Returns the waveform behind a signal: the signal itself, or the source of the first input of a block. None if there is
+    /// none.
     #[must_use]
     pub fn waveform_of(&self, signal: usize) -> Option<usize> {
         let Some(block) = signal.checked_sub(self.waveforms.len()) else { return Some(signal) };
         let inputs = self.blocks.get(block)?.part.0.inputs();
         let first = inputs.iter().find_map(|input| match input {
-            // A block reads what is before it: that ends.
+            // A block reads earlier signals only, so the recursion ends.
             Input::Signal(read) if *read < signal => Some(*read),
             Input::Signal(_) | Input::Length { .. } => None,
         });
@@ -86,32 +85,31 @@ impl Scene {
     }
 }
 
-/// A part of a scene under the name its user gave it.
+/// Part of a [`Scene`] with its name.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Named<T> {
-    /// Name, unique among its kind.
+    /// Name, unique among parts of its kind.
     pub name: String,
-    /// The part.
+    /// Part.
     pub part: T,
 }
 
-/// A rigid body in the plane. Its coordinates are displacements from the position drawn.
+/// Rigid body in the plane. Its coordinates are displacements from the reference position.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Body {
-    /// Mass, kg; needed where x or z is free.
+    /// Mass, kg; required if x or z is free.
     pub mass: Option<f64>,
-    /// Moment of inertia about the reference point, the centre of mass, kg m²; needed where the pitch is free.
+    /// Moment of inertia about the reference point, which is the centre of mass, kg m²; required if the pitch is free.
     pub inertia: Option<f64>,
-    /// Along the slide, m.
+    /// Displacement along the slide, m.
     pub x: Coordinate,
-    /// Normal to the slide, up, m.
+    /// Displacement normal to the slide, upwards, m.
     pub z: Coordinate,
-    /// Small angle of rotation, positive from x towards z, rad: a point at (X, Z) from the reference point moves by
-    /// (-Zθ, Xθ).
+    /// Small rotation, positive from x towards z, rad. A point at (X, Z) from the reference point moves by (-Zθ, Xθ).
     pub pitch: Coordinate,
 }
 
-/// Which coordinate of a body.
+/// Coordinate of a body.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Axis {
     /// Along the slide.
@@ -122,14 +120,14 @@ pub enum Axis {
     Pitch,
 }
 
-/// A coordinate of a body; SI (m and m/s, rad and rad/s).
+/// Coordinate of a body, in SI units (m and m/s, rad and rad/s).
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Coordinate {
-    /// What it may do.
+    /// Type of the coordinate.
     pub freedom: Freedom,
-    /// Where it is at t = 0, unless it follows a waveform.
+    /// Position at t = 0, unless it follows a waveform.
     pub position: f64,
-    /// How fast it is at t = 0, where free.
+    /// Velocity at t = 0, if free.
     pub velocity: f64,
 }
 
@@ -142,7 +140,7 @@ pub struct Point {
     pub z: f64,
 }
 
-/// A direction of the plane.
+/// Direction in the plane.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Direction {
     /// Along the slide.
@@ -152,59 +150,60 @@ pub enum Direction {
     Z,
 }
 
-/// What a coordinate may do.
+/// Type of a coordinate.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Freedom {
-    /// Stays where it is.
+    /// Does not move.
     #[default]
     Fixed,
-    /// Obeys Newton.
+    /// Has inertia and obeys the equations of motion.
     Free,
-    /// Follows the waveform at this place of [`Scene::waveforms`] or, counted on from the last one, the signal of the block
-    /// at this place of [`Scene::blocks`].
+    /// Follows a signal by index: the waveforms in [`Scene::waveforms`] first, then the blocks in [`Scene::blocks`].
     Follows(usize),
-    /// Has no mass: it is where loads, springs and contacts balance at every moment. Its position at t = 0 is where it is
-    /// drawn; what acts at t = 0 moves it from there in no time.
+    /// Has no mass: loads, springs and contacts are in equilibrium at all times. Its position at t = 0 is the reference position;
+    /// the loads at t = 0 move it in zero time.
     Balanced,
 }
 
 /// A quantity that may vary in time.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Varying {
-    /// Constant, SI.
+    /// Constant value, SI unit.
     Constant(f64),
-    /// Follows the waveform at this place of [`Scene::waveforms`]; a stroke may follow a block, counted on from the last one.
+    /// Follows the waveform with this index in [`Scene::waveforms`]. A stroke may also follow a block; block indices continue
+    /// after the waveforms.
     Follows(usize),
 }
 
 /// One side of a contact, spring or actuator.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Side {
-    /// The ground, fixed.
+    /// Ground, fixed.
     Ground,
-    /// The body at this place of [`Scene::bodies`].
+    /// Body by its index in [`Scene::bodies`].
     Body(usize),
 }
 
 impl Side {
-    /// The two sides of a contact, spring or actuator.
+    /// Returns the two sides of a contact, spring or actuator.
     ///
     /// # Errors
-    /// [`SceneFault::OneBody`] where they are the same.
+    ///
+    /// [`SceneFault::OneBody`] if they are equal.
     pub fn two(first: Self, second: Self) -> Result<[Self; 2], SceneFault> {
         if first == second { Err(SceneFault::OneBody) } else { Ok([first, second]) }
     }
 }
 
-/// Linear spring and damper: force on the second body `preload - stiffness·e - damping·ė`, e = x(second) - x(first)
-/// or z(second) - z(first) at its ends.
+/// Linear spring and damper. The force on the second body is `preload - stiffness·e - damping·ė`, with the elongation e =
+/// x(second) - x(first) or z(second) - z(first) of its ends.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Spring {
     /// First and second body.
     pub between: [Side; 2],
-    /// Its ends on either body.
+    /// Points of attachment on both bodies.
     pub at: [Point; 2],
-    /// Along x or z.
+    /// Direction, x or z.
     pub direction: Direction,
     /// Stiffness, N/m, at least 0.
     pub stiffness: f64,
@@ -214,15 +213,15 @@ pub struct Spring {
     pub preload: f64,
 }
 
-/// Piezo stack: force on the second body k(s-e) + c(ṡ-ė), e = x(second) - x(first) or z(second) - z(first) at its
-/// ends, s the free stroke.
+/// Piezo stack. The force on the second body is k(s-e) + c(ṡ-ė), with the elongation e = x(second) - x(first) or z(second) -
+/// z(first) of its ends, and the free stroke s.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Actuator {
     /// First and second body.
     pub between: [Side; 2],
-    /// Its ends on either body.
+    /// Points of attachment on both bodies.
     pub at: [Point; 2],
-    /// Along x or z.
+    /// Direction, x or z.
     pub direction: Direction,
     /// Stiffness k, N/m, above 0.
     pub stiffness: f64,
@@ -235,33 +234,32 @@ pub struct Actuator {
 /// Force and moment on a body.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Load {
-    /// Place of the body in [`Scene::bodies`].
+    /// Index of the body in [`Scene::bodies`].
     pub on: usize,
-    /// Where the force attacks.
+    /// Point of application of the force.
     pub at: Point,
     /// Force along x, N.
     pub x: Varying,
     /// Force along z, N.
     pub z: Varying,
-    /// Moment on the pitch, N m.
+    /// Moment, N m.
     pub pitch: Varying,
 }
 
-/// Gravity: the slide climbs by `incline` from the horizontal, so the force is -m g sin(incline) along x and
-/// -m g cos(incline) along z.
+/// Gravity. The slide rises by `incline` from the horizontal, so the force is -m g sin(incline) along x and -m g cos(incline)
+/// along z.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Gravity {
     /// Acceleration g, m/s².
     pub acceleration: f64,
-    /// Angle from the horizontal to the x axis, rad.
+    /// Inclination of the x axis from the horizontal, rad.
     pub incline: f64,
 }
 
 impl Gravity {
-    /// The accelerations against x and z, m/s²: g sin(incline) and g cos(incline).
+    /// Returns g sin(incline) and g cos(incline), m/s², the accelerations opposite to x and z.
     ///
-    /// Upright is upright: π/2 is no double, and the cosine of the nearest one, 6e-17, would press a contact on a wall
-    /// with 6e-17 of the weight, a contact of rounding alone.
+    /// Multiples of π/2 are exact up to rounding: cos(π/2) = 6e-17 would press a contact on a vertical wall.
     #[must_use]
     pub fn components(&self) -> (f64, f64) {
         let quarters = (self.incline / FRAC_PI_2).round();
@@ -277,13 +275,13 @@ impl Gravity {
     }
 }
 
-/// How the free coordinates start.
+/// Initial state of the free coordinates.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Start {
-    /// Where the bodies say.
+    /// As given by the bodies.
     #[default]
     Given,
-    /// In static equilibrium under what acts at t = 0, at rest.
+    /// Static equilibrium at t = 0, at rest.
     Equilibrium,
 }
 
@@ -294,10 +292,10 @@ impl Default for Varying {
 }
 
 impl Coordinate {
-    /// Free, at rest where it is drawn.
+    /// Free coordinate, at rest in the reference position.
     pub const FREE: Self = Self { freedom: Freedom::Free, position: 0.0, velocity: 0.0 };
 
-    /// Follows the waveform at this place of [`Scene::waveforms`].
+    /// Returns a coordinate that follows the waveform with this index in [`Scene::waveforms`].
     pub fn follows(waveform: usize) -> Self {
         Self { freedom: Freedom::Follows(waveform), ..Self::default() }
     }
@@ -309,19 +307,19 @@ impl Body {
         self.coordinates().iter().any(|(_, coordinate)| coordinate.freedom == Freedom::Free)
     }
 
-    /// Whether any of its coordinates has no mass and is balanced.
+    /// Whether any of its coordinates is balanced.
     pub fn is_balanced(&self) -> bool {
         self.coordinates().iter().any(|(_, coordinate)| coordinate.freedom == Freedom::Balanced)
     }
 
-    /// Its coordinates with their axes.
+    /// Returns its coordinates with their axes.
     pub fn coordinates(&self) -> [(Axis, Coordinate); 3] {
         [(Axis::X, self.x), (Axis::Z, self.z), (Axis::Pitch, self.pitch)]
     }
 }
 
 impl Axis {
-    /// The letter or word for it in messages and columns.
+    /// Returns the name in messages and columns.
     pub fn key(self) -> &'static str {
         match self {
             Self::X => "x",

@@ -1,37 +1,36 @@
-//! When output is due.
+//! Times of output.
 
-/// Moments of a run, s.
+/// Output times of a run, s.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Moments {
-    /// Multiples k × interval of this interval from k = 0 on, never summed up; above 0.
+    /// Multiples k × interval of this interval from k = 0 on, computed as products; above 0.
     Every(f64),
-    /// These, ascending.
+    /// Given times, ascending.
     At(Vec<f64>),
 }
 
-/// A walk through the moments of a run, its beginning and its end included.
+/// Iterator over the output times of a run, including its start and end.
 ///
-/// Moments are worked out one by one and none is kept: a schedule of a million rows is as small as one of
-/// two.
+/// Times are computed one by one, so the memory does not depend on their number.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Schedule {
     moments: Moments,
     end: f64,
-    /// How near to the end a moment is the end, s.
+    /// Distance from the end below which a time counts as the end, s.
     near: f64,
-    /// Place of the next moment, a whole number.
+    /// Index of the next time, an integer.
     next: f64,
     due: f64,
 }
 
-/// A multiple this near to the beginning or the end of a run, in intervals, is the beginning or the end.
+/// Distance from the start or the end of a run below which a multiple counts as it, in intervals.
 const SAME: f64 = 1e-9;
 
-/// Multiples are counted up to here: beyond, a number is its own successor.
+/// Largest index; larger numbers cannot be incremented.
 const COUNTED: f64 = 9_007_199_254_740_992.0;
 
 impl Moments {
-    /// Number of moments in a run of `duration` s from t = 0, as a number that cannot overflow.
+    /// Returns the number of times in a run of `duration` (s) from t = 0, as an `f64` to avoid overflow.
     pub fn count(&self, duration: f64) -> f64 {
         match self {
             Self::Every(interval) => (duration / interval + SAME).floor() + 1.0,
@@ -41,7 +40,7 @@ impl Moments {
 }
 
 impl Schedule {
-    /// The moments from one time to another, s, both included.
+    /// Returns the times between two times, s, both included.
     pub fn new(moments: Moments, from: f64, end: f64) -> Self {
         let (next, near) = match &moments {
             Moments::Every(interval) => ((from / interval - SAME).ceil().max(0.0), SAME * interval),
@@ -53,12 +52,11 @@ impl Schedule {
         schedule
     }
 
-    /// The moments after one time, s, up to another, the second included: for a walk that goes on where an earlier one has
-    /// been.
+    /// Returns the times after one time, s, up to another, which is included. Used when a run is resumed.
     pub(crate) fn after(moments: Moments, from: f64, end: f64) -> Self {
         let mut schedule = Self::new(moments, from, end);
         if let Moments::Every(interval) = schedule.moments {
-            // To the last bit: what lies within rounding after `from` has not been passed.
+            // Exact comparison: a time within rounding after `from` has not been reached.
             schedule.next = (from / interval).floor().max(0.0);
             while interval * schedule.next <= from && schedule.next < COUNTED {
                 schedule.next += 1.0;
@@ -71,40 +69,40 @@ impl Schedule {
         schedule
     }
 
-    /// From when on a moment is the end, s.
+    /// Returns the time from which a time counts as the end, s.
     pub(crate) fn nearly(&self) -> f64 {
         self.end - self.near
     }
 
-    /// The next moment, s; infinite after the last one.
+    /// Returns the next time, s; infinite after the last one.
     #[inline]
     pub fn due(&self) -> f64 {
         self.due
     }
 
-    /// Ends the walk at another time, s, not before the moment that was reached.
+    /// Sets another end, s, not before the time reached.
     pub(crate) fn end_at(&mut self, end: f64) {
         self.end = end;
         self.due = self.time();
     }
 
-    /// Moves on to the moment after the next one.
+    /// Advances to the next time.
     #[inline]
     pub fn advance(&mut self) {
         self.next += 1.0;
         self.due = self.time();
     }
 
-    /// The next moment, s; infinite beyond the end.
+    /// Returns the next time, s; infinite after the end.
     #[inline]
     fn time(&self) -> f64 {
         let t = match &self.moments {
-            // A product: a sum of intervals would drift from the multiples that it is told as.
+            // A product, because a sum of intervals would drift.
             Moments::Every(interval) if self.next < COUNTED => interval * self.next,
             Moments::Every(_) => f64::INFINITY,
             Moments::At(times) => times.get(self.next as usize).copied().unwrap_or(f64::INFINITY),
         };
-        // A multiple that misses the end by rounding is the end itself, once, and no row before it.
+        // A multiple that misses the end by rounding is the end.
         if t < self.end - self.near {
             t
         } else if t <= self.end + self.near {
@@ -131,7 +129,7 @@ mod tests {
 
     #[test]
     fn multiples_are_products_and_the_ends_are_the_ends() {
-        // 3 × 0.1 is above 0.3 by one ulp, a sum of tenths would be, too.
+        // 3 × 0.1 is above 0.3 by one unit in the last place.
         assert_eq!(all(Moments::Every(0.1), 0.0, 0.3), [0.0, 0.1, 0.2, 0.3]);
         assert_eq!(all(Moments::Every(0.1), 0.1 * 3.0, 0.5), [0.1 * 3.0, 0.4, 0.5]);
         assert_eq!(all(Moments::Every(0.2), 0.3, 0.9), [0.4, 0.2 * 3.0, 0.8]);
@@ -142,7 +140,7 @@ mod tests {
     fn a_walk_goes_on_where_one_has_been() {
         let on = |from: f64| Schedule::after(Moments::Every(0.1), from, f64::INFINITY).due();
         assert_eq!([on(0.0), on(0.15), on(0.2), on(0.1 * 3.0)], [0.1, 0.2, 0.1 * 3.0, 0.4]);
-        // Within rounding before a multiple it has not been passed yet.
+        // A multiple within rounding after the start is not skipped.
         assert_eq!(on(0.2_f64.next_down()), 0.2);
         let list = Moments::At(vec![0.0, 0.25, 0.5]);
         assert_eq!(Schedule::after(list, 0.25, 1.0).due(), 0.5);

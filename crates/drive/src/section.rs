@@ -1,9 +1,9 @@
-//! A moment of every period, and the numbers that a state has there.
+//! Poincaré section: a time in every period, and the coordinates of a state there.
 //!
-//! The map of a period leads a state at a [`Section`] to the one a period later. What the motion's future depends on are places,
-//! speeds, states of blocks, and what of the contacts' memories is left: of a contact that slips grossly at that moment
-//! nothing, else the heights of its knots and the slopes of pieces that grew. Places are counted along with the drift: what
-//! is left out is where the drive has got to. Memories of blocks, and of rows of springs, are carried along as they are.
+//! The period map leads from a state at a [`Section`] to the state one period later. Its coordinates are positions, velocities,
+//! states of blocks, and the memories of contacts that are not in gross slip. Memory coordinates are heights of knots, and slopes
+//! of pieces from full stick. Positions are relative to the drift: the distance travelled is not a coordinate. Memories of blocks
+//! and of rows of springs are carried along unchanged.
 
 mod adoption;
 mod drift;
@@ -17,11 +17,11 @@ use crate::{Model, State};
 use drift::Drift;
 use stickslip_contact::Memory;
 
-/// Most numbers that memories have; where there are more, they are carried along.
+/// Largest number of memory coordinates; with more, memories are carried along.
 const MOST_OF_MEMORIES: usize = 24;
 
 impl Model {
-    /// Whether nothing is free: contacts are walked along a given path.
+    /// Whether no coordinate is free, so that contacts follow a prescribed path.
     #[must_use]
     pub fn is_walk(&self) -> bool {
         self.free.is_empty()
@@ -29,8 +29,7 @@ impl Model {
 }
 
 impl State {
-    /// Whether a contact remembers nothing that its motion would not tell: it is apart, all its springs slip, or it has no
-    /// friction.
+    /// Whether the memory of a contact has no effect: it is open, in gross slip or frictionless.
     #[must_use]
     pub fn has_given_way(&self, model: &Model, index: usize) -> bool {
         let contact = model.contacts.get(index).zip(self.modes.get(index));
@@ -38,26 +37,26 @@ impl State {
     }
 }
 
-/// A number of a state.
+/// Coordinate of a state at a section.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Unknown {
-    /// Place of a free coordinate, m or rad.
+    /// Position of a free coordinate, m or rad.
     Place(usize),
-    /// Its speed, m/s or rad/s.
+    /// Velocity of a free coordinate, m/s or rad/s.
     Speed(usize),
-    /// State of a block, by its place among all of them, in its own unit.
+    /// State of a block by its index among the states of all blocks, in its unit.
     Own(usize),
-    /// Height of a knot of a contact's memory, by its place from the centre, m.
+    /// Height of a knot of a contact's memory (contact, index from the centre), m.
     Height(usize, usize),
-    /// Slope of a piece of a contact's memory that grew in full stick, by its place from the centre.
+    /// Slope of a piece of a contact's memory from full stick (contact, index from the centre).
     Slope(usize, usize),
 }
 
-/// A moment of every period.
+/// Poincaré section of a periodic drive at a time in the period.
 #[derive(Debug, Clone)]
 pub struct Section<'m> {
     model: &'m Model,
-    /// A state there: its time, its pieces of waveforms, its place.
+    /// Reference state at the section.
     base: State,
     drifts: Vec<Drift>,
     unknowns: Vec<Unknown>,
@@ -65,7 +64,7 @@ pub struct Section<'m> {
 }
 
 impl<'m> Section<'m> {
-    /// The section at the time of a state, whose memories have come to where it stands ([`Run::stop`](crate::Run::stop)).
+    /// Returns the section at the time of a state whose memories are up to date ([`Run::stop`](crate::Run::stop)).
     #[must_use]
     pub fn new(model: &'m Model, mut base: State) -> Self {
         base.come_back(model);
@@ -114,25 +113,25 @@ impl<'m> Section<'m> {
         }
     }
 
-    /// The state that it was made of.
+    /// Returns the reference state.
     #[must_use]
     pub fn base(&self) -> &State {
         &self.base
     }
 
-    /// The numbers that tell states apart.
+    /// Returns the coordinates of the section.
     #[must_use]
     pub fn unknowns(&self) -> &[Unknown] {
         &self.unknowns
     }
 
-    /// Contacts whose memories are carried along, by their places in the scene: they are no numbers of the map.
+    /// Returns the indices of contacts whose memories are carried along and are not coordinates.
     #[must_use]
     pub fn carried(&self) -> &[usize] {
         &self.carried
     }
 
-    /// Natural scale of each number, in its own unit.
+    /// Returns the natural scale of each coordinate, in its unit.
     #[must_use]
     pub fn scales(&self) -> Vec<f64> {
         let own: Vec<f64> = self.model.blocks.iter().flat_map(|block| block.states.scales.clone()).collect();
@@ -146,19 +145,19 @@ impl<'m> Section<'m> {
         self.unknowns.iter().map(scale).collect()
     }
 
-    /// Natural scale of the way of each free coordinate, m or rad.
+    /// Returns the natural length of each free coordinate, m or rad.
     #[must_use]
     pub fn lengths(&self) -> Vec<f64> {
         self.model.free.iter().map(|free| free.scale.0).collect()
     }
 
-    /// How many ways there are along which nothing changes but the place.
+    /// Returns the number of drift directions, along which only the position changes.
     #[must_use]
     pub fn drifts(&self) -> usize {
         self.drifts.len()
     }
 
-    /// A body that may go on along z, or turn, for ever, and which of the two; none where nothing but x drifts.
+    /// Returns the name of a body that may drift along z or in pitch, and the axis. None if only x may drift.
     #[must_use]
     pub fn drifts_away(&self) -> Option<(String, &'static str)> {
         let free = self.model.free.iter().enumerate().filter(|(_, free)| free.axis != Axis::X);
@@ -169,7 +168,8 @@ impl<'m> Section<'m> {
         })
     }
 
-    /// Of a way of all free coordinates that of a body along an axis, m or rad; none where that is not free.
+    /// Returns the component of a displacement of all free coordinates for a body and an axis, m or rad. None if that coordinate
+    /// is not free.
     #[must_use]
     pub fn of_body(&self, way: &[f64], index: usize, axis: Axis) -> Option<f64> {
         match self.model.bodies.get(index)?.bindings[axis as usize] {
@@ -178,8 +178,9 @@ impl<'m> Section<'m> {
         }
     }
 
-    /// How far contact `c` slides along x on a way of all free coordinates, m, if it is pressed evenly: then that is 0 in the long
-    /// run where it never slips grossly. Under a normal force that varies it may walk all the same, and 0 is told.
+    /// Returns the slip of contact `c` along x for a displacement of all free coordinates, m, under a constant normal load. It
+    /// vanishes in the long run if the contact never slips grossly. Under a varying normal load, where partial slip may cause a
+    /// drift, the function returns 0.
     #[must_use]
     pub fn slides(&self, way: &[f64], c: usize) -> f64 {
         let is_even = |contact: &&crate::contact::Contact| {
@@ -189,7 +190,7 @@ impl<'m> Section<'m> {
         contact.map_or(0.0, |contact| contact.u.free.iter().map(|(i, a)| a * way[*i]).sum())
     }
 
-    /// Name of a number: that of its coordinate, its block or its contact.
+    /// Returns the name of a coordinate: that of its body, block or contact.
     #[must_use]
     pub fn name(&self, unknown: Unknown) -> String {
         let free = |i: usize| {
@@ -214,9 +215,8 @@ impl<'m> Section<'m> {
         }
     }
 
-    /// A state of a period later, as if it stood at the section, and how far each free coordinate has drifted, m or rad.
-    ///
-    /// The drive stands where the section's own state does; anchors have come along.
+    /// Returns a state one period later, moved back to the section, and the drift of each free coordinate, m or rad. The memories
+    /// move with the drift.
     #[must_use]
     pub fn back(&self, mut end: State) -> (State, Vec<f64>) {
         end.come_back(self.model);
@@ -238,7 +238,7 @@ impl<'m> Section<'m> {
         (end, way)
     }
 
-    /// A state at the section as the start of a run: its books of energies and its counts begin there.
+    /// Returns a state at the section as the start of a run: energy balance and counts begin there.
     #[must_use]
     pub fn begun(&self, state: &State) -> State {
         let (model, mut begun) = (self.model, state.clone());
@@ -255,8 +255,7 @@ impl<'m> Section<'m> {
         begun
     }
 
-    /// Whether a memory that had given way where the section was made holds something in a state: then that has numbers of which the
-    /// section knows nothing.
+    /// Whether a state has memory coordinates that the section does not contain.
     fn holds_more(&self, state: &State) -> bool {
         let is_of = |c: usize, unknown: &Unknown| matches!(unknown, Unknown::Height(own, _) | Unknown::Slope(own, _) if *own == c);
         let has_none =
@@ -270,8 +269,8 @@ impl<'m> Section<'m> {
         })
     }
 
-    /// The numbers of a state less those of another one, each in its own unit; none where their memories have other
-    /// knots.
+    /// Returns the difference of two states in the coordinates of the section, in their units. None if their memories have
+    /// different knots.
     #[must_use]
     pub fn difference(&self, of: &State, less: &State) -> Option<Vec<f64>> {
         if self.holds_more(of) || self.holds_more(less) {
@@ -290,7 +289,7 @@ impl<'m> Section<'m> {
         self.unknowns.iter().map(number).collect()
     }
 
-    /// A state at the section with other numbers, each moved by as much in its own unit; none where a memory has no such form.
+    /// Returns a state with its coordinates changed by given amounts, in their units. None if a memory cannot have this form.
     #[must_use]
     pub fn moved(&self, state: &State, by: &[f64]) -> Option<State> {
         let (model, layout) = (self.model, self.model.layout());

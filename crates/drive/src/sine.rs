@@ -1,7 +1,6 @@
-//! The sine of an angle up to a right one: where a call of the library's would cost more than all else, and where the compiler
-//! makes a table.
+//! Sine of an angle in the first quadrant, as an inlined and constant function.
 
-/// (-1)ᵏ/(2k+1)!.
+/// Coefficients (-1)ᵏ/(2k+1)! of the series.
 const TERMS: [f64; 10] = {
     let (mut terms, mut term, mut k) = ([0.0; 10], 1.0, 0);
     while k < 10 {
@@ -12,12 +11,12 @@ const TERMS: [f64; 10] = {
     terms
 };
 
-/// Sine of 0 to π/2 by its series, to 3e-16.
+/// Returns the sine of an angle from 0 to π/2 by its series, with an error below 3e-16.
 #[inline(always)]
 pub(crate) const fn sine(x: f64) -> f64 {
     let square = x * x;
     let fourth = square * square;
-    // The small terms odd and even side by side: half as long a chain of sums that wait for each other.
+    // Even and odd terms are summed separately, for parallel execution.
     let even = TERMS[2] + fourth * (TERMS[4] + fourth * (TERMS[6] + fourth * TERMS[8]));
     let odd = TERMS[3] + fourth * (TERMS[5] + fourth * (TERMS[7] + fourth * TERMS[9]));
     x * (1.0 + square * (TERMS[1] + square * (even + square * odd)))

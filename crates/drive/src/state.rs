@@ -1,4 +1,4 @@
-//! All that the future of a run depends on.
+//! State of a drive: everything that the future of a run depends on.
 
 mod bytes;
 mod generated;
@@ -25,106 +25,104 @@ use crate::scene::Axis;
 use crate::{Model, Piece, RunError, record};
 use stickslip_contact::{Apex, ContactError, Memory, Move};
 
-/// State of a drive: cloneable, comparable. A run started from a copy goes on to the same bits.
+/// State of a drive, which can be cloned, compared and saved. A run from a copy has identical bits.
 #[derive(Debug, Clone, PartialEq)]
 pub struct State {
     /// Time, s.
     pub(crate) t: f64,
-    /// Components in the order of [`Layout`]; positions without their shifts.
+    /// Components in the order of [`Layout`]; positions relative to their shifted origins.
     pub(crate) y: Vec<f64>,
-    /// By how much the origin of each free coordinate has moved, m: what travels far is counted from near by.
+    /// Shift of the origin of each free coordinate, m, which keeps digits over long travel.
     pub(crate) shifts: Vec<f64>,
-    /// What each contact remembers; displacements counted from the shifted origins.
+    /// Memory of each contact; displacements count from the shifted origins.
     pub(crate) memories: Vec<Memory>,
-    /// The law of each contact, set at its last event.
+    /// Law of each contact since its last event.
     pub(crate) modes: Vec<Mode>,
-    /// Whether the last segment of each contact was growth that may go on smoothly.
+    /// Whether the last path of each contact was growth in full stick that may continue.
     pub(crate) grew: Vec<bool>,
     /// Laws and memories of the blocks.
     pub(crate) blocks: Vec<BlockState>,
-    /// The smooth piece each waveform is on.
+    /// Present smooth piece of each waveform.
     pub(crate) pieces: Vec<Piece>,
-    /// Friction work of each contact booked at its commits, J.
+    /// Friction work of each contact from committed paths, J.
     pub(crate) friction: Vec<f64>,
-    /// Input that is not an integral over time, J: jumps; and what constant forces and prescribed normal loads had done
-    /// before the start, since their work is read off the present state.
+    /// Input work that is not an integral over time, J: jumps, and the initial values of work that follows from the state.
     pub(crate) jumps: f64,
-    /// Work lost in blocks at their commits, J.
+    /// Dissipated work of blocks from committed paths, J.
     pub(crate) lost: f64,
-    /// Kinetic plus elastic energy at t = 0, J.
+    /// Kinetic and elastic energy at t = 0, J.
     pub(crate) origin: f64,
-    /// Next step, s; 0 before the first one.
+    /// Length of the next step, s; 0 before the first one.
     pub(crate) step: f64,
-    /// Step in use when a contact last went into gross slip, s: what comes after needs it again.
+    /// Step length when gross slip last began, s; it is used again afterwards.
     pub(crate) stuck_step: f64,
-    /// What a run has learnt; none before the first run.
+    /// Working data of a run; none before the first run.
     pub(crate) underway: Option<Underway>,
-    /// The piece that a caller has supplied of each waveform after the present one; empty where none is an input.
+    /// Next piece of each input, if supplied; empty without inputs.
     pub(crate) supplied: Vec<Option<Piece>>,
-    /// What each waveform generates; empty where none is a generator.
+    /// State of each generator; empty without generators.
     pub(crate) generators: Vec<Option<Generating>>,
-    /// Work done so far.
+    /// Counts of steps and events.
     pub(crate) counts: Counts,
-    /// Steps and intervals by method.
+    /// Counts of steps and intervals by method.
     pub(crate) tally: Tally,
 }
 
-/// Work done so far.
+/// Counts of steps and events of a run.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Counts {
-    /// Accepted steps.
+    /// Number of accepted steps.
     pub steps: u64,
-    /// Attempts thrown away by step control.
+    /// Number of attempts that the step control rejected.
     pub rejected: u64,
-    /// Evaluations of the equations of motion.
+    /// Number of evaluations of the equations of motion.
     pub evaluations: u64,
-    /// Events.
+    /// Number of events.
     pub events: u64,
-    /// Stretches by the whole law, where events accumulated.
+    /// Number of intervals of step doubling, where events accumulate.
     pub detours: u64,
-    /// Steps of such stretches taken although their estimate missed what is allowed: where damped springs stick and slip by
-    /// turns the law itself jumps, and no shorter step would do better.
+    /// Number of steps of such intervals that were accepted above the tolerance. With contact damping the force may jump, and
+    /// shorter steps do not converge.
     pub missed: u64,
 }
 
-/// Magnitude from which on a component of a state counts as no longer finite: energies are products of two of them and a mass or
-/// a stiffness, and must be numbers.
+/// Magnitude from which a component counts as not finite: energies contain products of components.
 const REACH: f64 = 1e120;
 
-/// The first component that is no longer finite, if any.
+/// Returns the index of the first component that is not finite.
 #[inline]
 pub(crate) fn beyond(y: &[f64]) -> Option<usize> {
     y.iter().position(|y| y.is_nan() || y.abs() >= REACH)
 }
 
 impl Model {
-    /// The error of component `i` that is no longer finite; forces and work are laid at the first body's door.
+    /// Returns the error for component `i`, which is not finite. Forces and work are attributed to the first body.
     pub(crate) fn not_finite(&self, t: f64, i: usize) -> RunError {
-        // A force or a work belongs to no coordinate.
+        // Forces and work have no coordinate.
         let free = if i < 2 * self.free.len() { i % self.free.len() } else { 0 };
         let body = self.free.get(free).map(|f| self.bodies[f.body].name.clone());
         RunError::NotFinite { t, body: body.unwrap_or_default() }
     }
 
-    /// The error of balanced coordinate `b` that nothing balances any more: what pulls at it and what its contacts hold, N.
+    /// Returns the error for balanced coordinate `b` with its load and the limit of its contacts, N.
     pub(crate) fn unbalanced(&self, b: usize, t: f64, [load, limit]: [f64; 2]) -> RunError {
         let Balanced { body, axis, .. } = self.balanced[b];
         RunError::Unbalanced { t, body: self.bodies[body].name.clone(), axis, load, limit }
     }
 
-    /// The error of contact `c` that cannot follow its path.
+    /// Returns the error for contact `c`, which cannot follow its path.
     pub(crate) fn refused(&self, c: usize, t: f64, source: ContactError) -> RunError {
         RunError::Contact { t, contact: self.contacts[c].name.clone(), source }
     }
 
-    /// The state at t = 0, before anything is in equilibrium or classified.
+    /// Returns the state at t = 0, before the static equilibrium and the choice of laws.
     pub(crate) fn rest(&self) -> State {
         let mut state = State::blank();
         self.put_at_rest(&mut state);
         state
     }
 
-    /// The same in the room of another state.
+    /// Computes that state in existing storage.
     pub(crate) fn put_at_rest(&self, state: &mut State) {
         let layout = self.layout();
         state.t = 0.0;
@@ -144,12 +142,12 @@ impl Model {
         self.touch(&mut state.memories);
         let contacts = self.contacts.len();
         refill(&mut state.shifts, layout.free, 0.0);
-        // Not classified yet: a run chooses laws from velocities and accelerations when it begins.
+        // A run chooses laws from velocities and accelerations at its start.
         refill(&mut state.modes, contacts, Mode::Whole { sense: 0.0 });
         refill(&mut state.grew, contacts, false);
         refill(&mut state.friction, contacts, 0.0);
         (state.jumps, state.lost, state.origin, state.step) = (0.0, 0.0, 0.0, 0.0);
-        // No gross slip has begun yet: its end takes nothing from the step.
+        // There has been no gross slip yet.
         state.stuck_step = f64::INFINITY;
         state.underway = None;
         let inputs = self.waveforms.iter().any(|w| w.interpolation().is_some());
@@ -159,7 +157,7 @@ impl Model {
         state.tally.clear(contacts);
     }
 
-    /// The memories that contacts start with: untouched, or loaded monotonically to their starting displacement.
+    /// Sets the initial memories of contacts: untouched, or loaded monotonically to the initial displacement.
     fn touch(&self, memories: &mut Vec<Memory>) {
         memories.truncate(self.contacts.len());
         for (c, contact) in self.contacts.iter().enumerate() {
@@ -169,20 +167,20 @@ impl Model {
                 None => memories.push(contact.engine.memory(&contact.interface, at)),
             }
             let to = Apex { u: contact.start, ..at };
-            // Finite by the scene's checks, so the commit cannot fail.
+            // Cannot fail, because the model checks ensure finite values.
             let _ = memories[c].commit(&contact.interface, stickslip_contact::Segment::Straight(to));
         }
     }
 }
 
-/// Makes a list so many of one value, in the room there is.
+/// Fills a list with `count` copies of a value, reusing its memory.
 fn refill<T: Clone>(list: &mut Vec<T>, count: usize, value: T) {
     list.clear();
     list.resize(count, value);
 }
 
 impl State {
-    /// Of no model yet.
+    /// Returns an empty state.
     pub(crate) fn blank() -> Self {
         Self {
             t: 0.0,
@@ -207,23 +205,23 @@ impl State {
         }
     }
 
-    /// Time, s.
+    /// Returns the time, s.
     pub fn time(&self) -> f64 {
         self.t
     }
 
-    /// What the block at this place of the scene remembers; none where there is none.
+    /// Returns the memory of the block with this index. None if there is no such block.
     #[must_use]
     pub fn block_memory(&self, block: usize) -> Option<&[f64]> {
         self.blocks.get(block).map(|block| block.memory.as_slice())
     }
 
-    /// By how much u of a contact is counted from another place, m.
+    /// Returns the shift of the origin of u of a contact, m.
     pub(crate) fn shift(&self, contact: &Contact) -> f64 {
         contact.u.free.iter().map(|(i, a)| a * self.shifts[*i]).sum()
     }
 
-    /// The memories with displacements counted from where the bodies started.
+    /// Returns the memories with displacements from the initial positions.
     pub(crate) fn shifted_back(&self, model: &Model) -> Vec<Memory> {
         let mut memories = self.memories.clone();
         for (memory, contact) in memories.iter_mut().zip(&model.contacts) {
@@ -232,14 +230,13 @@ impl State {
         memories
     }
 
-    /// Counts u of a contact from another origin, `by` (m) further back: its memory, and the law that was made of it.
+    /// Moves the origin of u of a contact back by `by` (m), in its memory and its law.
     pub(crate) fn shift_law(&mut self, c: usize, by: f64) {
         self.memories[c].shift(by);
         self.modes[c].shift(by);
     }
 
-    /// Makes the law of a contact anew from a memory that was put in the place of its own, for a motion in the same sense; its u has
-    /// grown by `by`, m.
+    /// Recomputes the law of a contact from a replaced memory, with the same sense of slip. Its u has increased by `by` (m).
     pub(crate) fn renew_law(&mut self, model: &Model, c: usize, by: f64) {
         let (contact, memory) = (&model.contacts[c], &self.memories[c]);
         match (&mut self.modes[c], memory.branching()) {
@@ -256,7 +253,7 @@ impl State {
         }
     }
 
-    /// Counts all positions from where they started.
+    /// Resets all origins to the initial positions.
     pub(crate) fn come_back(&mut self, model: &Model) {
         if self.shifts.iter().all(|shift| *shift == 0.0) {
             return;
@@ -267,11 +264,10 @@ impl State {
         self.y.iter_mut().zip(&mut self.shifts).for_each(|(x, shift)| *x += std::mem::take(shift));
     }
 
-    /// Takes over a state of another stepper's run, which carried other extra components.
-    ///
-    /// Forces of growing contacts are dropped: the memories have been committed, and laws are chosen anew.
+    /// Converts a state from the run of another stepper with other components. Forces of growing contacts are dropped, because
+    /// the memories are committed and laws are chosen anew.
     pub(crate) fn carry_over(&mut self, model: &Model, to: Layout) {
-        // The same components: a run that goes on keeps its state to the last bit.
+        // With the same components the state keeps all its bits.
         if self.y.len() == to.total() {
             return;
         }
@@ -279,8 +275,7 @@ impl State {
         let from = Layout { growing, ..to };
         for (contact, friction) in model.contacts.iter().zip(&mut self.friction) {
             if let Some(slot) = contact.slot.filter(|_| growing > 0) {
-                // What an integral had booked goes where commits book: no friction is lost when the stepper
-                // changes.
+                // Friction work from integrals is added to that from committed paths.
                 *friction += contact.count * self.y[from.friction(slot)];
             }
         }
@@ -292,7 +287,7 @@ impl State {
         (self.y[to.input()], self.y[to.damping()]) = (input, damping);
     }
 
-    /// Lets every block choose its law afresh, by the pieces on which the waveforms are. No event: it had none before.
+    /// Chooses the law of every block anew for the present pieces of the waveforms, without an event.
     pub(crate) fn choose_block_laws(&mut self, model: &Model, layout: Layout) {
         for k in 0..model.blocks.len() {
             if let Some((_, law)) = Equations::on(model, self, layout, false).block_turn(k, self) {
@@ -301,44 +296,44 @@ impl State {
         }
     }
 
-    /// When the first piece of a waveform ends, s.
+    /// Returns the time of the next corner of a waveform, s.
     pub(crate) fn next_corner(&self) -> f64 {
         self.pieces.iter().map(|piece| piece.end).fold(f64::INFINITY, f64::min)
     }
 
-    /// What a contact remembers and the mode set for it.
+    /// Returns memory and law of a contact.
     pub(crate) fn law(&self, c: usize) -> (&Memory, &Mode) {
         (&self.memories[c], &self.modes[c])
     }
 
-    /// Work done so far.
+    /// Returns the counts of steps and events.
     pub fn counts(&self) -> Counts {
         self.counts
     }
 
-    /// Writes the values of all channels where it stands into a row.
+    /// Writes the present values of all channels into a row.
     pub fn write_row(&self, model: &Model, row: &mut Vec<f64>) {
         let equations = Equations::on(model, self, self.layout(model), false);
         record::fill(&equations, self, self.t, &|i| self.y[i], row);
     }
 
-    /// The methods by which it was done.
+    /// Returns the counts of methods.
     pub fn tally(&self) -> &Tally {
         &self.tally
     }
 
-    /// Memories of the contacts, in the scene's order. Displacements are counted from near by: of a body that has travelled
-    /// far they are not u of the rows.
+    /// Returns the memories of the contacts in order. Their displacements count from shifted origins and may differ from u in the
+    /// rows.
     pub fn memories(&self) -> &[Memory] {
         &self.memories
     }
 
-    /// Position (m) and velocity (m/s) along x of body `index` of the scene.
+    /// Returns position (m) and velocity (m/s) along x of body `index`.
     pub fn body(&self, model: &Model, index: usize) -> Option<(f64, f64)> {
         self.coordinate(model, index, Axis::X)
     }
 
-    /// A coordinate of body `index` of the scene and its rate; m and m/s, rad and rad/s.
+    /// Returns a coordinate of body `index` and its rate; m and m/s, or rad and rad/s.
     pub fn coordinate(&self, model: &Model, index: usize, axis: Axis) -> Option<(f64, f64)> {
         let place = model.bodies.get(index)?.bindings[axis as usize];
         Some(match place {
@@ -352,7 +347,7 @@ impl State {
         })
     }
 
-    /// Tangential force of one contact, N, as the contacts stand.
+    /// Returns the present tangential force of one contact, N.
     pub fn tangential_force(&self, model: &Model, index: usize) -> Option<f64> {
         let (contact, memory) = (model.contacts.get(index)?, self.memories.get(index)?);
         Some(memory.trial(&contact.interface, Move::Chord(memory.apex())).force)

@@ -1,19 +1,19 @@
-//! Who looks on while a run goes on.
+//! Observers of a run.
 
 use crate::{Event, Record};
 
-/// Somebody who is told how far a run has come and may end it: a progress bar, a signal, a window.
+/// Observer that receives the progress of a run and may stop it, such as a progress bar or a signal handler.
 ///
-/// Told at every row and asked every so many steps, by the thread that runs: an answer should take nanoseconds.
+/// It is called at every row, and at intervals of many steps, in the thread of the run. Calls should take nanoseconds.
 pub trait Watcher {
-    /// The run has come to time `t`, s.
+    /// Receives the time reached, s.
     fn reached(&self, t: f64);
 
-    /// Whether the run is to go on.
+    /// Whether the run should continue.
     fn goes_on(&self) -> bool;
 }
 
-/// Nobody: the run goes on to its end.
+/// No observer: the run continues to its end.
 impl Watcher for () {
     #[inline]
     fn reached(&self, _: f64) {}
@@ -24,7 +24,7 @@ impl Watcher for () {
     }
 }
 
-/// A record that keeps nothing, and through which somebody ends a run.
+/// Record without output through which an observer can stop a run.
 pub struct Unrecorded<'a>(pub &'a dyn Watcher);
 
 impl Record for Unrecorded<'_> {

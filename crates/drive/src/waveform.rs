@@ -1,12 +1,11 @@
-//! Prescribed motions (or forces, or strokes) in time, with exact corners.
+//! Prescribed functions of time (motions, forces, strokes) with exact corners.
 //!
-//! A waveform is a chain of smooth pieces, each on a half-open interval [start, end). A stepper keeps the [`Piece`] it
-//! is on, samples that one also at its very end (the limit from the left), and then goes on to the piece
-//! [`Waveform::after`] it. A value that jumps does so between two pieces.
+//! A waveform is a chain of smooth pieces on half-open intervals [start, end). A stepper samples its present [`Piece`] up to its
+//! end, where it gives the limit from the left, and continues with the piece [`Waveform::after`] it. Jumps occur between two
+//! pieces.
 //!
-//! An input has no chain: its pieces are supplied while it runs, and without a caller it has a single one, its initial value.
-//! A generator has the chain that it runs through without a caller; one that is commanded makes its pieces as it goes, and the
-//! state of the run knows them.
+//! The pieces of an input are supplied during the run; without a caller it has one piece, its initial value. A generator has a
+//! chain for its initial command; after another command its pieces follow from the state of the run.
 
 mod corners;
 mod course;
@@ -32,16 +31,16 @@ pub struct Waveform {
     given: Timing,
     timing: Timing,
     course: Course,
-    /// Values held before the start and after the stop.
+    /// Values before the start and after the stop.
     held: (f64, f64),
-    /// When it starts and stops, s.
+    /// Start and stop, s.
     window: (f64, f64),
 }
 
 /// Value of a waveform and its derivatives at one time.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Sample {
-    /// Value, in the unit of what is driven.
+    /// Value, in the unit of the driven quantity.
     pub value: f64,
     /// First derivative, per s.
     pub rate: f64,
@@ -54,7 +53,7 @@ impl Waveform {
     ///
     /// # Errors
     ///
-    /// [`WaveformError`] names the parameter, what was expected and what came.
+    /// [`WaveformError`] names the parameter, the expected and the given value.
     pub fn new(shape: Shape, timing: Timing) -> Result<Self, WaveformError> {
         let course = shape.course(&timing)?;
         let given = timing;
@@ -70,7 +69,7 @@ impl Waveform {
         Ok(waveform)
     }
 
-    /// Becomes another one's copy, in the room there is; nothing is done where both are the same.
+    /// Copies another waveform, reusing the memory; does nothing if both are equal.
     pub(crate) fn copy(&mut self, from: &Self) {
         if self == from {
             return;
@@ -83,7 +82,7 @@ impl Waveform {
         (self.held, self.window) = (from.held, from.window);
     }
 
-    /// Zero for ever, without a corner.
+    /// Returns the constant zero, without corners.
     pub(crate) fn held() -> Self {
         let shape = Shape::Table { points: vec![(0.0, 0.0)] };
         let held = (0.0, 0.0);
@@ -98,7 +97,7 @@ impl Waveform {
         Self { shape, given: Timing::every(1.0), timing: Timing::every(1.0), course, held, window: held }
     }
 
-    /// The piece that holds at `t` (s).
+    /// Returns the piece at `t` (s).
     #[must_use]
     pub fn piece_at(&self, t: f64) -> Piece {
         let (start, stop) = self.window;
@@ -111,12 +110,12 @@ impl Waveform {
         }
     }
 
-    /// The piece after this one; the last piece has no end and is followed by itself. An input holds the value with which
-    /// a supplied piece ends.
+    /// Returns the next piece; the last piece has no end and is followed by itself. An input holds the value at the end of a
+    /// supplied piece.
     #[must_use]
     pub fn after(&self, piece: &Piece) -> Piece {
         let mut next = *piece;
-        // Pieces shorter than the spacing of doubles are skipped, never all ways of a period.
+        // Skips pieces shorter than the spacing of floating-point times, at most one period.
         for _ in 0..self.corners().map_or(1, Corners::count).saturating_add(2) {
             next = self.following(&next);
             if next.start < next.end {
@@ -126,13 +125,13 @@ impl Waveform {
         next
     }
 
-    /// The piece that holds at `t` (s) and those after it, to the last, which has no end.
+    /// Returns the piece at `t` (s) and all following ones; the last one has no end.
     pub fn pieces_from(&self, t: f64) -> impl Iterator<Item = Piece> {
         let next = |piece: &Piece| (piece.end < f64::INFINITY).then(|| self.after(piece));
         std::iter::successors(Some(self.piece_at(t)), next)
     }
 
-    /// Value, rate and acceleration at `t` (s) by the law of `piece`, also exactly at its end: the limit from the left.
+    /// Returns value, rate and acceleration at `t` (s) on `piece`; at its end the limit from the left.
     #[must_use]
     #[inline]
     pub fn sample(&self, piece: &Piece, t: f64) -> Sample {
@@ -142,7 +141,7 @@ impl Waveform {
         }
     }
 
-    /// The laws that are not straight, kept out of the way of those that are.
+    /// Samples pieces that are not linear; not inlined.
     #[inline(never)]
     fn curved(&self, piece: &Piece, t: f64) -> Sample {
         match &piece.law {
@@ -154,12 +153,12 @@ impl Waveform {
         }
     }
 
-    /// Value and slopes at t = 0.
+    /// Returns value and derivatives at t = 0.
     pub fn first(&self) -> Sample {
         self.sample(&self.piece_at(0.0), 0.0)
     }
 
-    /// Jump of the value at the end of `piece`; exactly 0 where it is continuous.
+    /// Returns the jump of the value at the end of `piece`; exactly 0 if continuous.
     #[must_use]
     pub fn jump_after(&self, piece: &Piece) -> f64 {
         if piece.end == f64::INFINITY {
@@ -168,7 +167,7 @@ impl Waveform {
         self.jump_between(piece, &self.after(piece))
     }
 
-    /// Whether all its pieces are straight lines.
+    /// Whether all its pieces are linear.
     #[must_use]
     pub fn is_straight(&self) -> bool {
         match &self.course.chain {
@@ -178,7 +177,7 @@ impl Waveform {
         }
     }
 
-    /// How an input goes from value to value; none for what needs no caller.
+    /// Returns the interpolation of an input. None for other waveforms.
     #[must_use]
     pub fn interpolation(&self) -> Option<Interpolation> {
         match self.course.chain {
@@ -187,7 +186,7 @@ impl Waveform {
         }
     }
 
-    /// What a caller may command of it; none for what is no generator.
+    /// Returns the generator. None for other waveforms.
     #[must_use]
     pub fn generator(&self) -> Option<&Generator> {
         match &self.shape {
@@ -196,27 +195,27 @@ impl Waveform {
         }
     }
 
-    /// Whether the value ever jumps by design.
+    /// Whether the value has jumps.
     #[must_use]
     pub fn has_jumps(&self) -> bool {
         self.course.has_jumps
     }
 
-    /// Smallest and largest value over all time: exact but for sums of several sines, where it is a bound, safe and
-    /// usually within a few millionths; of an input what a caller may give.
+    /// Returns the smallest and the largest value over all time. For a sum of sines they are upper and lower bounds, usually
+    /// within a few millionths; for an input they are the allowed range.
     #[must_use]
     pub fn range(&self) -> (f64, f64) {
         self.course.range
     }
 
-    /// Period, s; none for what comes once, an input, or a generator that rests until it is commanded.
+    /// Returns the period, s. None for single events, an input, or a generator at rest.
     #[must_use]
     pub fn period(&self) -> Option<f64> {
         self.course.period
     }
 
-    /// Time after which it has shown all that it does, s: its period, or from its start to its stop; infinite where it never
-    /// moves. Of a generator the shortest period: it moves as soon as it is told to.
+    /// Returns the characteristic duration, s: the period, or the time from start to stop; infinite if it never moves. For a
+    /// generator it is the shortest period.
     #[must_use]
     pub fn extent(&self) -> f64 {
         let (start, stop) = self.window;
@@ -224,14 +223,14 @@ impl Waveform {
         self.shortest_period().unwrap_or(if whole > 0.0 { whole } else { f64::INFINITY })
     }
 
-    /// Shortest period that it can have, s: of a generator that of the largest frequency that may be commanded.
+    /// Returns the shortest possible period, s; for a generator that of the largest allowed frequency.
     #[must_use]
     pub(crate) fn shortest_period(&self) -> Option<f64> {
         let commanded = self.generator().map(|generator| generator.frequencies.1.recip());
         commanded.filter(|period| period.is_finite()).or(self.period())
     }
 
-    /// Period of the fastest of its sines, s; none where it has none.
+    /// Returns the period of its fastest sine, s. None without sines.
     #[must_use]
     pub(crate) fn fastest_sine(&self) -> Option<f64> {
         let order = match &self.shape {
@@ -242,32 +241,33 @@ impl Waveform {
         Some(self.timing.period / order)
     }
 
-    /// From when to when it moves, s; the second is infinite where that has no end.
+    /// Returns start and stop, s; the stop may be infinite.
     #[must_use]
     pub fn window(&self) -> (f64, f64) {
         self.window
     }
 
-    /// Longest step, s, that cannot overlook a wave inside a smooth piece: a quarter of the shortest one; infinite where
-    /// all pieces are straight or cubic.
+    /// Returns a quarter of the shortest wave within a smooth piece, s, the largest step that cannot miss it. Infinite if all
+    /// pieces are linear or cubic.
     #[must_use]
     pub fn resolution(&self) -> f64 {
         0.25 * self.course.wave
     }
 
-    /// Its form, as given.
+    /// Returns its shape, as given.
     #[must_use]
     pub fn shape(&self) -> &Shape {
         &self.shape
     }
 
-    /// When it runs, as given: of a pattern that of one cycle of what it repeats. With [`Self::shape`] it makes the same waveform again.
+    /// Returns its timing, as given; for a pattern that of one cycle of its shape. With [`Self::shape`] it makes the same
+    /// waveform.
     #[must_use]
     pub fn given(&self) -> &Timing {
         &self.given
     }
 
-    /// When it runs: of a pattern its own.
+    /// Returns its timing; for a pattern that of the whole pattern.
     #[must_use]
     pub fn timing(&self) -> &Timing {
         &self.timing
@@ -293,31 +293,31 @@ impl Waveform {
         }
     }
 
-    /// The piece of a waveform without corners.
+    /// Returns the piece of a waveform without corners.
     fn sines(&self) -> Piece {
         Piece { start: self.window.0, end: self.window.1, index: 1, law: Law::Sines }
     }
 
-    /// What is held before the start.
+    /// Returns the constant piece before the start.
     fn before(&self) -> Piece {
         let start = self.window.0;
         Piece { start: f64::NEG_INFINITY, end: start, ..Piece::held(start, self.held.0) }
     }
 
-    /// What is held after the stop, or of an input from the start on.
+    /// Returns the constant piece after the stop, or that of an input from the start.
     fn last(&self) -> Piece {
         let stop = self.window.1;
         let index = match &self.course.chain {
             Chain::Corners(corners) => corners.after(),
             Chain::Sines(_) => 2,
             Chain::Step(_) => 1,
-            // Nothing comes before it.
+            // No piece precedes it.
             Chain::Supplied(_) => 0,
         };
         Piece { index, ..Piece::held(stop, self.held.1) }
     }
 
-    /// Values where the chain starts and ends.
+    /// Returns the values at the start and at the end of the chain.
     fn ends(&self) -> (f64, f64) {
         let (start, stop) = self.window;
         let first = self.corners().map_or_else(|| self.sines(), |corners| corners.piece(1));

@@ -1,4 +1,4 @@
-//! Once a model is built and its start made, stepping allocates nothing.
+//! Tests that steps of a run allocate no memory.
 
 #![allow(
     clippy::unwrap_used,
@@ -15,14 +15,14 @@ use stickslip_contact::Profile;
 use stickslip_drive::scene::{Normal, Scene, Varying};
 use stickslip_drive::{Command, Cycle, Generator, Heading, Model, Plan, Run, Shape, Stepper, Steps, run};
 
-/// Allocations of a run of so many seconds, the workspace included.
+/// Allocations of a run of this duration (s), including the workspace.
 fn allocations(scene: &Scene, plan: &Plan) -> u64 {
     let model = Model::new(scene).unwrap();
     let mut state = model.start(plan).unwrap();
     allocation_counter::measure(|| run(&model, plan, &mut state, &mut ()).unwrap()).count_total
 }
 
-/// A slider on a sine, pressed by a force that varies: contacts that grow, shrink, stop and turn.
+/// Slider on a sine with a varying normal force: its contact grows, shrinks, stops and reverses.
 fn shaken() -> Scene {
     let mut pressed = contact(FOOT_SLIDER, Profile::paraboloid(1e-3).unwrap(), 0.15, 1.0);
     pressed.normal = Normal::Force(Varying::Follows(1));
@@ -31,14 +31,14 @@ fn shaken() -> Scene {
     scene
 }
 
-/// P1 with a contact damped by a second, stepped over what settles.
+/// P1 with a contact damping of one second, which makes it stiff.
 fn stiff() -> Scene {
     let mut scene = p1();
     scene.contacts[0].part = damped(&scene.contacts[0].part, 1.0);
     scene
 }
 
-/// Ten times as long a run allocates no more: all of it is the workspace, made at the start.
+/// A run of ten times the duration allocates no more: the workspace is allocated at the start.
 #[test]
 fn stepping_allocates_nothing() {
     for (name, scene) in [("P1", p1()), ("shaken", shaken()), ("stiff", stiff())] {
@@ -51,7 +51,7 @@ fn stepping_allocates_nothing() {
     }
 }
 
-/// Nor do fixed steps, which commit every contact at every step.
+/// Fixed steps, which commit every contact at every step, allocate nothing.
 #[test]
 fn fixed_steps_allocate_nothing() {
     let step = 2e-6;
@@ -64,7 +64,7 @@ fn fixed_steps_allocate_nothing() {
     }
 }
 
-/// Nor does a generator that is commanded between frames, whatever cycles come of it.
+/// A generator that is commanded between frames allocates nothing.
 #[test]
 fn commands_allocate_nothing() {
     let initial =
@@ -88,7 +88,7 @@ fn commands_allocate_nothing() {
                 assert!(run.state().generated(0).is_some());
             }
         };
-        // The memory has been as deep as it gets.
+        // The memory has reached its largest depth.
         frames(1, 1500);
         let count = allocation_counter::measure(|| frames(1500, 3000)).count_total;
         println!("{}: {count} allocations in 1500 commands", stepper.name());

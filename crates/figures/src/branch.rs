@@ -1,4 +1,4 @@
-//! The picture of a branch of steady motions.
+//! Plot of a branch of periodic orbits.
 
 use crate::look::{Look, Pen, Picture};
 use crate::pictures::FigureError;
@@ -8,20 +8,21 @@ use stickslip_run::{Real, quantity};
 use stickslip_study::steady::Multiplier;
 use stickslip_study::steady::continuation::{Branch, Continuation, Mark, Point};
 
-/// Name of the picture, and of that of a branch that was interrupted, beside which a finished one stays.
+/// Names of the plot: complete, and interrupted.
 const NAMES: [&str; 2] = ["branch", "branch-partial"];
-/// Multipliers that are drawn.
+/// Number of multipliers that are drawn.
 const MOST: usize = 4;
 
-/// Names of all files that any look gives to it, and that go where it is written: a whole branch takes the place of both.
+/// Returns all possible file names of the plot; existing ones are deleted when it is written. A complete branch also
+/// replaces an interrupted one.
 pub fn all_files(is_cut: bool) -> Vec<String> {
     Look::all_files_of(&NAMES[usize::from(is_cut)..])
 }
 
-/// Draws it: steps over what is varied, and |λ| of the largest multipliers.
+/// Draws a branch: step lengths and |λ| of the largest Floquet multipliers over the parameter.
 ///
 /// # Errors
-/// What cannot be drawn.
+/// If the figure cannot be drawn.
 pub fn draw(of: &Continuation, branch: &Branch, look: &Look) -> Result<Vec<Picture>, FigureError> {
     let entries = [
         (TITLE, of.job.title().to_owned()),
@@ -38,14 +39,14 @@ pub fn draw(of: &Continuation, branch: &Branch, look: &Look) -> Result<Vec<Pictu
         marks: marks(of, branch),
     };
     let cut = if branch.is_cut() { " (interrupted)" } else { "" };
-    let title = format!("{}: steady motions{cut}", of.job.title());
+    let title = format!("{}: periodic orbits{cut}", of.job.title());
     let pen = Pen { look, provenance, kept: None };
     let plot = NAMES[usize::from(branch.is_cut())];
     pen.draw_as(plot, branch_figure(&title, &course)).map_err(|source| FigureError::Plot { plot, source })
 }
 
-/// Motions of one kind along the branch. Where the kind changes, one stretch ends and the next begins at the place that was closed in
-/// on, else at the last motion of the kind before.
+/// Sections of equal stability along the branch. Where the stability changes, one section ends and the next begins at
+/// the bifurcation point, or else at the last orbit before it.
 fn stretches(branch: &Branch) -> Vec<Stretch> {
     let mut stretches: Vec<Stretch> = Vec::new();
     let mut before: Option<&Point> = None;
@@ -67,7 +68,7 @@ fn stretches(branch: &Branch) -> Vec<Stretch> {
     stretches
 }
 
-/// What a line goes through: the varied number, the step and |λ|.
+/// Point of the curves: parameter, step length and |λ|.
 struct Place {
     value: f64,
     step: f64,
@@ -76,7 +77,7 @@ struct Place {
 
 impl Place {
     fn of(point: &Point) -> Self {
-        // A pair is told once and is two: where two real ones become a pair no line ends or falls to the next.
+        // A complex pair counts twice, so that curves continue where two real multipliers become a pair.
         let each = |multiplier: &Multiplier| {
             let count = if multiplier.im == 0.0 { 1 } else { 2 };
             std::iter::repeat_n(multiplier.modulus(), count)
@@ -89,7 +90,8 @@ impl Place {
         }
     }
 
-    /// Where the kind changes between two motions: the nearest of the places at which it does, with |λ| as far along as the number is.
+    /// Point between two orbits of different stability: the nearest bifurcation with a change of stability, with |λ|
+    /// interpolated. Without one nearby, the first orbit.
     fn between([before, after]: [&Point; 2], marks: &[Mark]) -> Self {
         let [low, high] = [before.value.min(after.value), before.value.max(after.value)];
         let apart = |mark: &&Mark| (low - mark.value).max(mark.value - high).max(0.0);
@@ -114,7 +116,7 @@ impl Place {
     }
 }
 
-/// Places by what happens there, with where that is if there is only one.
+/// Special points grouped by kind. The name of a kind contains the parameter value if there is only one point.
 fn marks(of: &Continuation, branch: &Branch) -> Vec<(String, Vec<[f64; 2]>)> {
     let mut marks: Vec<(String, Vec<[f64; 2]>)> = Vec::new();
     for mark in &branch.marks {
@@ -139,7 +141,7 @@ mod tests {
     use super::*;
     use stickslip_study::steady::continuation::{Bifurcation, End};
 
-    /// A doubling at 2.5 between motions at 2 and 4: both stretches meet at it, and a quarter of the way on |λ| = 1.
+    /// A period doubling at 2.5 between orbits at 2 and 4: both sections meet there, and |λ| is interpolated to 1.
     #[test]
     fn stretches_meet_where_the_kind_changes() {
         let point = |value: f64, modulus: f64| Point {

@@ -1,23 +1,23 @@
-//! The picture of a comparison: the channels that differ most, both runs and the difference.
+//! Plot of a comparison: both runs and their difference in the channels that differ most.
 
 use std::path::Path;
 use stickslip_compare::{ChannelDifference, CommonRows, Comparison, Results};
 use stickslip_plot::{ComparedChannel, Figure, PlotError, compare_figure, draw_png, draw_svg};
 use stickslip_run::program::this_program;
 
-/// Channels shown at most.
+/// Maximum number of channels.
 const SHOWN: usize = 3;
 
-/// Form of a picture, by the end of its name.
+/// File format of the plot.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Form {
-    /// Pixels.
+    /// PNG.
     Png,
-    /// Lines and texts.
+    /// SVG.
     Svg,
 }
 
-/// A channel until the shorter run ends, and its difference at the common times.
+/// Channel of both runs up to the end of the shorter one, and its difference at the common times.
 struct Curve<'a> {
     channel: &'a ChannelDifference,
     a: (&'a [f64], &'a [f64]),
@@ -27,7 +27,7 @@ struct Curve<'a> {
 }
 
 impl Form {
-    /// Of a file; none of another form.
+    /// Returns the format for a file name extension; `None` for other extensions.
     pub fn of(file: &Path) -> Option<Self> {
         let end = file.extension().map(|end| end.to_string_lossy().to_lowercase());
         match end.as_deref() {
@@ -45,10 +45,10 @@ impl Form {
     }
 }
 
-/// Draws; returns the bytes of the file and the names of the channels that are shown.
+/// Draws the comparison. Returns the content of the file and the names of the channels shown.
 ///
 /// # Errors
-/// What cannot be drawn.
+/// If the figure cannot be drawn.
 pub fn draw(
     (a, b): (&Results, &Results),
     comparison: &Comparison,
@@ -67,7 +67,7 @@ pub fn draw(
             difference: (&curve.time, &curve.difference),
         })
         .collect();
-    // Of an excerpt nobody needs to know where it lies.
+    // The path of an excerpt is of no interest.
     let names =
         if a.is_excerpt() { ("recorded".to_owned(), "now".to_owned()) } else { (legend(a), legend(b)) };
     let mut figure = compare_figure(&comparison.finding(), (&names.0, &names.1), &channels);
@@ -76,7 +76,8 @@ pub fn draw(
     Ok((bytes, curves.iter().map(|curve| curve.channel.name.clone()).collect()))
 }
 
-/// The channels of numbers that differ most for what is allowed; where none does so too much, all have a chance.
+/// Numeric channels with the largest difference relative to the tolerance. If no channel exceeds its tolerance, all
+/// are candidates.
 fn curves<'a>(
     (a, b): (&'a Results, &'a Results),
     comparison: &'a Comparison,
@@ -90,7 +91,7 @@ fn curves<'a>(
         let (first, second) = (a.trace.numbers(&channel.name)?, b.trace.numbers(&channel.name)?);
         let at = |(i, j): &(usize, usize)| Some((*a.time().get(*i)?, second.get(*j)? - first.get(*i)?));
         let (time, difference) = rows.pairs.iter().filter_map(at).unzip();
-        // What is not compared would only press together what is.
+        // Values after the end of the comparison would compress the time axis.
         let compared = |results: &'a Results, values: &'a [f64]| {
             let end = results.time().partition_point(|&t| t <= comparison.until.0);
             (&results.time()[..end], &values[..end])
@@ -100,13 +101,13 @@ fn curves<'a>(
     channels.into_iter().filter_map(curve).take(SHOWN).collect()
 }
 
-/// Name of a run in the legend: the end of its path, where folders of results tell themselves apart.
+/// Name of a run in the legend: the last two components of its path.
 fn legend(results: &Results) -> String {
     let parts: Vec<_> = results.folder.iter().map(|part| part.to_string_lossy()).collect();
     parts[parts.len().saturating_sub(2)..].join("/")
 }
 
-/// What the picture comes from, as its text chunks say.
+/// Metadata of the picture.
 fn provenance(comparison: &Comparison) -> Vec<(String, String)> {
     let (a, b) = (&comparison.a, &comparison.b);
     let entries = [

@@ -1,4 +1,4 @@
-//! The picture of a curve of a machine; [`holding`], that of what it holds at rest.
+//! Plot of a performance curve; [`holding`] is that of holding forces, [`optimum`] that of an optimum.
 
 pub mod holding;
 pub mod optimum;
@@ -10,33 +10,34 @@ use stickslip_run::provenance::{HASH, PROGRAM, SCENARIO, TITLE};
 use stickslip_run::{Job, Real, Warning, quantity};
 use stickslip_study::curve::{Curve, Motion, Point, Sense, Traced, Way};
 
-/// Name of the picture, and of that of a curve that was interrupted, beside which a finished one stays.
+/// Names of the plot: complete, and interrupted.
 const NAMES: [&str; 2] = ["curve", "curve-partial"];
 
-/// Names of all files that any look gives to it, and that go where it is written: a whole curve takes the place of both.
+/// Returns all possible file names of the plot; existing ones are deleted when it is written. A complete curve also
+/// replaces an interrupted one.
 pub fn all_files(is_cut: bool) -> Vec<String> {
     Look::all_files_of(&NAMES[usize::from(is_cut)..])
 }
 
-/// Draws it: speeds, steps or powers over what is varied, with the points that have no motion; of both senses, where both are asked
-/// for, at the same values.
+/// Draws a curve: mean speed, step length or power over the parameter, with the points without a steady motion. The
+/// curves of both directions must have the same values of the parameter.
 ///
 /// # Errors
-/// What cannot be drawn.
+/// If the figure cannot be drawn.
 pub fn draw(ways: &[Way<'_>], logarithmic: bool, look: &Look) -> Result<Vec<Picture>, FigureError> {
     let Some((curve, traced)) = ways.first().copied() else { return Ok(Vec::new()) };
     let values: Vec<f64> = traced.points.iter().map(|point| point.value).collect();
     let name = match (curve.kind.is_of_load(), traced.direction < 0.0) {
-        (true, _) if ways.len() > 1 => "load against the steps",
-        (true, true) => "load along +x, against the steps",
-        (true, false) => "load along \u{2212}x, against the steps",
+        (true, _) if ways.len() > 1 => "opposing load",
+        (true, true) => "opposing load along +x",
+        (true, false) => "opposing load along \u{2212}x",
         (false, _) => &curve.variation.name,
     };
     let machine = MachineCurve {
         axis: (name, curve.variation.unit),
         logarithmic,
         values: &values,
-        // No load besides those it has is where every curve over loads begins.
+        // Curves over loads begin without additional load.
         present: curve.variation.present.filter(|_| !curve.kind.is_of_load()),
         landmarks: ways.iter().flat_map(|(curve, traced)| landmarks(curve, traced)).collect(),
         courses: courses(ways),
@@ -48,7 +49,7 @@ pub fn draw(ways: &[Way<'_>], logarithmic: bool, look: &Look) -> Result<Vec<Pict
     drawn((&curve.job, curve.kind.name()), ((done, all), is_cut), &machine, look)
 }
 
-/// A figure with what it comes from. Of points so many are done, of all; one that was interrupted says so in its title.
+/// Draws a curve with its metadata. The title of an interrupted curve gives the number of points done.
 fn drawn(
     (job, curve): (&Job, &str),
     ((done, all), is_cut): ((usize, usize), bool),
@@ -62,7 +63,7 @@ fn drawn(
     pictured((job, curve), (plot, &title), machine, look)
 }
 
-/// A figure of this name and title with what it comes from.
+/// Draws a curve under a name and a title, with its metadata.
 fn pictured(
     (job, curve): (&Job, &str),
     (plot, title): (&'static str, &str),
@@ -81,7 +82,7 @@ fn pictured(
     pen.draw_as(plot, machine_figure(title, machine)).map_err(|source| FigureError::Plot { plot, source })
 }
 
-/// What the curve is of, and what it is as well.
+/// Results of the curve, one panel each.
 fn courses(ways: &[Way<'_>]) -> Vec<MachineCourse<'static>> {
     let Some((curve, _)) = ways.first() else { return Vec::new() };
     let course = |name, unit, line: fn(Way<'_>) -> MachineLine<'static>| {
@@ -108,10 +109,10 @@ fn courses(ways: &[Way<'_>]) -> Vec<MachineCourse<'static>> {
     }
 }
 
-/// What a motion makes of a value that is varied.
+/// Function that computes a result from a motion and the value of the parameter.
 type Told<'a> = &'a dyn Fn(&Motion, f64) -> f64;
 
-/// A figure of all points, and how far it swings.
+/// Result and its variation at all points.
 fn line((curve, traced): Way<'_>, figure: Told<'_>, spread: Told<'_>) -> MachineLine<'static> {
     let of = |figure: Told<'_>| -> Vec<f64> {
         let known = traced.points.iter().map(|point| {
@@ -123,11 +124,11 @@ fn line((curve, traced): Way<'_>, figure: Told<'_>, spread: Told<'_>) -> Machine
     MachineLine { name: curve.sense.map_or("", Sense::name), values: of(figure), spreads: of(spread) }
 }
 
-/// Places with a name that were found, with it and where they are.
+/// Special points that were found: name with value and parameter, and the parameter.
 fn landmarks(curve: &Curve, traced: &Traced) -> Vec<(String, f64)> {
     let found = traced.landmarks.iter().filter_map(|landmark| {
         let at = *landmark.at.as_ref().ok()?;
-        // A prefix belongs to a unit.
+        // Prefixes require a unit.
         let place = match curve.variation.unit {
             "" => format!("{at:.4}"),
             unit => quantity(Real(at), unit),
@@ -136,12 +137,12 @@ fn landmarks(curve: &Curve, traced: &Traced) -> Vec<(String, f64)> {
         let value = landmark
             .value
             .map_or(String::new(), |value| format!("{} at ", quantity(Real(value), landmark.unit())));
-        Some((format!("{}{sense}: {value}{place}", landmark.words()), at))
+        Some((format!("{}{sense}: {value}{place}", landmark.words(&curve.variation.name)), at))
     });
     found.collect()
 }
 
-/// Values without a motion, by the kind of reason, and those that are warned of; of both senses by that of either.
+/// Values without a motion and values with warnings, grouped by reason; for both directions together.
 fn faults(ways: &[Way<'_>]) -> Vec<(String, Vec<f64>)> {
     let points = || ways.iter().flat_map(|(_, traced)| &traced.points);
     let kind = |point: &Point| Some((point.value, point.motion.as_ref().err()?.kind().to_owned()));
@@ -149,14 +150,14 @@ fn faults(ways: &[Way<'_>]) -> Vec<(String, Vec<f64>)> {
     lanes(points().filter_map(kind).chain(warnings(warned)))
 }
 
-/// The kinds that points are warned of, and what each lane of a picture says of them.
+/// Values with warnings, and the text of their lane.
 fn warnings<'a>(points: impl Iterator<Item = (f64, &'a [Warning])>) -> impl Iterator<Item = (f64, String)> {
     points.flat_map(|(at, warnings)| {
         warnings.iter().map(move |warning| (at, format!("warning: {}", warning.kind)))
     })
 }
 
-/// Values by the kind of reason.
+/// Groups values by their reason.
 fn lanes(reasons: impl Iterator<Item = (f64, String)>) -> Vec<(String, Vec<f64>)> {
     let mut lanes: Vec<(String, Vec<f64>)> = Vec::new();
     for (value, reason) in reasons {

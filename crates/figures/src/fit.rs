@@ -1,4 +1,4 @@
-//! The picture of a fit: what was measured, what the model has, and what is left.
+//! Plot of a fit: measured data, model and residual.
 
 use crate::look::{Look, Pen, Picture};
 use crate::pictures::FigureError;
@@ -7,21 +7,21 @@ use stickslip_run::Job;
 use stickslip_run::provenance::{HASH, PROGRAM, SCENARIO, TITLE};
 use stickslip_study::fit::Fit;
 
-/// Name of the picture.
+/// Name of the plot.
 const NAME: &str = "fit";
-/// Share of the residual's panel in the height.
+/// Height of the panel of the residual relative to the other panel.
 const RESIDUAL: f64 = 0.4;
 
-/// Names of all files that any look gives to it.
+/// Returns all possible file names of the plot.
 #[must_use]
 pub fn all_files() -> Vec<String> {
     Look::all_files_of(&[NAME])
 }
 
-/// Draws it: loops over the displacement, rows of a trajectory over time.
+/// Draws a fit: loops over displacement, other data over time.
 ///
 /// # Errors
-/// What cannot be drawn.
+/// If the figure cannot be drawn.
 pub fn draw((job, fit): (&Job, &Fit), look: &Look) -> Result<Vec<Picture>, FigureError> {
     let (data, count) = (&fit.data, fit.data.t.len());
     let x = if data.is_loop { &data.u } else { &data.t };
@@ -47,7 +47,7 @@ pub fn draw((job, fit): (&Job, &Fit), look: &Look) -> Result<Vec<Picture>, Figur
     };
     let residual = Panel {
         x: axis(),
-        y: Axis::new(Label::plain("measured less model"), "N"),
+        y: Axis::new(Label::plain("measured minus model"), "N"),
         series: vec![Series { style: style(Ink::Palette(0), 0.9), ..Series::new("", x, left) }],
         share: RESIDUAL,
         ..Panel::default()

@@ -1,4 +1,4 @@
-//! All pictures of a scenario, and the page that shows those of many.
+//! All plots of scenarios, and Markdown pages that show them.
 
 mod page;
 
@@ -13,52 +13,52 @@ use stickslip_run::folder::Folder;
 use stickslip_run::{Excess, Job, Recorder, Watcher};
 use thiserror::Error;
 
-pub use page::{Exhibit, page};
+pub use page::{Exhibit, Page, pages};
 
-/// An SVG of more bytes is left out: a page of many pictures should not weigh tens of megabytes.
+/// Maximum size of an SVG, bytes; larger ones are left out to keep the pages small.
 const LARGEST_SVG: usize = 100_000;
 
-/// Why the pictures of a scenario are not there.
+/// Reason why the plots of a scenario are missing.
 #[derive(Debug, Error)]
 pub enum GalleryError {
-    /// A run that did not come to its end.
+    /// The run ended early.
     #[error("{name}: {source}\n   help: {}", .source.advice())]
     Stopped {
-        /// The scenario.
+        /// Name of the scenario.
         name: String,
-        /// What the run says.
+        /// Error of the run.
         source: RunError,
     },
-    /// A run that kept too much.
+    /// The run exceeded its memory limit.
     #[error("{name}: {source}\n   help: {}", .source.advice())]
     Full {
-        /// The scenario.
+        /// Name of the scenario.
         name: String,
-        /// How much.
+        /// Amount of memory.
         source: Excess,
     },
-    /// A picture.
+    /// A plot was not drawn.
     #[error("{name}: {source}")]
     Figure {
-        /// The scenario.
+        /// Name of the scenario.
         name: String,
-        /// What is wrong with it.
+        /// Error of the plot.
         source: Box<FigureError>,
     },
-    /// Writing.
-    #[error("{}: cannot be written: {}\n   help: choose another place with --out", .path.display(), words(.source))]
+    /// A file cannot be written.
+    #[error("{}: cannot be written: {}\n   help: choose another folder with --out", .path.display(), words(.source))]
     File {
-        /// Which file or folder.
+        /// File or folder.
         path: PathBuf,
-        /// What the system says.
+        /// Error of the operating system.
         source: io::Error,
     },
 }
 
-/// Runs a scenario and draws its pictures in all looks of the gallery; its tables are kept for as long as that takes.
+/// Runs a scenario and draws its plots in all looks of the gallery. Its tables are temporary.
 ///
 /// # Errors
-/// A run that did not come to its end, a picture that cannot be drawn, tables that cannot be written.
+/// If the run ends early, if a plot cannot be drawn, or if tables cannot be written.
 pub fn draw(job: &Job, watcher: &dyn Watcher) -> Result<Vec<Picture>, GalleryError> {
     let failed = |source| GalleryError::File { path: job.folder.clone(), source };
     let tables = tempfile::tempdir().map_err(failed)?;
@@ -69,7 +69,7 @@ pub fn draw(job: &Job, watcher: &dyn Watcher) -> Result<Vec<Picture>, GalleryErr
     if let Some(failure) = outcome.failure {
         return Err(failed(failure));
     }
-    // Such a run says that it was interrupted.
+    // A run beyond its memory limit also reports that it was interrupted.
     if let Some(source) = outcome.excess {
         return Err(GalleryError::Full { name: job.name.clone(), source });
     }
@@ -78,9 +78,8 @@ pub fn draw(job: &Job, watcher: &dyn Watcher) -> Result<Vec<Picture>, GalleryErr
     }
     drafts.into_iter().try_for_each(|draft| folder.stage(draft.name, draft.file)).map_err(failed)?;
     let sources = Sources { job, kept: &outcome.kept, insides: InsideTables::drafted(&folder) };
-    let light =
-        Look { formats: vec![Format::Png, Format::Svg], themes: vec![Colours::Light], scale: 1, width: None };
-    let dark = Look { formats: vec![Format::Png], themes: vec![Colours::Dark], scale: 1, width: None };
+    let light = Look { formats: vec![Format::Png, Format::Svg], ..Look::default() };
+    let dark = Look { themes: vec![Colours::Dark], ..Look::default() };
     let mut pictures = Vec::new();
     let undrawn = |source| GalleryError::Figure { name: job.name.clone(), source: Box::new(source) };
     for drawn in [light, dark].iter().flat_map(|look| pictures::draw(&sources, look)) {
@@ -90,10 +89,10 @@ pub fn draw(job: &Job, watcher: &dyn Watcher) -> Result<Vec<Picture>, GalleryErr
     Ok(pictures)
 }
 
-/// Writes the pictures of a scenario in place of those that were there; returns their names.
+/// Writes the plots of a scenario, replaces earlier ones, and returns the names of the files.
 ///
 /// # Errors
-/// What the system says.
+/// If the folder cannot be written.
 pub fn write(path: &Path, pictures: &[Picture]) -> io::Result<Vec<String>> {
     let mut folder = Folder::make(path)?;
     pictures.iter().try_for_each(|(name, bytes)| folder.write(name, bytes))?;
@@ -107,19 +106,22 @@ pub fn write(path: &Path, pictures: &[Picture]) -> io::Result<Vec<String>> {
 mod tests {
     use super::*;
 
-    /// It was told as an interruption, with advice to be patient.
+    /// A run beyond its memory limit is not reported as interrupted.
     #[test]
     fn a_run_that_keeps_too_much_is_told_as_one() {
         let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenarios/p1.json");
         let set = [("run.cycles", "2000"), ("output.every", "\"20 us\"")];
         let set = set.map(|(key, value)| (key.to_owned(), value.to_owned()));
         let mut job = Job::prepare(&file, &set, Path::new("")).unwrap();
-        // Less than its pictures take: the estimate beforehand would have refused it.
+        // Less than the plots need. The estimate before the run would have refused it.
         job.scenario.memory_limit = Some(1e6);
         let drawn = draw(&job, &());
         assert!(matches!(drawn, Err(GalleryError::Full { .. })));
         let Err(error) = drawn else { return };
         let said = error.to_string();
-        assert!(said.starts_with("p1: at t = ") && said.contains("help: raise run.limits.memory"), "{said}");
+        assert!(
+            said.starts_with("p1: at t = ") && said.contains("help: increase run.limits.memory"),
+            "{said}"
+        );
     }
 }

@@ -1,12 +1,18 @@
-//! Pictures of results: drawn alike from a run that has just ended and from its folder.
+//! Plots of results, drawn equally from a finished run and from its result folder.
 //!
-//! [`draw`] turns [`Sources`] into files in a [`Look`]; [`comparison`] draws two runs and their difference; [`Origin`] reads back
-//! what a picture comes from; [`gallery`] draws all pictures of a scenario, and the page that shows them.
+//! [`draw`] converts [`Sources`] to picture files in a [`Look`]. [`Origin`] reads the scenario and fingerprint back
+//! from a picture.
 //!
-//! In reading order: [`look`] (as what files, in what colours and size); `pictures` (the table of their kinds) with a module
-//! for each: what it shows, what it needs and how it is drawn; [`comparison`]; `origin`; [`gallery`]; [`realtime`], pictures of a loop; [`measured`], loops from a table;
-//! [`steady`], the picture of a motion that repeats itself; [`branch`], that of many such motions; [`curve`], those of a machine; [`sensitivity`], what
-//! matters to it; [`map`], a result over two numbers.
+//! Modules in reading order:
+//!
+//! * [`look`]: file formats, colours and size;
+//! * `pictures`: plots of a run, with one module per plot; `origin`: origin of a picture;
+//! * [`comparison`]: two runs and their difference; [`overlay`]: several results in one plot;
+//! * [`gallery`]: all plots of scenarios, with Markdown pages;
+//! * [`realtime`]: real-time runs; [`measured`]: measured loops; [`fit`]: fitted parameters;
+//! * [`theory`]: a single contact under a load history;
+//! * [`steady`]: periodic orbits; [`branch`]: branches of them; [`curve`]: performance curves; [`sensitivity`]:
+//!   sensitivities; [`map`]: a result over two parameters.
 
 pub mod branch;
 pub mod comparison;

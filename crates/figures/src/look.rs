@@ -1,32 +1,41 @@
-//! How pictures are drawn: as what files, in what colours and size.
+//! Look of plots: file formats, colours and size.
 
 use std::sync::{Mutex, PoisonError};
-use stickslip_plot::{Figure, PlotError, Theme, draw_animation, draw_png, draw_svg};
+use stickslip_plot::{Figure, Label, PlotError, Theme, draw_animation, draw_png, draw_svg};
 use stickslip_scenario::PlotName;
 
-/// The look of pictures; names of their files say what is not the default.
+/// Look of plots. The file names contain the settings that are not the default.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Look {
-    /// Kinds of picture files.
+    /// File formats.
     pub formats: Vec<Format>,
-    /// Colours: light for paper, dark for screens (`NAME-dark.png`); every picture in each of them.
+    /// Colour themes; every plot is drawn in each. The dark theme is in `NAME-dark.png`.
     pub themes: Vec<Colours>,
-    /// Size of the pictures: 1 for 1600 pixels in width, 2 for twice as many (`NAME@2x.png`).
+    /// Scale: 1 for a width of 1600 px, 2 for twice as many (`NAME@2x.png`).
     pub scale: u32,
-    /// Width in print, tenths of a millimetre, with letters and lines in points (`NAME-85mm.png`); none: as wide as the page.
+    /// Print width in tenths of a millimetre (`NAME-85mm.png`); letters and lines keep their size in points. `None`:
+    /// no print width.
     pub width: Option<u32>,
+    /// Whether the title is drawn.
+    pub title: bool,
 }
 
-/// A kind of picture file.
+impl Default for Look {
+    fn default() -> Self {
+        Self { formats: vec![Format::Png], themes: vec![Colours::Light], scale: 1, width: None, title: true }
+    }
+}
+
+/// File format of a plot.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Format {
-    /// Pixels.
+    /// PNG.
     Png,
-    /// Lines and texts, sharp at any size.
+    /// SVG.
     Svg,
 }
 
-/// Colours of a picture.
+/// Colour theme of a plot.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Colours {
     /// Dark on white.
@@ -35,14 +44,14 @@ pub enum Colours {
     Dark,
 }
 
-/// A file of a picture: its name and its bytes.
+/// Picture file: its name and its content.
 pub type Picture = (String, Vec<u8>);
 
-/// Draws figures in a look, with what they come from.
+/// Draws figures in a look, with metadata.
 pub(crate) struct Pen<'a> {
     pub(crate) look: &'a Look,
     pub(crate) provenance: Vec<(String, String)>,
-    /// Where figures are kept under their names instead of being drawn.
+    /// Collects figures with their names instead of drawing them, if present.
     pub(crate) kept: Option<Mutex<Vec<(String, Figure<'static>)>>>,
 }
 
@@ -56,12 +65,12 @@ impl Format {
 }
 
 impl Look {
-    /// Name of a picture's file.
+    /// Returns the file name of a plot.
     pub fn file(&self, plot: PlotName, theme: Colours, format: Format) -> String {
         self.file_of(plot.name(), theme, format)
     }
 
-    /// The same of a picture that no scenario can ask for, by its name.
+    /// Returns the file name of a plot given by its name.
     pub fn file_of(&self, plot: &str, theme: Colours, format: Format) -> String {
         let theme = match theme {
             Colours::Light => "",
@@ -76,19 +85,19 @@ impl Look {
         self.width.map(|tenths| f64::from(tenths) / 10.0)
     }
 
-    /// Names of all files that any look without a width gives to the pictures of a scenario.
+    /// Returns the file names of all plots of a scenario in all looks without a print width.
     pub fn all_files() -> Vec<String> {
         let own: Vec<String> = (1..=PlotName::MOST_OWN).map(own_name).collect();
         let names = PlotName::ALL.map(PlotName::name).into_iter().chain(own.iter().map(String::as_str));
         Self::all_files_of(&names.collect::<Vec<_>>())
     }
 
-    /// The same of pictures by their names.
+    /// Returns the file names of given plots in all looks without a print width.
     pub fn all_files_of(plots: &[&str]) -> Vec<String> {
         let mut names = Vec::new();
         for theme in [Colours::Light, Colours::Dark] {
             for scale in [1, 2] {
-                let look = Self { formats: Vec::new(), themes: Vec::new(), scale, width: None };
+                let look = Self { scale, ..Self::default() };
                 for format in [Format::Png, Format::Svg] {
                     names.extend(plots.iter().map(|plot| look.file_of(plot, theme, format)));
                 }
@@ -98,18 +107,18 @@ impl Look {
     }
 }
 
-/// Name of the picture of channels over a channel at a place among them, counted from 1.
+/// Name of the plot of user-selected channels with this number, counted from 1.
 pub(crate) fn own_name(number: usize) -> String {
     format!("{}-{number}", PlotName::Xy.name())
 }
 
 impl Pen<'_> {
-    /// Draws a figure, one file for each format.
+    /// Draws a figure, one file per theme and format.
     pub(crate) fn draw(&self, plot: PlotName, figure: Figure<'_>) -> Result<Vec<Picture>, PlotError> {
         self.draw_as(plot.name(), figure)
     }
 
-    /// Draws figures as an animation under a name of its own, which is a PNG; none where no PNG is asked for.
+    /// Draws figures as an animated PNG with the given name; nothing if the look has no PNG.
     #[allow(
         clippy::needless_pass_by_value,
         reason = "a figure is drawn once, in all its themes, and handed over by its builder"
@@ -131,13 +140,16 @@ impl Pen<'_> {
         self.look.themes.iter().map(film).collect()
     }
 
-    /// The figures that it kept.
+    /// Figures that were collected.
     pub(crate) fn into_kept(self) -> Vec<(String, Figure<'static>)> {
         self.kept.map_or(Vec::new(), |kept| kept.into_inner().unwrap_or_else(PoisonError::into_inner))
     }
 
-    /// A figure in the look, in one of its colours.
+    /// Returns a figure in the look and a theme.
     fn looking<'f>(&self, mut figure: Figure<'f>, theme: Colours) -> Figure<'f> {
+        if !self.look.title {
+            figure.title = Label::default();
+        }
         figure = match self.look.width_in_mm() {
             Some(mm) => figure.printed(mm),
             None => {
@@ -154,7 +166,7 @@ impl Pen<'_> {
         figure
     }
 
-    /// The same under a name of its own.
+    /// Draws a figure under a given name, one file per theme and format.
     pub(crate) fn draw_as(&self, plot: &str, figure: Figure<'_>) -> Result<Vec<Picture>, PlotError> {
         if let Some(kept) = &self.kept {
             let mut kept = kept.lock().unwrap_or_else(PoisonError::into_inner);

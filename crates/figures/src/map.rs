@@ -1,4 +1,4 @@
-//! The picture of a map: a result over two numbers, with measured points over it.
+//! Plot of a result over two parameters, with measured points.
 
 use crate::look::{Look, Pen, Picture};
 use crate::pictures::FigureError;
@@ -7,22 +7,22 @@ use stickslip_quantity::names::bare;
 use stickslip_run::provenance::{HASH, PROGRAM, SCENARIO, TITLE};
 use stickslip_study::map::{Axis, Field, Map, Overlay};
 
-/// Name of the picture.
+/// Name of the plot.
 const NAME: &str = "map";
-/// Cells along either axis.
+/// Number of cells along both axes.
 const CELLS: [usize; 2] = [288, 192];
-/// Places along either axis at which the words of areas may stand.
+/// Number of candidate positions of class names along both axes.
 const SAMPLES: [usize; 2] = [30, 20];
 
-/// Names of all files that any look gives to it.
+/// Returns all possible file names of the plot.
 pub fn all_files() -> Vec<String> {
     Look::all_files_of(&[NAME])
 }
 
-/// Draws it.
+/// Draws a map.
 ///
 /// # Errors
-/// What cannot be drawn.
+/// If the figure cannot be drawn.
 pub fn draw(
     (map, field): (&Map, &Field),
     overlay: Option<&Overlay>,
@@ -59,13 +59,13 @@ pub fn draw(
     pen.draw_as(NAME, map_figure(&title, shown)).map_err(|source| FigureError::Plot { plot: NAME, source })
 }
 
-/// Places of the cells in shares of the axes, column by column.
+/// Positions of the cells as fractions of the axes, column by column.
 fn cells() -> impl Iterator<Item = [f64; 2]> {
     let share = |k: usize, axis: usize| k as f64 / (CELLS[axis] - 1) as f64;
     (0..CELLS[0]).flat_map(move |i| (0..CELLS[1]).map(move |j| [share(i, 0), share(j, 1)]))
 }
 
-/// A number between those of the grid, bilinear; NaN beside a point without a result.
+/// Value by bilinear interpolation; NaN next to a grid point without a result.
 fn value(field: &Field, place: [f64; 2]) -> f64 {
     let counts = [field.xs.len(), field.ys.len()];
     let along = [0, 1].map(|axis| place[axis] * (counts[axis] - 1) as f64);
@@ -74,16 +74,17 @@ fn value(field: &Field, place: [f64; 2]) -> f64 {
     let node = |i: usize, j: usize| {
         let weight = |step: usize, part: f64| if step == 0 { 1.0 - part } else { part };
         let weight = weight(i, part[0]) * weight(j, part[1]);
-        // A point that does not count may have no result.
+        // A point of weight 0 may have no result.
         if weight == 0.0 { 0.0 } else { weight * field.values[(from[0] + i) * counts[1] + from[1] + j] }
     };
     node(0, 0) + node(0, 1) + node(1, 0) + node(1, 1)
 }
 
-/// The class at a place: that of the nearest point of the grid, and what lies beyond each border that is crossed from there.
+/// Class at a position: that of the nearest grid point, changed at each border crossed from there. `None` without a
+/// result.
 fn class(map: &Map, field: &Field, place: [f64; 2]) -> Option<usize> {
     let counts = [field.xs.len(), field.ys.len()];
-    // Points on the rim may be what no area is, such as stick without an amplitude.
+    // Points on the rim may have a class without an area, such as stick at zero amplitude.
     let inner = |axis: usize, k: usize| if counts[axis] > 2 { k.clamp(1, counts[axis] - 2) } else { k };
     let nearest = [0, 1].map(|axis| inner(axis, (place[axis] * (counts[axis] - 1) as f64).round() as usize));
     let found = *field.values.get(nearest[0] * counts[1] + nearest[1])?;
@@ -101,7 +102,7 @@ fn class(map: &Map, field: &Field, place: [f64; 2]) -> Option<usize> {
     Some(here)
 }
 
-/// Whether two straight lines cross.
+/// Whether two line segments cross.
 fn crosses([a, b]: [[f64; 2]; 2], [c, d]: [[f64; 2]; 2]) -> bool {
     let side = |p: [f64; 2], q: [f64; 2], r: [f64; 2]| {
         (q[0] - p[0]) * (r[1] - p[1]) - (q[1] - p[1]) * (r[0] - p[0]) > 0.0
@@ -109,7 +110,7 @@ fn crosses([a, b]: [[f64; 2]; 2], [c, d]: [[f64; 2]; 2]) -> bool {
     side(a, b, c) != side(a, b, d) && side(c, d, a) != side(c, d, b)
 }
 
-/// Places for the words: of each class the sample that is farthest from all others and from the rim.
+/// Position of each class name: the sample of that class farthest from other classes and from the rim.
 fn names(map: &Map, field: &Field) -> Vec<([f64; 2], usize)> {
     let place = |k: usize| {
         let [i, j] = [k / SAMPLES[1], k % SAMPLES[1]];

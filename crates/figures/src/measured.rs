@@ -1,4 +1,4 @@
-//! The picture of measured loops, and of a simulated one beside them.
+//! Plots of measured loops, also with a simulated loop.
 
 use crate::look::{Look, Pen, Picture};
 use crate::pictures::FigureError;
@@ -10,24 +10,24 @@ use stickslip_run::measured::middle;
 use stickslip_run::program::this_program;
 use stickslip_run::provenance::{PROGRAM, TITLE};
 
-/// Name of the picture.
+/// Name of the plot.
 pub const NAME: &str = "loop";
-/// Names of those of many cycles.
+/// Names of the plots of many cycles.
 const LOG: &str = "log";
 const EVOLUTION: &str = "evolution";
-/// Columns and rows of colours.
+/// Maximum number of columns, and number of rows of the map.
 const COLUMNS: usize = 600;
 const LEVELS: usize = 120;
-/// Width of the bar of colours, in widths of the frame.
+/// Width of the colour bar relative to the map.
 const BAR: f64 = 0.3;
-/// Width of the last measured loop and of those before it.
+/// Line width of the last measured loop and of earlier ones.
 const BOLD: f64 = 1.15;
 const FINE: f64 = 0.9;
 
-/// A loop: displacements, m, and forces, N.
+/// Loop: displacements and forces.
 #[derive(Debug, Clone, Copy)]
 pub struct Curve<'a> {
-    /// What the legend calls it.
+    /// Name in the legend.
     pub name: &'a str,
     /// Displacements, m.
     pub u: &'a [f64],
@@ -35,42 +35,43 @@ pub struct Curve<'a> {
     pub force: &'a [f64],
 }
 
-/// What is drawn, each about the middle of its own cycle: zeros of gauges and of runs are not the same.
+/// Loops in a plot. Each is shifted so that its middle is at the origin, since zeros of sensors and runs differ.
 #[derive(Debug, Clone, Copy)]
 pub struct Loops<'a> {
-    /// Above the picture.
+    /// Title of the plot.
     pub title: &'a str,
-    /// The cycles before the last one, which stand behind it.
+    /// Earlier cycles, drawn behind the last one.
     pub before: Option<Curve<'a>>,
-    /// The last measured cycle.
+    /// Last measured cycle.
     pub measured: Curve<'a>,
-    /// A simulated cycle, with u_c (m) and μF_N (N) of its contact where its load is constant.
+    /// Simulated cycle. For a contact with constant load also its u_c (m) and μF_N (N).
     pub simulated: Option<(Curve<'a>, Option<[f64; 2]>)>,
 }
 
-/// The cycles of a record, one after the other.
+/// Cycles of a record.
 #[derive(Debug, Clone)]
 pub struct Course<'a> {
-    /// Above the pictures.
+    /// Title of the plots.
     pub title: &'a str,
     /// Numbers of the cycles.
     pub numbers: Vec<f64>,
-    /// Their loops.
+    /// Loops of the cycles.
     pub loops: Vec<Curve<'a>>,
-    /// What becomes of them: names, units, and a value of each cycle, no number where there is none.
+    /// Results over the cycles: name, unit, and one value per cycle; NaN without a result.
     pub figures: Vec<(&'static str, &'static str, Vec<f64>)>,
 }
 
-/// Names of all files that any look gives to them.
+/// Returns all possible file names of the plots.
 #[must_use]
 pub fn all_files() -> Vec<String> {
     Look::all_files_of(&[NAME, LOG, EVOLUTION])
 }
 
-/// Draws the force over displacement and cycle, on the way from the largest displacement to the smallest, and the figures over the cycles.
+/// Draws the results over the cycles, and a map of the force over cycle and displacement. The map shows the branch
+/// from the largest to the smallest displacement.
 ///
 /// # Errors
-/// What the drawing itself fails for.
+/// If a figure cannot be drawn.
 pub fn draw_course(course: &Course<'_>, look: &Look) -> Result<Vec<Picture>, FigureError> {
     let provenance =
         || vec![(TITLE.to_owned(), course.title.to_owned()), (PROGRAM.to_owned(), this_program())];
@@ -85,7 +86,7 @@ pub fn draw_course(course: &Course<'_>, look: &Look) -> Result<Vec<Picture>, Fig
     Ok(pictures)
 }
 
-/// The force as colours over cycles and displacements; none of displacements that have no range.
+/// Map of the force over cycle and displacement; `None` if the displacements have no range.
 fn log_figure<'a>(course: &Course<'a>) -> Option<Figure<'a>> {
     let count = course.loops.len().min(COLUMNS);
     let chosen: Vec<usize> = (0..count).map(|k| k * (course.loops.len() - 1) / (count - 1).max(1)).collect();
@@ -110,12 +111,12 @@ fn log_figure<'a>(course: &Course<'a>) -> Option<Figure<'a>> {
         points: &[],
     };
     let mut figure = map_figure(course.title, map);
-    // Room for the bar in a narrow column, too.
+    // Wide enough for the colour bar in a narrow column.
     figure.panels.iter_mut().skip(1).for_each(|bar| bar.share = BAR);
     Some(figure)
 }
 
-/// The force of a loop on its way from the largest displacement to the smallest, at displacements; no number beyond.
+/// Force at given displacements on the branch from the largest to the smallest displacement; NaN outside.
 fn falling(curve: &Curve<'_>, at: &[f64]) -> Vec<f64> {
     let count = curve.u.len();
     let place = |is_better: fn(f64, f64) -> bool| {
@@ -136,7 +137,7 @@ fn falling(curve: &Curve<'_>, at: &[f64]) -> Vec<f64> {
     at.iter().map(|u| force(*u).unwrap_or(f64::NAN)).collect()
 }
 
-/// The figures, one above the other.
+/// Results over the cycles, one panel each.
 fn evolution_figure<'a>(course: &Course<'a>) -> Figure<'a> {
     let panel = |(name, unit, values): &(&'static str, &'static str, Vec<f64>)| Panel {
         x: Axis::new(Label::plain("cycle"), ""),
@@ -153,10 +154,10 @@ fn evolution_figure<'a>(course: &Course<'a>) -> Figure<'a> {
     }
 }
 
-/// Draws it.
+/// Draws loops.
 ///
 /// # Errors
-/// What the drawing itself fails for.
+/// If the figure cannot be drawn.
 pub fn draw(loops: &Loops<'_>, look: &Look) -> Result<Vec<Picture>, FigureError> {
     let (simulated, scale) = loops.simulated.unzip();
     let about = |curve: Curve<'_>| (middle(curve.u), middle(curve.force));

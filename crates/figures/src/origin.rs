@@ -1,4 +1,4 @@
-//! What a picture comes from, read back from the picture.
+//! Origin of a picture, read from its metadata.
 
 use std::fs::File;
 use std::io::{self, Read};
@@ -11,82 +11,82 @@ use stickslip_run::{Job, hash};
 use stickslip_scenario::{Scenario, ScenarioError};
 use thiserror::Error;
 
-/// Largest picture that is read, bytes: at 8000 pixels each way they have some 10 MB.
+/// Maximum size of a picture, bytes. Pictures of 8000 px squared have about 10 MB.
 const MOST_BYTES: u64 = 64 << 20;
 
-/// Where a picture comes from.
+/// Origin of a picture: its scenario and the fingerprint of the run.
 pub struct Origin {
-    /// What was run.
+    /// The run of the picture.
     pub job: Job,
-    /// By what.
+    /// Program that drew the picture.
     pub program: String,
     /// Time reached, s.
     pub end: f64,
-    /// What came out.
+    /// Fingerprint of the results.
     pub fingerprint: Fingerprint,
 }
 
-/// Why a file does not tell where it comes from.
+/// Reason why the origin of a picture cannot be read.
 #[derive(Debug, Error)]
 pub enum OriginError {
-    /// The file.
+    /// The file cannot be read.
     #[error("{}: cannot be read: {}", .path.display(), words(.source))]
     Read {
-        /// Which file.
+        /// Path of the file.
         path: PathBuf,
-        /// What the system says.
+        /// Error of the operating system.
         source: io::Error,
     },
-    /// Larger than any picture of ours.
-    #[error("{}: has more than {MOST_BYTES} bytes", .0.display())]
+    /// The file is larger than any plot.
+    #[error("{}: is larger than {MOST_BYTES} bytes", .0.display())]
     Size(PathBuf),
-    /// No picture, or a damaged one.
-    #[error("{}: cannot be read as a picture: {source}", .path.display())]
+    /// The file is not a readable PNG or SVG.
+    #[error("{}: is not a readable PNG or SVG file: {source}", .path.display())]
     Picture {
-        /// Which file.
+        /// Path of the file.
         path: PathBuf,
-        /// What is wrong with it.
+        /// Error of the picture.
         source: PlotError,
     },
-    /// A picture of something else.
-    #[error("{}: carries no scenario: there is no text \"{key}\" in it\n   help: pictures of `stickslip run` and `plot` carry theirs, unless another program has written them since", .path.display())]
+    /// The picture lacks a metadata text, so it is not a plot of a run.
+    #[error("{}: contains no scenario: the text \"{key}\" is missing\n   help: plots of `stickslip run` and `plot` contain their scenario, unless another program has written the file again", .path.display())]
     Missing {
-        /// Which file.
+        /// Path of the file.
         path: PathBuf,
-        /// The text that it lacks.
+        /// Key of the missing text.
         key: &'static str,
     },
-    /// A text that is not what it should be.
+    /// A metadata text is invalid.
     #[error("{}: its \"{key}\" is damaged: {reason}", .path.display())]
     Damaged {
-        /// Which file.
+        /// Path of the file.
         path: PathBuf,
-        /// Which text.
+        /// Key of the text.
         key: &'static str,
-        /// What is wrong with it.
+        /// Error in the text.
         reason: String,
     },
-    /// The scenario is refused.
+    /// The scenario is invalid for this version.
     #[error("{error}\n   note: written by {program}")]
     Scenario {
-        /// What is wrong with it.
+        /// Error of the scenario.
         error: Box<ScenarioError>,
-        /// The program that wrote it.
+        /// Program that wrote the picture.
         program: String,
     },
 }
 
 impl Origin {
-    /// Reads a PNG or SVG; results of its job go to `out`.
+    /// Reads a PNG or SVG. A repeated run writes its results to `out`.
     ///
     /// # Errors
-    /// A file that is no such picture, or one whose scenario this program refuses.
+    /// If the file is not a plot of a run, or if its scenario is invalid.
     pub fn read(path: &Path, out: Option<&Path>) -> Result<Self, OriginError> {
         let texts = Texts::read(path)?;
         let program = texts.get(PROGRAM)?.to_owned();
         let resolved = texts.get(SCENARIO)?;
         if texts.get(HASH)? != hash(resolved) {
-            return Err(texts.damaged(SCENARIO, format!("it is not the one of its \"{HASH}\"")));
+            return Err(texts.damaged(SCENARIO, format!("it does not match the \"{HASH}\" in the file")));
         }
         let fingerprint = Fingerprint::parse(texts.get(FINGERPRINT)?)
             .map_err(|error: FingerprintError| texts.damaged(FINGERPRINT, error.to_string()))?;
@@ -96,23 +96,23 @@ impl Origin {
             .map_err(|_| texts.damaged(END, format!("expected a number, got \"{}\"", end.escape_debug())))?;
         let refused =
             |error: ScenarioError| OriginError::Scenario { error: Box::new(error), program: program.clone() };
-        // It may come from anybody, and it names no files: resolved scenarios carry their tables.
+        // The file may be untrusted. Resolved scenarios contain their tables, so no other files are read.
         let name = format!("{} (its scenario)", path.display());
         let mut scenario = Scenario::from_str_alone(resolved, &name).map_err(refused)?;
-        // A slower machine is no difference.
+        // A time limit must not change the result on a slower computer.
         scenario.plan.limits.wall = None;
         let folder = out.map(Path::to_owned).unwrap_or_default();
         let job = Job::new(scenario, texts.get(TITLE)?.to_owned(), folder).map_err(refused)?;
         Ok(Self { job, program, end, fingerprint })
     }
 
-    /// Whether the run came to its end.
+    /// Whether the run reached its planned end.
     pub fn is_whole(&self) -> bool {
         self.end >= self.job.scenario.plan.duration
     }
 }
 
-/// The texts of a picture.
+/// Metadata texts of a picture.
 struct Texts<'a> {
     path: &'a Path,
     texts: Vec<(String, String)>,
@@ -121,7 +121,7 @@ struct Texts<'a> {
 impl<'a> Texts<'a> {
     fn read(path: &'a Path) -> Result<Self, OriginError> {
         let failed = |source| OriginError::Read { path: path.to_owned(), source };
-        // To open a pipe with a name would wait for whoever writes into it.
+        // Opening a named pipe would block.
         if path.canonicalize().is_ok_and(|named| !named.is_file()) {
             return Err(failed(io::Error::other("not a file")));
         }

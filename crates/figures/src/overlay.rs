@@ -1,4 +1,4 @@
-//! Pictures of several results over each other.
+//! Plots of several results in one figure.
 
 use crate::look::{Look, Pen, Picture};
 use crate::pictures::{self, FigureError, Sources};
@@ -8,18 +8,18 @@ use stickslip_run::program::this_program;
 use stickslip_run::provenance::{HASH, PROGRAM, TITLE};
 use stickslip_scenario::PlotName;
 
-/// Pictures that can be drawn over each other: curves alone.
+/// Plots that can be overlaid: those with curves only.
 pub const OVERLAID: [PlotName; 4] = [PlotName::Loop, PlotName::Trajectory, PlotName::Phase, PlotName::Xy];
 
-/// The name of a picture's file.
+/// Returns the name of the overlay of a plot.
 pub fn name(plot: &str) -> String {
     format!("over-{plot}")
 }
 
-/// Draws a kind of picture of several results, each under its name, into one: `over-loop.png`.
+/// Draws a plot of several results in one figure, such as `over-loop.png`. Each result has a name for the legend.
 ///
 /// # Errors
-/// A result that cannot be drawn so, or whose picture has other panels than that of the first.
+/// If a plot cannot be drawn, or if the results have no panels with curves in common.
 pub fn draw(
     results: &[(String, Sources<'_>)],
     plot: PlotName,
@@ -32,7 +32,7 @@ pub fn draw(
         for (name, figure) in pen.into_kept() {
             match kinds.iter_mut().find(|(kind, _)| *kind == name) {
                 Some((_, figures)) => figures.push((result.clone(), figure)),
-                // What the first has not has nothing to be drawn over.
+                // Figures that the first result does not have cannot be overlaid.
                 None if place == 0 => kinds.push((name, vec![(result.clone(), figure)])),
                 None => {}
             }
@@ -49,7 +49,7 @@ pub fn draw(
     Ok(drawn)
 }
 
-/// Which figure has other panels than the first, and which both have.
+/// Describes the panels of the first figure and of one with other panels.
 fn unlike(figures: &[(String, Figure<'_>)]) -> String {
     let told = |(name, figure): &(String, Figure<'_>)| format!("{name} has {}", panels(figure));
     let first = figures.first();
@@ -57,13 +57,13 @@ fn unlike(figures: &[(String, Figure<'_>)]) -> String {
         figures.iter().find(|(_, figure)| first.is_some_and(|(_, first)| panels(figure) != panels(first)));
     match first.zip(other) {
         Some((first, other)) => {
-            format!("these results do not have the same panels: {}, {}", told(first), told(other))
+            format!("the panels of these results differ: {}, {}", told(first), told(other))
         }
-        None => "none of these results has curves in it".to_owned(),
+        None => "none of these results has data for this plot".to_owned(),
     }
 }
 
-/// The panels of a figure in words: what is drawn over what.
+/// Describes the panels of a figure by their quantities.
 fn panels(figure: &Figure<'_>) -> String {
     let axis = |axis: &Axis| match axis.unit.as_str() {
         "" => axis.label.text().to_owned(),
@@ -73,7 +73,7 @@ fn panels(figure: &Figure<'_>) -> String {
     figure.panels.iter().map(panel).collect::<Vec<_>>().join(" and ")
 }
 
-/// The title that all have, or else their names.
+/// Common title of the results, or their names.
 fn title(results: &[(String, Sources<'_>)]) -> String {
     let mut titles = results.iter().map(|(_, sources)| sources.job.title());
     match titles.next() {
@@ -82,7 +82,7 @@ fn title(results: &[(String, Sources<'_>)]) -> String {
     }
 }
 
-/// What the picture comes from: no scenario, for it has several.
+/// Metadata of the picture. It has several scenarios, so it contains only their hashes.
 fn provenance(results: &[(String, Sources<'_>)]) -> Vec<(String, String)> {
     let mut texts = vec![(TITLE.to_owned(), title(results)), (PROGRAM.to_owned(), this_program())];
     for (number, (_, sources)) in (1..).zip(results) {
@@ -96,7 +96,7 @@ mod tests {
     use super::*;
     use stickslip_plot::{HysteresisLoop, loop_figure};
 
-    /// It was said that panels are not the same, and not which.
+    /// The message names the panels that differ.
     #[test]
     fn panels_that_differ_are_named() {
         let of = |limit: Option<f64>| HysteresisLoop {
@@ -106,11 +106,11 @@ mod tests {
             gross_slip: limit.map(|_| 1e-7),
             limit,
         };
-        // Two limits need a panel of their own.
+        // Two different limits require a panel of their own.
         let one = ("one".to_owned(), loop_figure("", &[of(Some(1.0))]));
         let two = ("two".to_owned(), loop_figure("", &[of(Some(1.0)), of(Some(2.0))]));
         let said = unlike(&[one.clone(), two]);
         assert!(said.contains("one has tangential force") && said.contains(" and F"), "{said}");
-        assert!(unlike(&[one.clone(), one]).contains("curves"));
+        assert!(unlike(&[one.clone(), one]).contains("has data"));
     }
 }

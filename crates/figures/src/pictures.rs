@@ -1,5 +1,4 @@
-//! The pictures of results, drawn alike from a run that has just ended and from its folder: the table of their kinds, each
-//! in a file of its own.
+//! Plots of a run, drawn equally from a finished run and from its result folder; one module per plot.
 
 pub(crate) mod alike;
 mod drive;
@@ -32,71 +31,71 @@ use stickslip_run::{Real, quantity};
 use stickslip_scenario::PlotName;
 use thiserror::Error;
 
-/// What pictures are drawn from.
+/// Data from which plots are drawn.
 pub struct Sources<'a> {
-    /// What was run.
+    /// The run.
     pub job: &'a Job,
-    /// What was kept of it.
+    /// Data kept from the run.
     pub kept: &'a Kept,
-    /// Where the tables of the contacts' insides lie, if they were written.
+    /// Paths of the tables of springs, memory, fields and friction work, if they were written.
     pub insides: InsideTables,
 }
 
-/// Why a picture is not drawn.
+/// Reason why a plot is not drawn.
 #[derive(Debug, Error)]
 pub enum FigureError {
-    /// Columns that the tables do not have.
-    #[error("{plot} was not drawn: it needs {}, which output.channels left out", .columns.join(", "))]
+    /// The tables lack columns.
+    #[error("{plot} was not drawn: output.channels leaves out {}", .columns.join(", "))]
     Missing {
-        /// Which picture.
+        /// Name of the plot.
         plot: &'static str,
-        /// What it lacks.
+        /// Missing columns.
         columns: Vec<String>,
     },
-    /// A picture of channels that the scenario does not name.
+    /// The scenario selects no channels for the plot.
     #[error(
-        "{plot} was not drawn: the scenario names no channels to draw\n   help: name some in its plots, such as {{\"x\": \"ball.u_m\", \"y\": \"ball.fx_N\"}}"
+        "{plot} was not drawn: the scenario names no channels for it\n   help: name some in the key \"plots\", such as {{\"x\": \"ball.u_m\", \"y\": \"ball.fx_N\"}}"
     )]
     Unnamed {
-        /// Which picture.
+        /// Name of the plot.
         plot: &'static str,
     },
-    /// Panels of other kinds, or no curves.
+    /// The results have different panels, or no curves.
     #[error("{plot} was not drawn: {unlike}")]
     Unlike {
-        /// Which picture.
+        /// Name of the plot.
         plot: &'static str,
-        /// Which results do not have the same panels, and which each has.
+        /// Description of the differing panels.
         unlike: String,
     },
-    /// A table that the run did not write.
-    #[error("{plot} was not drawn: it needs {file}, which the run did not write")]
+    /// The run did not write a table.
+    #[error("{plot} was not drawn: the run did not write {file}")]
     Absent {
-        /// Which picture.
+        /// Name of the plot.
         plot: &'static str,
-        /// What it lacks.
+        /// Name of the missing file.
         file: &'static str,
     },
-    /// A damaged table.
+    /// A table is damaged.
     #[error("{plot} was not drawn: {source}")]
     Table {
-        /// Which picture.
+        /// Name of the plot.
         plot: &'static str,
-        /// What is wrong with the table.
+        /// Error of the table.
         source: FrameError,
     },
     /// Drawing failed.
     #[error("{plot} was not drawn: {source}")]
     Plot {
-        /// Which picture.
+        /// Name of the plot.
         plot: &'static str,
-        /// What cannot be drawn.
+        /// Error of drawing.
         source: PlotError,
     },
 }
 
-/// Draws the pictures that the job's scenario names, each once, in the order of all names. What is
-/// wrong with one does not keep the others from being drawn.
+/// Draws each plot that the scenario selects once, in the order of [`PlotName`]. Each plot has its own result; an
+/// error does not affect the others.
 pub fn draw(sources: &Sources<'_>, look: &Look) -> Vec<Result<Vec<Picture>, FigureError>> {
     let mut plots = sources.job.scenario.plots.clone();
     plots.sort_by_key(|plot| *plot as u8);
@@ -104,7 +103,7 @@ pub fn draw(sources: &Sources<'_>, look: &Look) -> Vec<Result<Vec<Picture>, Figu
     let pen = Pen { look, provenance: provenance(sources.job, sources.kept), kept: None };
     let (sources, pen) = (&sources, &pen);
     let one = |plot| move || picture(sources, plot, pen);
-    // Each on a thread of its own; in what order they end is nobody's business.
+    // One thread per plot.
     thread::scope(|scope| {
         let drawing: Vec<_> = plots.into_iter().map(|plot| scope.spawn(one(plot))).collect();
         drawing
@@ -114,24 +113,24 @@ pub fn draw(sources: &Sources<'_>, look: &Look) -> Vec<Result<Vec<Picture>, Figu
     })
 }
 
-/// Draws one picture that the job's scenario names.
+/// Draws one plot.
 ///
 /// # Errors
-/// What keeps it from being drawn.
+/// If the plot cannot be drawn, see [`FigureError`].
 pub fn draw_one(sources: &Sources<'_>, plot: PlotName, look: &Look) -> Result<Vec<Picture>, FigureError> {
     picture(sources, plot, &Pen { look, provenance: provenance(sources.job, sources.kept), kept: None })
 }
 
-/// What a kind of picture shows.
+/// Description of a plot.
 pub(crate) fn shows(plot: PlotName) -> &'static str {
     kind(plot).shows
 }
 
-/// A kind of picture.
+/// Type of plot.
 struct Kind {
-    /// What it shows, for the gallery.
+    /// Description for the gallery.
     shows: &'static str,
-    /// Columns that it is drawn from.
+    /// Columns that the plot requires.
     needs: fn(&Job) -> Vec<String>,
     draw: fn(&Sources<'_>, &Pen<'_>) -> Result<Vec<Picture>, Undrawn>,
 }
@@ -155,7 +154,7 @@ fn kind(plot: PlotName) -> &'static Kind {
     }
 }
 
-/// Why a kind of picture is not drawn, before it is said which.
+/// Reason why a plot is not drawn, without its name.
 enum Undrawn {
     Unnamed,
     Absent(&'static str),
@@ -194,18 +193,19 @@ pub(crate) fn picture(
     })
 }
 
-/// The place of a table that the run may have left out.
+/// Returns the table, or an error if the run did not write it.
 fn written<'a>(table: &'a SealedTable, file: &'static str) -> Result<&'a SealedTable, Undrawn> {
     if table.path.exists() { Ok(table) } else { Err(Undrawn::Absent(file)) }
 }
 
-/// The title of a picture with room for so many of all contacts and moments: which those are, where they are not all.
+/// Adds to a title how many of all contacts or times are shown, if not all.
 fn of_all(title: &str, which: &str, (shown, all): (usize, usize)) -> String {
     let which = if which.is_empty() { String::new() } else { format!("the {which} ") };
     if shown < all { format!("{title} ({which}{shown} of {all} in the table)") } else { title.to_owned() }
 }
 
-/// The title of what is drawn from events while they are whole: from when until when that is, where it is not all the way.
+/// Title of a plot that requires all events: with the time range in which they are available, if that is not the
+/// whole run.
 fn whole_title(job: &Job, kept: &Kept) -> String {
     let time = |t: f64| quantity(Real(t), "s");
     let (title, until, end) = (job.title(), kept.whole_until(), kept.end());
@@ -221,7 +221,7 @@ fn whole_title(job: &Job, kept: &Kept) -> String {
     }
 }
 
-/// Columns of these quantities of all contacts.
+/// Columns of given quantities of all contacts.
 fn of_contacts(job: &Job, quantities: &[&str]) -> Vec<String> {
     let names = job.model.contacts().map(|(name, _)| name);
     names.flat_map(|name| quantities.iter().map(move |quantity| format!("{name}.{quantity}"))).collect()
@@ -231,7 +231,7 @@ fn of_contacts(job: &Job, quantities: &[&str]) -> Vec<String> {
 mod tests {
     use super::*;
 
-    /// Nine were told as six, and nothing said so.
+    /// The title gives the number of times that are left out.
     #[test]
     fn what_is_left_out_is_said() {
         assert_eq!(of_all("Ball", "last", (6, 9)), "Ball (the last 6 of 9 in the table)");

@@ -1,4 +1,4 @@
-//! Pictures of a loop in real time.
+//! Plots of a real-time run.
 
 use crate::look::{Look, Pen, Picture};
 use crate::pictures::FigureError;
@@ -13,11 +13,11 @@ use stickslip_realtime::{Histogram, Report, Timing};
 use stickslip_run::Job;
 use stickslip_run::provenance::{HASH, PROGRAM, SCENARIO, TITLE};
 
-/// Names of the pictures.
+/// Names of the plots.
 pub const NAMES: [&str; 2] = ["realtime", "timeline"];
-/// Most panels of a timeline, times apart.
+/// Maximum number of panels of a timeline, without that of the times per frame.
 const MOST: usize = 6;
-/// Units by the ends of names, the longer first.
+/// Units by the ends of channel names, longer ends first.
 const UNITS: [(&str, &str); 7] = [
     ("_rad_s", "rad/s"),
     ("_m_s", "m/s"),
@@ -28,15 +28,15 @@ const UNITS: [(&str, &str); 7] = [
     ("_s", "s"),
 ];
 
-/// Names of all files that any look gives to them.
+/// Returns all possible file names of the plots.
 pub fn all_files() -> Vec<String> {
     Look::all_files_of(&NAMES)
 }
 
-/// Draws them.
+/// Draws the histograms of execution times, and the time histories of inputs and outputs.
 ///
 /// # Errors
-/// What cannot be drawn.
+/// If a figure cannot be drawn.
 pub fn draw(job: &Job, report: &Report, ended: &Ended, look: &Look) -> Result<Vec<Picture>, FigureError> {
     let entries = [
         (TITLE, job.title().to_owned()),
@@ -58,11 +58,11 @@ pub fn draw(job: &Job, report: &Report, ended: &Ended, look: &Look) -> Result<Ve
     Ok(pictures)
 }
 
-/// Execution time and, where there was a clock, wake-up latency; each beside that of the empty loop.
+/// Histograms of execution time and, in paced runs, of wake-up latency, each with that of an empty loop.
 fn times_panels<'a>(report: &Report, ended: &Ended) -> Vec<TimesPanel<'a>> {
     let (timing, floor) = (&ended.timing, &ended.floor);
     let panel = |what, [own, empty]: [&Histogram; 2], marked| {
-        let mut curves = vec![curve("the drive's loop", false, own)];
+        let mut curves = vec![curve("loop of the drive", false, own)];
         if empty.total() > 0 {
             curves.push(curve("empty loop", true, empty));
         }
@@ -70,7 +70,7 @@ fn times_panels<'a>(report: &Report, ended: &Ended) -> Vec<TimesPanel<'a>> {
     };
     let mut panels = vec![panel("execution time", [&timing.execution, &floor.execution], slowest(timing))];
     if report.paced {
-        // What a drive did in a frame has nothing to do with when its loop woke.
+        // The latency does not depend on the work in a frame.
         let times = timing.latest.frames().iter().map(|slow| 1e-9 * slow.latency as f64).collect();
         let marked = vec![MarkedTimes { name: "latest frames", times, on: 0 }];
         panels.push(panel("wake-up latency", [&timing.latency, &floor.latency], marked));
@@ -82,7 +82,7 @@ fn curve<'a>(name: &'a str, is_beside: bool, histogram: &Histogram) -> TimesCurv
     TimesCurve { name, is_beside, bins: histogram.tenths() }
 }
 
-/// The worst frames by what happened in them.
+/// Slowest frames, grouped by their kind.
 fn slowest(timing: &Timing) -> Vec<MarkedTimes<'static>> {
     let usual = timing.usual();
     let of = |name: &'static str| {
@@ -92,10 +92,10 @@ fn slowest(timing: &Timing) -> Vec<MarkedTimes<'static>> {
     KINDS.into_iter().map(of).filter(|marked| !marked.times.is_empty()).collect()
 }
 
-/// A quantity, and the names and values of its channels.
+/// Quantity, and the names and values of its channels.
 type Group<'a> = (&'a str, Vec<(&'a str, &'a [f64])>);
 
-/// Channels of one quantity share a panel; the times of frames come last.
+/// Panels of inputs and outputs, one per quantity, and last the times per frame.
 fn timeline<T>(job: &Job, report: &Report, ended: &Ended, draw: impl FnOnce(&[TimelinePanel<'_>]) -> T) -> T {
     let film = &ended.film;
     let series = |names: &[String], values: &[Vec<f64>]| -> Vec<(String, Vec<f64>)> {
@@ -103,7 +103,7 @@ fn timeline<T>(job: &Job, report: &Report, ended: &Ended, draw: impl FnOnce(&[Ti
     };
     let mut all = series(&report.outputs, &film.outputs);
     all.extend(series(&report.inputs, &film.inputs));
-    // Time over time says nothing, and neither does an input that never changes.
+    // The time channel and constant inputs are left out.
     let is_fixed = |name: &str, values: &[f64]| {
         report.inputs.iter().any(|input| input == name) && values.windows(2).all(|pair| pair[0] == pair[1])
     };
@@ -131,11 +131,11 @@ fn timeline<T>(job: &Job, report: &Report, ended: &Ended, draw: impl FnOnce(&[Ti
     if report.paced {
         series.push(("wake-up latency", &latency));
     }
-    panels.push(TimelinePanel { label: "time of a frame", unit: "s", logarithmic: true, series });
+    panels.push(TimelinePanel { label: "time per frame", unit: "s", logarithmic: true, series });
     draw(&panels)
 }
 
-/// Whether a body is where the generator of this channel says.
+/// Whether a body follows the waveform of this channel.
 fn moves(scene: &Scene, channel: &str) -> bool {
     let is_it = |coordinate: &Coordinate| match coordinate.freedom {
         Freedom::Follows(place) => scene.waveforms.get(place).is_some_and(|waveform| {
@@ -146,7 +146,7 @@ fn moves(scene: &Scene, channel: &str) -> bool {
     scene.bodies.iter().any(|body| is_it(&body.part.x) || is_it(&body.part.z))
 }
 
-/// What a quantity is called, and its unit.
+/// Axis label and unit of a quantity.
 fn named(quantity: &str) -> (&str, &'static str) {
     let found = UNITS.iter().find_map(|(end, unit)| Some((quantity.strip_suffix(end)?, *unit)));
     match found {
@@ -165,7 +165,7 @@ mod tests {
     use stickslip_realtime::pace::{self, Cycle, Pace, Stop, Timing};
     use stickslip_realtime::plant::Work;
 
-    /// Frames of one step, of which some have two, a turning point, or a merge.
+    /// Frames of one step, some with two, with a turning point, or with a merge of memory pieces.
     struct Frames;
 
     impl Cycle for Frames {

@@ -1,4 +1,4 @@
-//! The picture of what matters: elasticities as bars.
+//! Plot of sensitivities: elasticities as bars.
 
 use crate::look::{Look, Pen, Picture};
 use crate::pictures::FigureError;
@@ -6,25 +6,26 @@ use stickslip_plot::{Bar, Tornado, tornado_figure};
 use stickslip_run::provenance::{HASH, PROGRAM, SCENARIO, TITLE};
 use stickslip_study::sensitivity::{Sensitivity, Taken};
 
-/// Name of the picture, and of that of derivatives that were interrupted, beside which a finished one stays.
+/// Names of the plot: complete, and interrupted.
 const NAMES: [&str; 2] = ["sensitivity", "sensitivity-partial"];
-/// Most bars of a figure, and most figures: the rest stands in the table.
+/// Maximum number of bars per result, and of results; the table contains all.
 const BARS: usize = 12;
 const FIGURES: usize = 6;
-/// Errors that are worth a word beside a bar, as a share of the longest.
+/// Errors above this fraction of the longest bar are given next to the bar.
 const DOUBT: f64 = 0.01;
-/// Shorter bars are told by powers of ten.
+/// Elasticities below this magnitude are written with exponents.
 const PLACES: f64 = 0.1;
 
-/// Names of all files that any look gives to it, and that go where it is written: a whole one takes the place of both.
+/// Returns all possible file names of the plot; existing ones are deleted when it is written. A complete plot also
+/// replaces an interrupted one.
 pub fn all_files(is_cut: bool) -> Vec<String> {
     Look::all_files_of(&NAMES[usize::from(is_cut)..])
 }
 
-/// Draws it: of each figure by how many per cent it changes with one per cent of each quantity.
+/// Draws the elasticities: change of each result in per cent for a change of each parameter by one per cent.
 ///
 /// # Errors
-/// What cannot be drawn.
+/// If the figure cannot be drawn.
 pub fn draw((asked, taken): (&Sensitivity, &Taken), look: &Look) -> Result<Vec<Picture>, FigureError> {
     let entries = [
         (TITLE, asked.job.title().to_owned()),
@@ -42,10 +43,10 @@ pub fn draw((asked, taken): (&Sensitivity, &Taken), look: &Look) -> Result<Vec<P
             let more = all.len().saturating_sub(BARS);
             let bars = all.into_iter().take(BARS).map(|(bar, error)| noted(bar, error, longest));
             let axis = match more {
-                0 => "change, % per % of the quantity".to_owned(),
+                0 => "change, % per % of the parameter".to_owned(),
                 more => format!("change, % per %; {more} shorter bars left out"),
             };
-            Tornado { name: &figure.name, axis, bars: bars.collect(), absence: "no elasticity is known" }
+            Tornado { name: &figure.name, axis, bars: bars.collect(), absence: "no elasticities" }
         })
         .collect();
     let is_cut = taken.is_cut();
@@ -58,7 +59,7 @@ pub fn draw((asked, taken): (&Sensitivity, &Taken), look: &Look) -> Result<Vec<P
     pen.draw_as(plot, figure).map_err(|source| FigureError::Plot { plot, source })
 }
 
-/// The bars of a figure and their errors, the longest first.
+/// Bars of a result with their errors, the longest first.
 fn bars(asked: &Sensitivity, taken: &Taken, f: usize) -> Vec<(Bar, f64)> {
     let of = |q: usize| {
         let elasticity = move |slope: f64| Taken::elasticity(asked, (f, q), slope);
@@ -67,7 +68,7 @@ fn bars(asked: &Sensitivity, taken: &Taken, f: usize) -> Vec<(Bar, f64)> {
             let slope = slope.ok()?;
             let (length, error) = (elasticity(slope.value)?, elasticity(slope.error)?.abs());
             let name = side.map_or_else(|| path.clone(), |side| format!("{path}, {side}"));
-            // What is not told from nothing has no bar.
+            // Elasticities that are smaller than their error have no bar.
             (length.abs() > error)
                 .then(|| (Bar { name, note: String::new(), length, is_half: side.is_some() }, error))
         })
@@ -77,7 +78,7 @@ fn bars(asked: &Sensitivity, taken: &Taken, f: usize) -> Vec<(Bar, f64)> {
 
 fn noted(bar: Bar, error: f64, longest: f64) -> Bar {
     let doubt = if error > DOUBT * longest { format!(" ± {error:.1e}") } else { String::new() };
-    // Three places after the point would leave nothing of a small one.
+    // Three decimals would not resolve small elasticities.
     let length = if bar.length.abs() < PLACES {
         format!("{:+.2e}", bar.length)
     } else {

@@ -1,4 +1,4 @@
-//! The picture of a steady motion.
+//! Plot of a periodic orbit.
 
 use crate::look::{Look, Pen, Picture};
 use crate::pictures::{FigureError, alike, trajectory::tracks_of};
@@ -8,22 +8,22 @@ use stickslip_run::provenance::{HASH, PROGRAM, SCENARIO, TITLE};
 use stickslip_run::{Job, Series};
 use stickslip_study::steady::Steady;
 
-/// Name of the picture.
+/// Name of the plot.
 pub const NAME: &str = "steady";
-/// Rows of the period that is drawn.
+/// Number of rows of the period that is drawn.
 pub const ROWS: u32 = 1024;
-/// Forces below this share of what presses the contact are of rounding.
+/// Forces below this fraction of the normal force are rounding errors.
 const ROUNDING: f64 = 1e-12;
 
-/// Names of all files that any look gives to it.
+/// Returns all possible file names of the plot.
 pub fn all_files() -> Vec<String> {
     Look::all_files_of(&[NAME])
 }
 
-/// Draws one period of a job's steady motion, and its multipliers.
+/// Draws one period of a periodic orbit and its Floquet multipliers.
 ///
 /// # Errors
-/// What cannot be drawn.
+/// If the figure cannot be drawn.
 pub fn draw(job: &Job, found: &Steady, series: &Series, look: &Look) -> Result<Vec<Picture>, FigureError> {
     let entries = [
         (TITLE, job.title().to_owned()),
@@ -58,12 +58,12 @@ pub fn draw(job: &Job, found: &Steady, series: &Series, look: &Look) -> Result<V
         forces: forces.collect(),
         multipliers: both.collect(),
     };
-    let title = format!("{}: a period of its steady motion", job.title());
+    let title = format!("{}: one period of the periodic orbit", job.title());
     pen.draw_as(NAME, orbit_figure(&title, &course))
         .map_err(|source| FigureError::Plot { plot: NAME, source })
 }
 
-/// Force of a contact; none where it is of rounding alone.
+/// Tangential force of a contact; zeros if it is within rounding errors.
 fn force(job: &Job, series: &Series, (c, name): (usize, &str)) -> Vec<f64> {
     let force = series.column(name, "fx_N");
     let least = ROUNDING * job.contact_scale(c).1;
@@ -71,7 +71,7 @@ fn force(job: &Job, series: &Series, (c, name): (usize, &str)) -> Vec<f64> {
     if is_some { force.to_vec() } else { vec![0.0; force.len()] }
 }
 
-/// Positions from where they began, without the way that is left over at the end of the period.
+/// Positions relative to their start, without the drift over the period.
 fn returning<'a>(time: &[f64], tracks: &[Track<'a>]) -> Vec<(&'a str, Vec<f64>)> {
     let length = time.last().copied().unwrap_or(0.0);
     let of = |track: &Track<'a>| {

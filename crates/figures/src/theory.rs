@@ -1,6 +1,6 @@
-//! Pictures of a contact by itself: what a history does to it.
+//! Plots of a single contact under a load history.
 //!
-//! Made of plain series by the builders of `stickslip-plot`, which take a run's just as well.
+//! They use the same builders of `stickslip-plot` as the plots of runs.
 
 pub(crate) mod moments;
 
@@ -16,25 +16,26 @@ use stickslip_run::program::this_program;
 use stickslip_run::provenance::{HASH, PROGRAM, SCENARIO, TITLE};
 use stickslip_run::theory::{BEYOND, Sheet, Stop, Subject, Walk};
 
-/// Names of the pictures.
+/// Names of the plots.
 pub const NAMES: [&str; 7] = ["substitute", "fields", "loop", "profile", "memory", "friction", "cycle"];
 
-/// Size of an animation and how long a frame of it is seen, px and ms.
+/// Size of an animation, px, and duration of a frame, ms.
 const ANIMATED: (u32, u32) = (800, 700);
 const DELAY: u16 = 120;
 
-/// Corners that are numbered in the loop, and that have a line in the picture of friction: with more of them neither is to be read.
+/// Maximum number of numbered corners in the loop, and of corners with a curve in the plot of friction work.
 const NUMBERED: usize = 24;
 const LINED: usize = 12;
-/// Points of the profile.
+/// Number of points of the profile.
 const POINTS: usize = 301;
 
-/// Names of all files that any look gives to them.
+/// Returns all possible file names of the plots.
 pub fn all_files() -> Vec<String> {
     Look::all_files_of(&NAMES)
 }
 
-/// Draws them all, the animation only where it is wanted: it takes longer than all others. What is wrong with one does not keep the others from being drawn.
+/// Draws all plots, the animation only if `is_animated`. Each plot has its own result; an error does not affect the
+/// others.
 pub fn draw(
     subject: &Subject<'_>,
     sheet: &Sheet,
@@ -64,7 +65,7 @@ pub fn draw(
     pictures
 }
 
-/// Where the pictures come from: keys and texts.
+/// Metadata of the pictures.
 fn provenance(subject: &Subject<'_>) -> Vec<(String, String)> {
     let job = subject.job;
     let entries = [
@@ -77,7 +78,7 @@ fn provenance(subject: &Subject<'_>) -> Vec<(String, String)> {
     entries.map(|(key, text)| (key.to_owned(), text)).to_vec()
 }
 
-/// The springs on the last legs, frame by frame.
+/// Sketches of the springs in the last sections, frame by frame.
 fn cycle(law: &Interface, walk: &Walk, title: &str) -> Vec<Figure<'static>> {
     let mut figures = Vec::new();
     frames(law, walk, |moment| {
@@ -87,13 +88,13 @@ fn cycle(law: &Interface, walk: &Walk, title: &str) -> Vec<Figure<'static>> {
     figures
 }
 
-/// So many places among others, the first and the last with them, evenly; all where there are no more.
+/// At most `most` of `count` indices, equally spaced, including the first and the last.
 fn spread(count: usize, most: usize) -> impl Iterator<Item = usize> {
     let shown = count.min(most);
     (0..shown).map(move |k| if count <= most { k } else { k * (count - 1) / (shown - 1) })
 }
 
-/// Force over displacement, with the corners marked.
+/// Loop with its corners numbered.
 fn hysteresis<T>(
     law: &Interface,
     walk: &Walk,
@@ -107,7 +108,7 @@ fn hysteresis<T>(
     let marks: Vec<(f64, f64, String)> =
         stops.map(|stop| (stop.apex.u, stop.force, stop.corner.to_string())).collect();
     let course = HysteresisLoop {
-        name: "corners marked by their numbers",
+        name: "numbers mark the corners",
         u: &u,
         force: &force,
         gross_slip: depth.map(|d| law.gross_slip_displacement(d)),
@@ -116,7 +117,7 @@ fn hysteresis<T>(
     drawn(course, &marks)
 }
 
-/// f(r) beside g(x).
+/// Profiles f(r) and g(x).
 fn profile<T>(law: &Interface, sheet: &Sheet, walk: &Walk, drawn: impl FnOnce(&ProfilePair<'_>) -> T) -> T {
     let reach = BEYOND * law.profile().radius(walk.deepest);
     let x: Vec<f64> = (0..POINTS).map(|k| reach * k as f64 / (POINTS - 1) as f64).collect();
@@ -126,7 +127,8 @@ fn profile<T>(law: &Interface, sheet: &Sheet, walk: &Walk, drawn: impl FnOnce(&P
     drawn(&ProfilePair { x: &x, f: f.as_deref(), g: &g, d, a })
 }
 
-/// f at some distances: by its formula or else from what a contact that reaches so far does to the surface, d - f(r).
+/// Profile f at given distances, m: from its formula, or as d - deflection of a contact with that radius. `None` for
+/// lists of springs.
 fn gaps(law: &Interface, x: &[f64]) -> Option<Vec<f64>> {
     let farthest = x.last().copied().unwrap_or(0.0);
     let d = law.profile().depth(farthest);
@@ -140,7 +142,7 @@ fn gaps(law: &Interface, x: &[f64]) -> Option<Vec<f64>> {
     Some(x.iter().map(|r| gap(*r)).collect())
 }
 
-/// Friction work by place along the way.
+/// Friction work per area over radius and history.
 fn friction<T>(walk: &Walk, drawn: impl FnOnce(&FrictionWork<'_>) -> T) -> T {
     let along = |corner: usize, share: f64| corner as f64 - 1.0 + share;
     let (mut moments, mut work) = (Vec::new(), Vec::new());

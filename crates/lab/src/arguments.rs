@@ -33,7 +33,7 @@ pub(crate) enum Command {
     Validate(ValidateArguments),
     /// Run all scenarios of a folder and draw all their pictures, with a page that shows them
     ///
-    /// Pictures are PNG, light and dark, and SVG where that is small; tables are not kept. The page, README.md, names the
+    /// Pictures are PNG, light and dark, and SVG where that is small; tables are not kept. The page, index.md, names the
     /// scenario and the command of each. Exit codes: 0 done, 2 a scenario is refused, 3 a run stopped itself or something
     /// cannot be drawn or written, 130 interrupted; the page is written only when everything was done.
     #[command(after_long_help = gallery::EXAMPLES)]

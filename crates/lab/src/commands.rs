@@ -1,4 +1,4 @@
-//! One room for each command.
+//! Implementation of the commands, one module each.
 
 pub(crate) mod bench;
 pub(crate) mod gallery;

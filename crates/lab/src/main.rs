@@ -1,4 +1,5 @@
-//! The program `stickslip-lab`: measures and checks what `stickslip` does. Whoever designs a drive needs none of it.
+//! The program `stickslip-lab`: measures and checks `stickslip` itself. It is for developers and not needed to design a
+//! drive.
 
 mod arguments;
 mod commands;

@@ -1,8 +1,9 @@
-//! Functions of real numbers whose bits are the same on every machine.
+//! Mathematical functions of `f64` whose results are bit-identical on every machine.
 //!
-//! The standard library hands `exp`, `powf`, `atan2` … to the C library of the machine, whose versions differ in the last place. These
-//! are the crate `libm`'s, compiled into the program: the same operations in the same order wherever IEEE 754 holds. Names and
-//! arguments are those of the methods of `f64`; a lint (`clippy.toml`) keeps those methods out of the rest of the program.
+//! The standard library calls the C library of the machine for `exp`, `powf`, `atan2` and others. C libraries differ in the last
+//! digit. This crate uses the functions of the crate `libm`, which are compiled into the program. Their results depend only on IEEE
+//! 754 arithmetic. Names and arguments are those of the methods of `f64`. A lint in `clippy.toml` forbids those methods elsewhere in
+//! the program.
 
 mod root;
 

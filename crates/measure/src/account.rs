@@ -1,7 +1,7 @@
-//! The account of a period of the drive: where the body went while the waveform went forth and back, how the contacts slipped and
-//! rang meanwhile, what became of the work. Of a run of any length that of the last whole period is kept, and of the one under way.
+//! Evaluation of one drive period: travel of the body in the forward and return strokes, slip and ringing of the contacts, energies.
 //!
-//! What it is taken from are ends of periods and turns of the waveform, which are marks or corners, and events.
+//! The last whole period and the current one are kept. Inputs are sampled states at period ends and at turning points of the waveform, and
+//! events.
 
 mod phases;
 
@@ -13,23 +13,23 @@ use std::collections::HashMap;
 use stickslip_drive::scene::{Freedom, Side};
 use stickslip_drive::{EventKind, Source};
 
-/// A swing of the force below this share of the limit of friction is no ringing any more.
+/// Amplitude of a force oscillation, relative to the friction limit, above which it counts as ringing.
 pub const RINGING: f64 = 0.05;
-/// Codes of an open contact and of gross slip in a row.
+/// Codes of an open contact and of gross slip in the column `state`.
 const OPEN: f64 = 0.0;
 const SLIP: f64 = 3.0;
 
-/// Keeps the accounts of a run.
+/// Evaluates the periods of a run.
 #[derive(Debug)]
 pub struct Accounts {
     phases: Phases,
     tracker: Tracker,
-    /// Place of the body's x, and of the first of the energies, among all channels.
+    /// Indices of the channels of the body's x and of the first energy.
     places: [usize; 2],
     contacts: Vec<Watched>,
-    /// The last moment: time, s, x, m, and which way the waveform went after it.
+    /// Last sample: time, s, position x, m, and direction of the waveform after it.
     last: Option<(f64, f64, Sense)>,
-    /// When the waveform last took the way that it goes, and until when it is sure to go that way, s.
+    /// Time at which the waveform took its current direction, and time until which the direction is known, s.
     turned: f64,
     sure_until: f64,
     now: Option<Account>,
@@ -39,61 +39,61 @@ pub struct Accounts {
 /// A contact of the body.
 #[derive(Debug)]
 struct Watched {
-    /// Its place in the scene, and those of its force, normal force and state among all channels.
+    /// Index of the contact in the model, and indices of the channels of its tangential force, normal force and state.
     c: usize,
     places: [usize; 3],
     friction: f64,
-    /// The word of the events at which its u turns.
+    /// Kind of the events that report reversals of u.
     turn: &'static str,
     slips: bool,
-    /// Its force at its last turn.
+    /// Tangential force at the last reversal.
     extreme: Option<Extreme>,
 }
 
-/// Where the force of a contact turns.
+/// Extreme of the tangential force of a contact.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Extreme {
     /// Time, s.
     pub t: f64,
-    /// The force, N.
+    /// Tangential force, N.
     pub force: f64,
-    /// The limit of friction then, N.
+    /// Friction limit at this time, N.
     pub limit: f64,
 }
 
-/// What happened in a period. Of two values the first is of the rising waveform, the second of the falling one.
+/// Results of one period. In pairs, the first value is for the rising and the second for the falling waveform.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Account {
-    /// From when until when, s.
+    /// Start and end of the period, s.
     pub span: [f64; 2],
-    /// How long, s.
+    /// Durations, s.
     pub time: [f64; 2],
-    /// The way of the body, m; that while the waveform rests last.
+    /// Displacement of the body, m. The third value is for a constant waveform.
     pub travel: [f64; 3],
-    /// Input, kinetic, elastic, friction, damping: at its start, and by how much they have grown in it, J.
+    /// Changes of input, kinetic, elastic, friction and damping energy, J. Until the period ends: their values at its start.
     pub energies: [f64; 5],
-    /// Of each contact.
+    /// Results of each contact.
     pub contacts: Vec<ContactAccount>,
 }
 
-/// What a contact of the body did in a period; of two values the first is of the rising waveform.
+/// Results of one contact in a period. In pairs, the first value is for the rising and the second for the falling waveform.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct ContactAccount {
-    /// Its place in the scene.
+    /// Index of the contact in the model.
     pub c: usize,
     /// Time in gross slip, s.
     pub slip: [f64; 2],
-    /// Turns of u, but for those out of gross slip.
+    /// Number of reversals of u, except those that end gross slip.
     pub reversals: [u32; 2],
-    /// From when the waveform turned, until the last swing of the force beyond [`RINGING`], s; none without such a swing.
+    /// Time from the turning point of the waveform to the last force oscillation above [`RINGING`], s. `None` without such an oscillation.
     pub rings: [Option<f64>; 2],
-    /// The last swing, half of peak to peak, as a share of the limit of friction: the mean of that at both turns.
+    /// Amplitude of the last force oscillation, relative to the mean friction limit at its two extremes.
     pub swing: [f64; 2],
-    /// Both turns of that.
+    /// The two extremes of the last force oscillation.
     pub turns: [Option<[Extreme; 2]>; 2],
 }
 
-/// Which of two values a way has.
+/// Returns the index of a direction in the pairs of results. Returns `None` for a constant waveform.
 fn side(sense: Sense) -> Option<usize> {
     match sense {
         Sense::Rising => Some(0),
@@ -103,7 +103,9 @@ fn side(sense: Sense) -> Option<usize> {
 }
 
 impl Accounts {
-    /// Those of the body and the waveform of a setting's figures; none where no free body is driven by a periodic waveform.
+    /// Creates the evaluation for the body and the waveform of the scenario's `figures`.
+    ///
+    /// Returns `None` if the body is not free or the waveform is not periodic. `places` are the channel indices by name.
     pub fn of(setting: &Setting, places: &HashMap<&str, usize>) -> Option<Self> {
         let (scene, figures) = (&setting.scenario.scene, setting.scenario.figures);
         let b = figures.body?;
@@ -137,7 +139,7 @@ impl Accounts {
         })
     }
 
-    /// Takes a moment: an event, or a mark.
+    /// Adds a sample: the channel values at an event or at a sampling time.
     pub fn moment(&mut self, event: Option<(Source, &str)>, values: &[f64]) {
         let [place, energies] = self.places;
         let (Some(&t), Some(&x), Some(books)) =
@@ -155,7 +157,7 @@ impl Accounts {
             }
             None => {
                 self.turned = t;
-                // Of one that slides all the way no event tells.
+                // No event reports a contact that slips from the start.
                 for contact in &mut self.contacts {
                     contact.slips = values.get(contact.places[2]) == Some(&SLIP);
                 }
@@ -172,7 +174,7 @@ impl Accounts {
         }
     }
 
-    /// Which way the waveform goes after a moment, s, moments ascending: most events lie between two turns.
+    /// Returns the direction of the waveform after time t, s. Times must be ascending. The result is cached until the next turning point.
     fn sense_after(&mut self, t: f64) -> Sense {
         if let Some((_, _, sense)) = self.last.filter(|_| t < self.sure_until) {
             return sense;
@@ -182,7 +184,7 @@ impl Accounts {
         sense
     }
 
-    /// Goes on in time, s, and place, m.
+    /// Adds a time interval, s, with the displacement of the body, m.
     fn pass(&mut self, time: f64, way: f64, sense: Sense) {
         let Some(now) = &mut self.now else { return };
         let side = side(sense);
@@ -222,11 +224,11 @@ impl Accounts {
         let [force, normal, state] = contact.places.map(|place| values.get(place).copied().unwrap_or(0.0));
         let [begins, ends, opens] = [EventKind::GrossSlip, EventKind::GrossSlipEnds, EventKind::LiftOff]
             .map(|other| kind == other.name());
-        // In the air its way is nobody's; out of gross slip the turn is the end of that, where the normal varies a little before.
+        // An open contact has no reversals. A reversal that ends gross slip is not counted.
         let has_turned = kind == contact.turn && state != OPEN;
         let turns = has_turned && !contact.slips;
-        // Where gross slip begins or ends the row is of either side, and a force that comes back to its limit as it turns is as good as
-        // at it: the events tell. Of one that slides as it touches no other one does.
+        // The events decide on gross slip, because the state in their rows may be that of either side. Only a contact that slips from its
+        // touch on has no other event.
         contact.slips = match () {
             () if begins => true,
             () if ends || opens || kind == EventKind::FullStick.name() => false,
@@ -236,7 +238,7 @@ impl Accounts {
         if !(begins || ends || opens || has_turned) {
             return;
         }
-        // The force turns where slip begins or ends, too.
+        // The force also has an extreme where gross slip begins or ends.
         let now = Extreme { t, force, limit: contact.friction * normal };
         let before = contact.extreme.replace(now);
         let (Some(account), Some(side)) =
@@ -254,19 +256,18 @@ impl Accounts {
         }
     }
 
-    /// That of the last whole period.
+    /// Returns the results of the last whole period.
     pub fn last(&self) -> Option<&Account> {
         self.whole.as_ref()
     }
 
-    /// Which way the waveform goes when.
+    /// Returns the directions of the waveform over its period.
     pub fn phases(&self) -> &Phases {
         &self.phases
     }
 }
 
-/// Half of what lies between two forces, as a share of the limit of friction: the mean of both moments, above which no swing of
-/// springs comes, however little presses at either of them.
+/// Returns half the difference of two forces, relative to the mean of the friction limits at both times.
 fn swing(from: &Extreme, to: &Extreme) -> f64 {
     let limit = 0.5 * (from.limit + to.limit);
     if limit > 0.0 { 0.5 * (to.force - from.force).abs() / limit } else { 0.0 }

@@ -1,4 +1,4 @@
-//! The energy books of a run.
+//! Energy balance of a run.
 
 use crate::warning::Warning;
 use schemars::JsonSchema;
@@ -7,67 +7,66 @@ use stickslip_drive::{Accuracy, Channel, Stepper};
 use stickslip_quantity::Real;
 use stickslip_quantity::quantity;
 
-/// Part of the throughput by which books may be open: more of it, and figures have no second digit.
-// With verlet at 5 µs the quickstart misses 0.2 and its step is 0.5 % off, with rk4 at 100 µs 0.99 and 3.7 %, with verlet at
-// 1 µs 7e-3 and 2e-4.
+/// Largest error of the balance, relative to the throughput, without a warning.
 const OPEN: f64 = 1e-2;
-/// Tolerances of the throughput by which books may be open.
+/// Largest error of the balance without a warning, in tolerances times the throughput.
 const TOLERANCES: f64 = 100.0;
-/// What rounding leaves of books, relative to all that is in them.
+/// Rounding error of the balance relative to its largest energy.
 const ROUNDING: f64 = 1e-12;
 
-/// Energies at the end, J, and how well they balanced all the way.
+/// Energies at the end of a run, J, and the largest error of their balance.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Books {
     places: [Option<usize>; 6],
     end: [f64; 6],
-    /// Places of the contacts' friction work, and the work at the end, J.
+    /// Indices of the friction work of each contact in a row, and the work at the end, J.
     friction: Vec<(usize, f64)>,
-    /// Elastic energy at the start, J: a pressed contact has it before anything moves.
+    /// Elastic energy at the start, J. It is above 0 if a contact is pressed.
     elastic_before: Option<f64>,
     throughput: f64,
-    /// Largest energy in them, J.
+    /// Largest energy in the balance, J.
     largest: f64,
     worst: f64,
-    /// Largest magnitude of the error at events, J: they end steps, and what stands in a row between two steps without dense
-    /// output is read off straight lines.
+    /// Largest magnitude of the error at events, J. Events end time steps; rows between steps without dense output are
+    /// interpolated linearly.
     worst_at_events: f64,
 }
 
-/// The books as the summary shows them.
+/// Energy balance in the summary.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct Balance {
-    /// work of followers, loads, preloads and gravity, at the end
+    /// work done on the model by prescribed motions and strokes, loads, preloads and gravity, at the end of the run
     #[serde(rename = "input_J")]
     input: Real,
-    /// kinetic energy, at the end
+    /// kinetic energy of the free bodies at the end of the run
     #[serde(rename = "kinetic_J")]
     kinetic: Real,
-    /// stored energy, at the end
+    /// energy stored in contacts, springs and stacks at the end of the run
     #[serde(rename = "elastic_J")]
     elastic: Real,
-    /// work of friction
+    /// friction work of all contacts during the run
     #[serde(rename = "friction_J")]
     friction: Real,
-    /// work of dampers
+    /// energy dissipated by dampers and contact damping during the run
     #[serde(rename = "damping_J")]
     damping: Real,
-    /// what the books miss, at the end
+    /// error of the energy balance at the end of the run
     #[serde(rename = "error_J")]
     error: Real,
-    /// most that the books miss at any row or event
+    /// largest magnitude of the error of the energy balance at any row or event
     #[serde(rename = "largest_error_J")]
     largest_error: Real,
-    /// energy that went through the books: what the error is held against
+    /// throughput, the reference for the error: largest value during the run of |input|, kinetic energy, |change of
+    /// elastic energy| and dissipated energy
     #[serde(rename = "throughput_J")]
     throughput: Real,
-    /// its share of the throughput
+    /// largest_error_J divided by throughput_J. Absent if the throughput is only rounding.
     #[serde(skip_serializing_if = "Option::is_none")]
     largest_error_relative: Option<Real>,
 }
 
 impl Books {
-    /// Books of a model's channels.
+    /// Creates the balance for the channels of a model.
     pub fn new(channels: &[Channel]) -> Self {
         let names = ["input", "kinetic", "elastic", "friction", "damping", "error"];
         let place = |name| channels.iter().position(|c| c.name == format!("energy.{name}_J"));
@@ -111,18 +110,18 @@ impl Books {
         }
     }
 
-    /// Largest magnitude of the error at ends of steps, J: at events, and at the end of the run.
+    /// Returns the largest magnitude of the error at events and at the end of the run, J.
     fn worst_at_steps(&self) -> f64 {
         let end = self.end[5].abs();
         if end.is_nan() || end > self.worst_at_events { end } else { self.worst_at_events }
     }
 
-    /// Friction work of contact `c`, J.
+    /// Returns the friction work of contact `c`, J.
     pub fn friction_of(&self, c: usize) -> f64 {
         self.friction.get(c).map_or(0.0, |(_, work)| *work)
     }
 
-    /// As the summary shows them.
+    /// Returns the balance for the summary.
     pub fn balance(&self) -> Balance {
         let [input, kinetic, elastic, friction, damping, error] = self.end.map(Real);
         Balance {
@@ -134,19 +133,19 @@ impl Books {
             error,
             largest_error: Real(self.worst),
             throughput: Real(self.throughput),
-            // Where next to nothing moves rounding of what is stored is all that there is.
+            // A throughput below the rounding error of the stored energy has no ratio.
             largest_error_relative: (self.throughput > ROUNDING * self.largest)
                 .then(|| Real(self.worst / self.throughput)),
         }
     }
 }
 
-/// Whether the books of a run by a stepper are open, and by how much: by more than `OPEN` of the throughput with any stepper, or
-/// by more than `TOLERANCES` that it was asked for.
+/// Returns a warning if the error of the balance is too large: above `OPEN` of the throughput with any stepper, or
+/// above `TOLERANCES` tolerances if the user chose one.
 ///
-/// Each of the six energies is booked for itself: work put in by what drives, the rest from places, speeds, memories and
-/// integrals. Nothing makes the books close but steps that are exact, and no stepper's error estimate comes into them. `finest` is the
-/// rounding of the places where bodies start in natural displacements: no tolerance below it is met.
+/// Each energy is computed separately: the input from the work of prescribed motions and loads, the others from
+/// positions, velocities, memories and integrals. The balance therefore closes only if the time steps are accurate.
+/// `finest` is the rounding error of the start positions in natural displacements; no tolerance below it can be met.
 pub fn warning(books: &Books, stepper: Stepper, is_asked: bool, finest: f64) -> Option<Warning> {
     let has_dense_output = matches!(stepper, Stepper::Event { .. });
     let missing = if has_dense_output { books.worst } else { books.worst_at_steps() };
@@ -154,12 +153,14 @@ pub fn warning(books: &Books, stepper: Stepper, is_asked: bool, finest: f64) -> 
     let is_open = |limit: f64| missing.is_nan() || missing > limit.max(rounding);
     let (missed, of) = (quantity(Real(missing), "J"), quantity(Real(through), "J"));
     let warning = |share: String, more: String| {
-        let said = format!("the energy books miss {share} of what went through them, {missed} of {of}{more}");
+        let said = format!(
+            "the energy balance has an error of {share} of the energy throughput, {missed} of {of}{more}"
+        );
         Some(Warning::new("energy_balance", said).help(advice(stepper)))
     };
     let share = missing / through;
     if is_open(OPEN * through) && !share.is_finite() {
-        let said = format!("the energy books do not close: {missed} is missing");
+        let said = format!("the energy balance does not close: the error is {missed}");
         return Some(Warning::new("energy_balance", said).help(advice(stepper)));
     }
     if is_open(OPEN * through) {
@@ -169,11 +170,11 @@ pub fn warning(books: &Books, stepper: Stepper, is_asked: bool, finest: f64) -> 
     }
     let tolerance = match stepper.accuracy() {
         Accuracy::Tolerance(tolerance) if is_asked => tolerance,
-        // Nobody has asked for the tolerance of a walk under the name of another stepper.
+        // The tolerance is not the user's if the integrator differs from the requested stepper.
         Accuracy::Tolerance(_) | Accuracy::Step(_) | Accuracy::Frame { .. } => return None,
     };
     let unit = tolerance * through;
-    // Where no share is printed all is rounding.
+    // Everything is rounding if no ratio is printed.
     if missing <= TOLERANCES * unit || through <= rounding {
         return None;
     }
@@ -183,7 +184,7 @@ pub fn warning(books: &Books, stepper: Stepper, is_asked: bool, finest: f64) -> 
     );
     if missing <= rounding {
         let help = format!(
-            "so little moves that rounding of what is stored, {}, shows: no smaller tolerance closes the books",
+            "rounding of the stored energy, {}, limits the energy balance: a smaller tolerance has no effect",
             quantity(Real(books.largest), "J")
         );
         return said.map(|warning| warning.help(help));
@@ -192,24 +193,24 @@ pub fn warning(books: &Books, stepper: Stepper, is_asked: bool, finest: f64) -> 
         return said;
     }
     let help = format!(
-        "bodies that start so far from 0 have places rounded to {finest:.0e} u_c, more than the tolerance: no smaller one closes \
-         the books, a start nearer to 0 does"
+        "positions of bodies that start far from 0 are rounded to {finest:.0e} u_c, more than the tolerance: \
+         a smaller tolerance has no effect; start nearer to 0"
     );
     said.map(|warning| warning.help(help))
 }
 
-/// What to try where books are open.
+/// Returns advice for an error of the balance.
 fn advice(stepper: Stepper) -> &'static str {
     match stepper {
-        Stepper::Event { .. } => "take a smaller tolerance and see which digits stay",
+        Stepper::Event { .. } => "use a smaller tolerance, and compare the results",
         Stepper::Dopri5 { .. } => {
-            "its error estimate sees neither kinks nor growth of contacts: take the stepper \"event\""
+            "its error estimate covers neither kinks nor growth of contacts: use the stepper \"event\""
         }
         Stepper::Frames { .. } => {
-            "ask for a better accuracy, which takes more steps a frame, or take the stepper \"event\""
+            "use a smaller accuracy, which takes more time steps per frame, or the stepper \"event\""
         }
         Stepper::Verlet { .. } | Stepper::Rk4 { .. } => {
-            "take a shorter step, or the stepper \"event\", which controls its error"
+            "use a shorter time step, or the stepper \"event\", which controls its error"
         }
     }
 }
@@ -234,7 +235,8 @@ mod tests {
         assert!(warning(&books, Stepper::Verlet { step: 1e-6 }, true, 0.0).is_some());
     }
 
-    /// What is said of a throughput of 1 J, an elastic energy of `stored` and errors in a row, at an event and at the end, all in J.
+    /// Returns the warning for a throughput of 1 J, an elastic energy `stored`, and errors in a row, at an event and at
+    /// the end.
     fn said(stepper: Stepper, stored: f64, errors: [f64; 3]) -> Option<String> {
         let names = ["input", "kinetic", "elastic", "friction", "damping", "error"];
         let channels = names.map(|n| Channel { name: format!("energy.{n}_J"), is_state: false });
@@ -260,18 +262,18 @@ mod tests {
         let message = said(event, 0.0, [0.0, 0.0, 2e-5]).unwrap();
         assert!(
             message.ends_with(
-                "2.0e-5 of what went through them, 20.00 µJ of 1.000 J: 2000 times the tolerance of 1e-8"
+                "2.0e-5 of the energy throughput, 20.00 µJ of 1.000 J: 2000 times the tolerance of 1e-8"
             ),
             "{message}"
         );
-        // Rounding is relative to all that is stored: without a tolerance it is left out for, with one as what it is.
+        // Rounding relative to the stored energy gives no warning without a tolerance, and another advice with one.
         assert!(said(verlet, 1e11, [0.0, 0.0, 0.05]).is_none());
         assert!(
             said(event, 1e11, [0.0, 0.0, 2e-6]).is_some() && said(event, 1e13, [0.0, 0.0, 2e-6]).is_none()
         );
     }
 
-    /// A body that starts 1 m from 0 has its place to 2.2e-16 m, a hundred millionth of 22 nm.
+    /// At 1 m from 0, positions have a rounding error of 2.2e-16 m.
     #[test]
     fn a_smaller_tolerance_is_not_advised_where_places_are_rounded() {
         let books = Books { throughput: 1.0, worst: 1e-4, ..Books::new(&[]) };
@@ -282,7 +284,6 @@ mod tests {
         assert_eq!(help(1e-9, 1e-9), advice(Stepper::Event { tolerance: 1e-9 }));
     }
 
-    /// Rows between two steps count where they are as exact as the steps.
     #[test]
     fn without_dense_output_only_ends_of_steps_count() {
         let event = Stepper::Event { tolerance: 1e-8 };

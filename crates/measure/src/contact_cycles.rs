@@ -1,11 +1,11 @@
-//! The cycles of a contact, from the moments of a run and the contact's own law between them.
+//! Hysteresis cycles of a contact, evaluated from sampled states and from the contact law between them.
 //!
-//! Cycles are told as they end: of a run of any length no more is kept than the moments of the cycle under way. Those between
-//! reversals of a table, which has no periods, are told at the end of the run.
+//! A cycle is evaluated when it ends. Therefore only the samples of the current cycle are stored, whatever the length of the run. Cycles
+//! between the reversals of a table, which has no period, are evaluated at the end of the run.
 //!
-//! Nothing here is read off rows. Ends of cycles are marks, turning points are events; where the contact's law has no time in
-//! it, the way from one to the next is walked once more, and what lies between is asked of the law. Elsewhere moments are dense:
-//! peaks between them are those of polynomials, and the mean of a prescribed load is an integral of its waveform.
+//! Results do not depend on the written rows. Cycle ends are sampling times, reversals are events. If the contact law does not depend on
+//! time, it is evaluated again between the samples. Otherwise the samples are dense: extremes are those of interpolating polynomials. The
+//! mean of a prescribed load is the integral of its waveform.
 
 mod judged;
 mod load;
@@ -29,60 +29,59 @@ use stickslip_drive::Waveform;
 use stickslip_drive::scene::Side;
 use walk::{Question, Walk};
 
-/// Change of a force below this share of the limit of friction is rounding.
+/// Relative change of a force, compared with the friction limit, that counts as rounding.
 const ROUNDING: f64 = 1e-9;
-/// Amplitude of u in natural displacements that rounding alone makes; what a fixed step may make of rest.
+/// Amplitude of u below which a contact is at rest, relative to the natural displacement. `FIXED` applies to fixed time steps.
 const STILL: f64 = 1e-12;
 const FIXED: f64 = 1e-9;
-/// Share of the displacement range over which a secant is taken.
+/// Fraction of the displacement range over which a secant stiffness is computed.
 const WINDOW: f64 = crate::fretting::STIFFNESS_WINDOW;
 
-/// One cycle of a contact that comes back along u.
+/// Evaluated cycle of a contact whose displacement u returns to its initial value.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct CycleFigures {
     /// Start and end, s.
     pub time: [f64; 2],
-    /// Whether the force comes back as well; otherwise there is no loop, and ratios say nothing.
+    /// Whether the tangential force returns, too. Otherwise the cycle is no closed loop and has no ratios.
     pub is_closed: bool,
-    /// Amplitudes, opening, and as E_d what is lost, to friction and, as far as it is known, to damping; stiffnesses are the contact's
-    /// own, of full stick.
+    /// Amplitudes, opening, dissipated energy and stiffnesses. The dissipated energy E_d includes known damping losses. The stiffnesses are
+    /// the contact stiffness in full stick.
     pub cycle: Cycle,
-    /// What the contact's own damping has taken, J, 0 without any; none where other parts lose energy as well, from whose share it
-    /// is not told apart.
+    /// Energy dissipated by the damping of the contact, J; 0 without damping. `None` if it cannot be separated from other damping losses.
     pub damping: Option<f64>,
-    /// Secants of the first tenth of the way back, after the maximum and after the minimum of u, N/m.
+    /// Secant stiffnesses over the first tenth of the displacement range, after the maximum and after the minimum of u, N/m.
     pub secants: [Option<f64>; 2],
     /// Mean normal force, N.
     pub normal: f64,
-    /// Indentation at its start, m.
+    /// Indentation at the start, m.
     pub depth: f64,
-    /// Whether u moves by less than what can be told from rest: then there is no loop, however its ends lie.
+    /// Whether the range of u is below the resolution. Such a cycle has no loop.
     pub is_still: bool,
 }
 
 impl CycleFigures {
-    /// Friction work, J.
+    /// Returns the friction work, J.
     pub fn friction(&self) -> f64 {
         self.cycle.dissipated - self.damping.unwrap_or(0.0)
     }
 
-    /// `E_d`, J: all that is lost; none where damping's part is not known.
+    /// Returns the dissipated energy `E_d`, J. Returns `None` if the damping losses are unknown.
     pub fn dissipated(&self) -> Option<f64> {
         self.damping.map(|_| self.cycle.dissipated)
     }
 
-    /// A quantity that only a loop has.
+    /// Returns the value if the loop is closed.
     pub fn of_loop(&self, value: Option<f64>) -> Option<f64> {
         value.filter(|_| self.is_closed)
     }
 
-    /// A quotient with `E_d`: only a loop has it, and one all of whose losses are known.
+    /// Returns a ratio with `E_d` if the loop is closed and all of its losses are known.
     pub fn ratio(&self, value: Option<f64>) -> Option<f64> {
         self.of_loop(value).filter(|_| self.damping.is_some())
     }
 }
 
-/// The moments of a contact, from the start of the cycle under way or, where cycles are told only at the end, from the first.
+/// Samples of a contact since the start of the current cycle, or since the start of the run if cycles are evaluated at its end.
 #[derive(Debug, Clone, Default)]
 struct Track {
     t: Vec<f64>,
@@ -92,11 +91,11 @@ struct Track {
     normal: Vec<f64>,
     friction: Vec<f64>,
     damping: Vec<f64>,
-    /// Whether something bends there: an event.
+    /// Whether the sample is an event, at which the time history may have a kink.
     bends: Vec<bool>,
 }
 
-/// A moment of a contact: u and d, m, forces, N, and what friction and damping have taken so far, J.
+/// Sample of a contact: u and d, m, forces, N, and the energies dissipated by friction and damping so far, J.
 #[derive(Debug, Clone, Copy)]
 struct Moment {
     u: f64,
@@ -108,19 +107,19 @@ struct Moment {
     bends: bool,
 }
 
-/// What a contact's figures are taken with, beside its moments.
+/// Data for the evaluation of a cycle, in addition to the samples.
 struct Setup<'a> {
     law: &'a Interface,
     /// Number of identical contacts.
     count: f64,
-    /// Range of u up to which it stands still, m.
+    /// Range of u below which the contact is at rest, m.
     still: f64,
     load: Option<&'a Load>,
-    /// Whether moments are so dense that extremes between them are those of polynomials.
+    /// Whether the samples are dense enough for interpolating polynomials.
     is_dense: bool,
-    /// Whether its force never jumps at an event.
+    /// Whether the force is continuous at events.
     is_continuous: bool,
-    /// Whether what its own damping takes is known.
+    /// Whether the damping losses of the contact are known.
     knows_damping: bool,
 }
 
@@ -133,13 +132,13 @@ impl Track {
         self.columns().into_iter().zip(values).for_each(|(column, value)| column.push(value));
     }
 
-    /// All but time, in the order of a moment.
+    /// Returns all columns except time, in the order of the fields of [`Moment`].
     fn columns(&mut self) -> [&mut Vec<f64>; 6] {
         let Self { u, d, force, normal, friction, damping, .. } = self;
         [u, d, force, normal, friction, damping]
     }
 
-    /// Forgets all but the last moment.
+    /// Removes all samples except the last one.
     fn keep_last(&mut self) {
         let gone = self.t.len().saturating_sub(1);
         self.columns().into_iter().for_each(|column| drop(column.drain(..gone)));
@@ -153,7 +152,7 @@ impl Track {
         let ((low, high), (least, most)) = (extent(u), extent(force));
         let middle = least + 0.5 * (most - least);
         let is_still = high - low <= *still;
-        // Along straight lines from event to event a loop has no shape.
+        // Straight lines between events do not describe a loop.
         let is_known = walk.is_some() || setup.is_dense;
         let mut questions =
             if is_still || !is_known { Vec::new() } else { self.questions(span, (low, high), middle) };
@@ -164,7 +163,7 @@ impl Track {
         let secant = |extreme: f64| {
             let found = questions.iter().find(|q| q.u.is_some() && q.extreme == extreme)?;
             let (from, way) = (self.at_extreme(span, extreme)?, found.u? - extreme);
-            // A contact at rest has no way back.
+            // A contact at rest has no secant.
             (way != 0.0).then(|| (found.answer - self.force[from]) / way)
         };
         let tangent = |extreme: f64| {
@@ -177,7 +176,7 @@ impl Track {
             Some(load) => load.mean(law, time),
             None => mean_over_time(&self.t[a..=b], &self.normal[a..=b]),
         };
-        // What moves in the last digits has no loop.
+        // Changes within rounding have no loop.
         let moves = most - least > ROUNDING * law.friction() * normal;
         let peaks = |values: &[f64]| {
             if setup.is_dense {
@@ -187,7 +186,7 @@ impl Track {
             }
         };
         let ((left, right), (pulled, pushed)) = (peaks(&self.u), peaks(&self.force));
-        // Polynomials beside an event know nothing of the limit of friction, beyond which nothing but damping bears.
+        // Polynomials near an event may exceed the friction limit. Without damping, the force cannot.
         let limit =
             if law.damping() > 0.0 { f64::INFINITY } else { law.friction() * extent(&self.normal[a..=b]).1 };
         let (pulled, pushed) = (pulled.max(least.min(-limit)), pushed.min(most.max(limit)));
@@ -197,7 +196,7 @@ impl Track {
             displacement_amplitude: 0.5 * (right - left),
             force_amplitude: 0.5 * (pushed - pulled),
             half_opening: self.half_opening(&questions, middle).filter(|_| moves && is_closed),
-            // Less than nothing is what a tolerance leaves of a contact that sticks.
+            // A contact in full stick may have a friction work slightly below 0, within the tolerance.
             dissipated: (self.friction[b] - self.friction[a]).max(0.0) + damping.unwrap_or(0.0).max(0.0),
             stiffness_after_maximum: tangent(high),
             stiffness_after_minimum: tangent(low),
@@ -214,7 +213,7 @@ impl Track {
         }
     }
 
-    /// Where F_x passes the middle of its range, and at u after a tenth of the way back from either extreme.
+    /// Returns the points to be evaluated: where F_x crosses the middle of its range, and the ends of both secants.
     fn questions(&self, span: &Range<usize>, (low, high): (f64, f64), middle: f64) -> Vec<Question> {
         let changes = |i: &usize| (self.force[*i] < middle) != (self.force[*i + 1] < middle);
         let zeros =
@@ -222,7 +221,7 @@ impl Track {
         let window = WINDOW * (high - low);
         let back = |(extreme, u): (f64, f64)| {
             let from = self.at_extreme(span, extreme)?;
-            // Round the loop: it is closed, and the way back may lie before the extreme.
+            // The search wraps around, because the end of the secant may be before the extreme in time.
             let mut on = (from..span.end).chain(span.start..from);
             let after = on.find(|i| (self.u[*i + 1] - extreme).abs() >= window)?;
             Some(Question { after, u: Some(u), extreme, answer: 0.0 })
@@ -233,13 +232,13 @@ impl Track {
         questions
     }
 
-    /// The last moment at an extreme before the motion turns; that at the end of the cycle is the one at its start.
+    /// Returns the last sample at an extreme before u reverses. If the extreme is at both ends of the cycle, it is the last sample.
     fn at_extreme(&self, span: &Range<usize>, extreme: f64) -> Option<usize> {
         (span.start..=span.end)
             .rfind(|i| self.u[*i] == extreme && (*i == span.end || self.u[*i + 1] != extreme))
     }
 
-    /// The answer along a straight line between two moments.
+    /// Evaluates a point by linear interpolation between two samples.
     fn chord(&self, question: &Question, middle: f64) -> f64 {
         let (i, j) = (question.after, question.after + 1);
         match question.u {
@@ -254,8 +253,9 @@ impl Track {
         }
     }
 
-    /// Half the distance between the places where a falling force and a rising one pass the middle of their range; none where
-    /// they pass it more than once.
+    /// Returns half the distance in u between the falling and the rising crossing of the middle force, m.
+    ///
+    /// Returns `None` if there is more than one crossing of either kind.
     fn half_opening(&self, questions: &[Question], middle: f64) -> Option<f64> {
         let zeros = questions.iter().filter(|question| question.u.is_none());
         let (falling, rising): (Vec<&Question>, Vec<&Question>) =
@@ -267,7 +267,7 @@ impl Track {
     }
 }
 
-/// Whether a body of contact `c` moves as forces say.
+/// Returns whether the equations of motion determine the motion of a body of contact `c`.
 pub fn is_integrated(setting: &Setting, c: usize) -> bool {
     let scene = &setting.scenario.scene;
     let sides = scene.contacts.get(c).into_iter().flat_map(|contact| contact.part.between);
@@ -278,8 +278,9 @@ pub fn is_integrated(setting: &Setting, c: usize) -> bool {
     bodies.any(|body| body.part.is_free() || body.part.is_balanced())
 }
 
-/// Range of u up to which contact `c` stands still, m: twice the amplitude that rounding may leave, and, where its bodies are
-/// integrated, what the stepper promises, both of the natural displacement.
+/// Returns the range of u below which contact `c` counts as at rest, m.
+///
+/// It is twice the natural displacement times the tolerance of the integrator, or times the rounding error for prescribed motion.
 fn still(setting: &Setting, c: usize) -> f64 {
     let natural = setting.model.contact_natural(c).map_or(0.0, |natural| natural.displacement);
     let promised = match setting.stepper() {
@@ -290,13 +291,13 @@ fn still(setting: &Setting, c: usize) -> f64 {
     2.0 * natural * promised.max(STILL)
 }
 
-/// The waveform without a period that a body of a contact follows.
+/// Returns the non-periodic waveform that a body of contact `c` follows.
 pub fn table_of(setting: &Setting, c: usize) -> Option<&Waveform> {
     let waveforms = followed(setting, c).filter_map(|w| setting.scenario.scene.waveforms.get(w));
     waveforms.map(|waveform| &waveform.part).find(|waveform| waveform.period().is_none())
 }
 
-/// Mean by the trapezium rule; of no time the first value.
+/// Returns the mean over time by the trapezoidal rule, or the first value if the duration is 0.
 fn mean_over_time(t: &[f64], values: &[f64]) -> f64 {
     let spans = t.windows(2).zip(values.windows(2));
     let area: f64 = spans.map(|(t, v)| 0.5 * (v[0] + v[1]) * (t[1] - t[0])).sum();

@@ -1,4 +1,4 @@
-//! The way of a contact through (u, F_x), fine enough to be drawn and measured.
+//! Path of a contact in the (u, F_x) plane, refined for drawing and evaluation.
 
 mod motion;
 
@@ -8,33 +8,34 @@ use crate::trail::Trail;
 use motion::Motion;
 use stickslip_contact::{Apex, Interface, Memory, Segment};
 
-/// Samples between the limit forces of one sign and the other.
+/// Number of points for a force change from one friction limit to the opposite one.
 const FINENESS: f64 = 128.0;
-/// Most parts of the way between two samples, where it is walked along the motion.
+/// Maximum number of points between two samples if the contact is replayed along the motion.
 const PARTS: f64 = 64.0;
-/// Parts of a bent way: so many times the root of its bend. A chord then leaves it by 1/110² of the stroke, a tenth of a pixel.
+/// Number of points of a curved path, relative to the square root of its curvature measure. A chord then deviates from it by 1/110² of the
+/// stroke, a tenth of a pixel.
 const BENDS: f64 = 110.0;
-/// Parts of any way along which the force changes by more than [`STILL`] of its range.
+/// Minimum number of points if the force changes by more than [`STILL`] of its range.
 const LEAST: f64 = 8.0;
 const STILL: f64 = 1e-3;
-/// Where the force found at a sample is off by more of the range of forces, the motion is not known between samples that far
-/// apart; what it is off by less is shared out along the way.
+/// Maximum deviation of the replayed force from the sampled one, relative to the force range. With larger deviations no points are
+/// inserted. Smaller ones are distributed along the path.
 const OFF: f64 = 0.05;
-/// Samples from which on there are enough of them.
+/// Number of samples from which no points are inserted.
 const MANY: usize = 50_000;
 
-/// The way of contact `c`, all identical contacts together. Without damping the law has no time in it: between two samples on one
-/// branch the force follows from the way alone, and all turning points are events. So the contact is walked once more through the
-/// samples, and asked in between: under a constant load along the straight way, for the force depends on u alone; where the load
-/// varies, along the motion of its bodies, on the cubics through their places and velocities. Elsewhere the samples stand alone.
+/// Returns the path of contact `c`, all identical contacts together, with points inserted between the samples.
+///
+/// Without damping the contact law does not depend on time, and all reversals are events. Therefore the contact is replayed along the
+/// samples and evaluated between them. Under a constant load, u is interpolated linearly. Under a varying load, the motion of the bodies is
+/// interpolated by cubic polynomials through positions and velocities. Otherwise the samples are returned unchanged.
 pub fn contact_path(setting: &Setting, c: usize, series: &Series) -> Trail {
     let Some((name, law)) = setting.model.contacts().nth(c) else { return Trail::default() };
     let [u, d, force] = ["u_m", "d_m", "fx_N"].map(|quantity| series.column(name, quantity));
     let samples = Trail { t: series.time().to_vec(), x: u.to_vec(), y: force.to_vec() };
     let Some(memory) = setting.start.memories().get(c) else { return samples };
     let count = f64::from(setting.count(c));
-    // Where events are left out of a series, turning points may be missing in it.
-    // The moment before a jump may be none of the series.
+    // If events are omitted, reversals may be missing. The sample before a jump may be missing, too.
     if is_walked(setting, c) && !setting.has_jumps() && setting.scenario.written.has_all_events() {
         let d = d.first().copied().unwrap_or(0.0);
         return refined(&samples, law, memory.clone(), (d, count));
@@ -47,14 +48,15 @@ pub fn contact_path(setting: &Setting, c: usize, series: &Series) -> Trail {
     }
 }
 
-/// Whether the force of contact `c` between two moments of a run follows from the contact's own law: that has no time in it, and
-/// all turning points are events, or marks where something jumps: a straight way. What never rubs has no events.
+/// Returns whether the tangential force of contact `c` between two samples follows from its law and the linearly interpolated u.
+///
+/// This requires a law without time dependence, friction, and events at all reversals. Jumps are allowed, because they are sampled.
 pub fn is_walked(setting: &Setting, c: usize) -> bool {
     let rubs = setting.model.contact_natural(c).is_some_and(|natural| natural.force > 0.0);
     rubs && locates(setting) && setting.has_law_without_time(c)
 }
 
-/// Whether all turning points of a run are events, and nothing jumps.
+/// Returns whether all reversals of a run are events and no input jumps.
 fn knows_turns(setting: &Setting) -> bool {
     !setting.has_jumps() && locates(setting)
 }
@@ -63,8 +65,9 @@ fn locates(setting: &Setting) -> bool {
     setting.model.effective(setting.scenario.plan.stepper).locates_events()
 }
 
-/// The way with points between its samples where the load varies: the contact is walked along the motion of its bodies. None
-/// where it cannot be.
+/// Replays the contact along the motion of its bodies under a varying load and inserts points between the samples.
+///
+/// Returns `None` if the contact law rejects the motion.
 fn moved(
     samples: &Trail,
     (law, d, count): (&Interface, &[f64], f64),
@@ -102,7 +105,7 @@ fn moved(
     Some(path)
 }
 
-/// The way with points between its samples; at indentation d, of `count` contacts.
+/// Inserts points between the samples at constant indentation d, for `count` identical contacts.
 fn refined(samples: &Trail, law: &Interface, mut memory: Memory, (d, count): (f64, f64)) -> Trail {
     let mut path = Trail::default();
     for i in 0..samples.t.len() {
@@ -117,7 +120,7 @@ fn refined(samples: &Trail, law: &Interface, mut memory: Memory, (d, count): (f6
     path
 }
 
-/// Points between samples i-1 and i, as many as the force changes.
+/// Inserts points between samples i-1 and i. Their number is proportional to the force change.
 fn between(samples: &Trail, i: usize, of: (&Interface, &Memory, f64, f64), path: &mut Trail) {
     let (law, memory, d, count) = of;
     let change = (samples.y[i] - samples.y[i - 1]).abs();

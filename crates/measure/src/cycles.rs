@@ -1,27 +1,24 @@
-//! Cuts a long record into cycles.
+//! Splits a long record into cycles.
 
 use crate::series::{SeriesError, check, check_lengths, check_positive, check_time, extent};
 use std::ops::Range;
 
 pub use stickslip_record::noise;
 
-/// Share of its range to within which u comes back at the end of a cycle.
+/// Maximum distance between start and end of a closed cycle, relative to the range of u.
 pub const CLOSED: f64 = 0.01;
-/// Shares of the range of u that a way back may have to go to count as a reversal, and by how much of the time more cycles have to be with a
-/// larger one.
+/// Tried thresholds of a reversal, relative to the range of u. A larger one must increase the time covered by cycles by the factor `MORE`.
 const WAYS_BACK: [f64; 6] = [CLOSED, 0.02, 0.05, 0.1, 0.2, 0.4];
 const MORE: f64 = 1.05;
-/// Share of its range to within which u comes back with noise on it: swings that grow do not.
+/// Upper limit of the closing tolerance for noisy records, relative to the range of u.
 const ALIKE: f64 = 0.1;
 
-/// Where a cycle ends and the next begins.
+/// Rule for the ends of cycles.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Cut {
-    /// From one reversal of u to the next of the same kind; what comes before the first reversal (the first
-    /// loading) and after the last is dropped.
+    /// From one reversal of u to the next one of the same kind. The parts before the first and after the last reversal are omitted.
     Reversals {
-        /// A reversal counts once u has come back by more than this, m, above 0; above the noise, below the
-        /// smallest stroke.
+        /// Minimum displacement after a reversal that confirms it, m, above 0. Choose it above the noise and below the smallest stroke.
         least: f64,
     },
     /// At t₀, t₀ + T, t₀ + 2T, …
@@ -33,12 +30,13 @@ pub enum Cut {
     },
 }
 
-/// Cuts (t, u, q) into cycles. Each range holds both ends of its cycle, so neighbours share a sample and the
-/// path of one cycle is complete; a trailing part that is no whole cycle is dropped.
+/// Splits a record (t, u, q) into cycles and returns their index ranges.
+///
+/// Each range includes both end samples, so neighbouring cycles share a sample. An incomplete cycle at the end is omitted. Without
+/// reversals the list is empty.
 ///
 /// # Errors
-/// Series of different lengths, not finite, with decreasing times, or shorter than a period. No reversals is no
-/// error: the list is then empty.
+/// The series differ in length, are not finite, have decreasing times, or are shorter than one period.
 pub fn split_cycles(t: &[f64], u: &[f64], q: &[f64], cut: Cut) -> Result<Vec<Range<usize>>, SeriesError> {
     check_time(t, 2)?;
     check_lengths(("u", u), ("t", t))?;
@@ -56,9 +54,10 @@ pub fn split_cycles(t: &[f64], u: &[f64], q: &[f64], cut: Cut) -> Result<Vec<Ran
     Ok(places.windows(2).map(|ends| ends[0]..ends[1] + 1).collect())
 }
 
-/// Cycles from one reversal to the next of its kind at whose end u comes back, or which move by no more than `still`, m; each
-/// range holds both ends. Of ways back that are too short to count, those of noise on a measured record, and of small loops within larger
-/// ones, it takes the shortest with which cycles are most of the time.
+/// Returns the closed cycles between reversals of the same kind, as index ranges that include both end samples.
+///
+/// A cycle is closed if u returns, or if its range is at most `still` (m). Several reversal thresholds are tried, because noise and small
+/// inner loops cause additional reversals. The smallest threshold is used whose cycles cover the most time.
 #[must_use]
 pub fn returning_cycles(t: &[f64], u: &[f64], still: f64) -> Vec<Range<usize>> {
     let (low, high) = extent(u);
@@ -75,7 +74,7 @@ pub fn returning_cycles(t: &[f64], u: &[f64], still: f64) -> Vec<Range<usize>> {
     best.1
 }
 
-/// Whether u comes back to within a share of its range, or moves by no more than `still`, m.
+/// Returns whether u returns within a fraction `share` of its range, or its range is at most `still`, m.
 #[must_use]
 pub fn returns(u: &[f64], still: f64, share: f64) -> bool {
     let (low, high) = extent(u);
@@ -83,8 +82,9 @@ pub fn returns(u: &[f64], still: f64, share: f64) -> bool {
     high - low <= still || way.abs() <= share * (high - low)
 }
 
-/// Places of the reversals of u, alternately maxima and minima; each is confirmed by a way back longer than
-/// `least`. The start of the record counts as none.
+/// Returns the indices of the reversals of u, alternately maxima and minima.
+///
+/// Each reversal is confirmed by a displacement of more than `least` after it. The start of the record is not a reversal.
 #[must_use]
 pub fn reversals(u: &[f64], least: f64) -> Vec<usize> {
     let mut found = Vec::new();
@@ -112,12 +112,12 @@ pub fn reversals(u: &[f64], least: f64) -> Vec<usize> {
     found
 }
 
-/// The sample nearest to each t₀ + kT inside the record.
+/// Returns the index of the sample nearest to each t₀ + kT within the record.
 fn period_starts(t: &[f64], start: f64, period: f64) -> Result<Vec<usize>, SeriesError> {
     check_positive("period", period)?;
     check("start", &[start], 1)?;
     let (first, last) = (t[0], t[t.len() - 1]);
-    // Sums of rounded time steps miss the end of a period by a little.
+    // Sums of rounded time steps may miss the end of a period slightly.
     let slack = 1e-6 * period;
     let mut places = Vec::new();
     let mut k = ((first - slack - start) / period).ceil().max(0.0);
@@ -130,7 +130,7 @@ fn period_starts(t: &[f64], start: f64, period: f64) -> Result<Vec<usize>, Serie
         let before = after.saturating_sub(1);
         let place = if time - t[before] < t[after] - time { before } else { after };
         if places.last().is_some_and(|&p| p >= place) {
-            // Fewer samples than periods.
+            // There are fewer samples than periods.
             return Err(SeriesError::TooShort { series: "t", least: places.len() + 2, got: t.len() });
         }
         places.push(place);
@@ -147,7 +147,7 @@ mod tests {
     use super::*;
     use std::f64::consts::TAU;
 
-    /// u = sin(2πt) over `cycles` s, `n` samples per cycle.
+    /// Returns u = sin(2πt) over `cycles` s with `n` samples per cycle.
     fn sine(cycles: usize, n: usize) -> (Vec<f64>, Vec<f64>) {
         let t: Vec<f64> = (0..=cycles * n).map(|i| i as f64 / n as f64).collect();
         let u = t.iter().map(|t| (TAU * t).sin()).collect();
@@ -173,7 +173,7 @@ mod tests {
         assert!(cycles.iter().all(|c| c.len().abs_diff(101) <= 14), "{cycles:?}");
     }
 
-    /// Five swings of 1, each with a loop of 0.06 in it: what is taken are the swings, with noise of 0.04 on them as well.
+    /// Five oscillations of amplitude 1 with inner loops of 0.06, without and with noise of 0.04: only the oscillations count.
     #[test]
     fn loops_within_loops_and_noise_make_no_cycles() {
         let (t, u) = sine(5, 1000);
@@ -185,7 +185,7 @@ mod tests {
             assert_eq!(cycles.len(), 4);
             assert!(cycles.iter().all(|cycle| cycle.len().abs_diff(1001) < 60), "{cycles:?}");
         }
-        // Swings that grow come back nowhere.
+        // Growing oscillations are not closed.
         let (t, mut u) = sine(5, 100);
         u.iter_mut().zip(&t).for_each(|(u, t)| *u *= (0.5 * t).exp());
         assert!(returning_cycles(&t, &u, 0.0).is_empty());
@@ -196,7 +196,7 @@ mod tests {
         let (t, u) = sine(3, 10);
         let cut = Cut::Period { start: 0.5, period: 1.0 };
         assert_eq!(split_cycles(&t, &u, &u, cut).unwrap(), [5..16, 15..26]);
-        // A start before the record, and sums of steps that round.
+        // The start is before the record, and sums of time steps are rounded.
         let t: Vec<f64> = (0..=30).scan(0.0, |s, _| Some(std::mem::replace(s, *s + 0.1))).collect();
         let cut = Cut::Period { start: 0.0, period: 1.0 };
         assert_eq!(split_cycles(&t, &u, &u, cut).unwrap(), [0..11, 10..21, 20..31]);

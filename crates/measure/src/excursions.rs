@@ -1,7 +1,7 @@
-//! How far bodies turn, roll and fall in a run: beyond some way the model's kinematics are no longer those of the bodies.
+//! Detects rotation, rolling and falling of bodies beyond the validity of the model's kinematics.
 //!
-//! Angles are small, and contact points stay where they are on their bodies. Extremes over rows and events are kept, of bodies that can
-//! turn or lift alone.
+//! The model assumes small angles and contact points that are fixed on their bodies. Extremes over rows and events are kept for bodies that
+//! can rotate or lift off.
 
 use crate::Setting;
 use crate::warning::Warning;
@@ -10,65 +10,65 @@ use stickslip_drive::scene::{Freedom, SMALL_ANGLE, Scene, Side};
 use stickslip_quantity::Real;
 use stickslip_quantity::quantity;
 
-/// Places of channels by their names.
+/// Channel indices by name.
 type Places<'a> = HashMap<&'a str, usize>;
 
-/// The extremes.
+/// Extremes of rotation, rolling and falling during a run.
 pub struct Excursions {
     turns: Vec<Turn>,
     rolls: Vec<Roll>,
     falls: Vec<Fall>,
 }
 
-/// A body that turns.
+/// A body that rotates.
 struct Turn {
     body: usize,
-    /// Place of its pitch.
+    /// Channel index of its pitch.
     place: usize,
     /// Largest angle, rad.
     most: f64,
 }
 
-/// A contact between bodies that turn.
+/// A contact with a rotating body.
 struct Roll {
     contact: usize,
-    /// Places of `d_m` and `a_m`.
+    /// Channel indices of `d_m` and `a_m`.
     places: [usize; 2],
-    /// Places of the pitches of its bodies; none of one that does not turn.
+    /// Channel indices of the pitches of its bodies. `None` for a body that does not rotate.
     pitches: [Option<usize>; 2],
-    /// Least and largest angle between its bodies since they touched, rad.
+    /// Smallest and largest angle between its bodies since they touched, rad.
     range: [f64; 2],
-    /// Largest indentation since then, m, and the contact radius there, m.
+    /// Largest indentation since the touch, m, and the contact radius at this time, m.
     deepest: [f64; 2],
-    /// Way that it has rolled in one touch, m, and the contact radius, m: where they have the largest ratio.
+    /// Rolled distance during one touch, m, and contact radius, m, at the largest ratio of both.
     worst: [f64; 2],
 }
 
-/// A body that nothing but contacts keeps from falling.
+/// A body that is supported by contacts only.
 struct Fall {
     body: usize,
-    /// Place of its z, and the way in which it falls along z: 1 down, -1 up.
+    /// Channel index of z, and sign of the direction of gravity along z: 1 down, -1 up.
     place: usize,
     down: f64,
     contacts: Vec<Catch>,
-    /// Height of its reference point over its contact points, or the largest contact radius where that is more, m.
+    /// Height of the reference point above the contact points, or the largest contact radius if it is larger, m.
     height: f64,
-    /// Farthest that it was below where they close, while all were open, m.
+    /// Largest distance below the position at which its contacts close, while all were open, m.
     farthest: f64,
 }
 
-/// A contact of it.
+/// A supporting contact of a body.
 struct Catch {
-    /// Places of `d_m` and `a_m`.
+    /// Channel indices of `d_m` and `a_m`.
     places: [usize; 2],
-    /// Place of the z of the other body; none where that does not move.
+    /// Channel index of z of the other body. `None` if this body does not move.
     other: Option<usize>,
-    /// Its z over that of the other body where they touch, as they are drawn, m.
+    /// Height of the body relative to the other body when the contact closes, m.
     level: f64,
 }
 
 impl Excursions {
-    /// Nothing yet.
+    /// Creates the detection for a model.
     pub fn new(setting: &Setting, places: &Places<'_>) -> Self {
         let scene = &setting.scenario.scene;
         let place = |name: &str, quantity: &str| places.get(format!("{name}.{quantity}").as_str()).copied();
@@ -97,7 +97,7 @@ impl Excursions {
         Self { turns: turns.collect(), rolls: rolls.collect(), falls: falls.collect() }
     }
 
-    /// Takes a row, or the row of an event.
+    /// Adds a row of all channels.
     pub fn row(&mut self, values: &[f64]) {
         let at = |place: usize| values.get(place).copied().unwrap_or(0.0);
         for turn in &mut self.turns {
@@ -107,7 +107,7 @@ impl Excursions {
         self.falls.iter_mut().for_each(|fall| fall.row(at));
     }
 
-    /// What went too far, one of a kind: the farthest, with its number.
+    /// Returns at most one warning of each kind, about the largest excess.
     pub fn warnings(&self, setting: &Setting) -> impl Iterator<Item = Warning> {
         [self.angle(setting), self.rolling(setting), self.fall(setting)].into_iter().flatten()
     }
@@ -121,11 +121,10 @@ impl Excursions {
         let name = &setting.scenario.scene.bodies.get(turn.body)?.name;
         let [angle, small] = [turn.most, SMALL_ANGLE].map(|angle| quantity(Real(angle), "rad"));
         let message = format!(
-            "{name} turns by {angle}, beyond small angles of {small}: its points go on along straight lines, where they would go \
-             round, and lie off by θ²/2 of their levers"
+            "{name} rotates by {angle}, beyond the limit of small angles, {small}: its points move along \
+             straight lines instead of arcs, with an error of θ²/2 of their lever arms"
         );
-        let help =
-            "start it slower, load it less, give it a second contact or a spring, or run for a shorter time";
+        let help = "reduce its initial velocity or its load, add a second contact or a spring, or simulate a shorter time";
         Some(Warning::new("angle", message).help(help))
     }
 
@@ -135,12 +134,12 @@ impl Excursions {
         let name = &setting.scenario.scene.contacts.get(contact).filter(|_| way > radius)?.name;
         let [way, radius] = [way, radius].map(|length| quantity(Real(length), "m"));
         let message = format!(
-            "{name} rolls by {way}, more than its contact radius of {radius}: a contact stays on the same points of its bodies, where \
-             rolling would take it on to fresh ones, which remember nothing"
+            "{name} rolls by {way}, more than its contact radius of {radius}: the model keeps the contact on \
+             the same points of the bodies, so its slip memory is wrong"
         );
         Some(
             Warning::new("rolling", message)
-                .help("what it holds and loses while it rolls is not to be trusted"),
+                .help("tangential force and friction work are not reliable while the contact rolls"),
         )
     }
 
@@ -150,11 +149,10 @@ impl Excursions {
         let name = &setting.scenario.scene.bodies.get(fall.body)?.name;
         let [descent, height] = [fall.farthest, fall.height].map(|length| quantity(Real(length), "m"));
         let message = format!(
-            "{name} falls through the ground, or what else it stood on: it was {descent} below where its contacts close, more than its \
-             height of {height} over them, and all were open"
+            "{name} falls through the ground or its support: it was {descent} below the position at which \
+             its contacts close, more than its height of {height} above them, and all contacts were open"
         );
-        let help =
-            "bodies touch at their contacts alone: give it one below, or a spring; did it turn too far?";
+        let help = "bodies touch only at their contacts: add a contact below the body, or a spring; check its rotation";
         Some(Warning::new("through_ground", message).help(help))
     }
 }
@@ -179,8 +177,10 @@ impl Roll {
         }
     }
 
-    /// The farthest that it has rolled in one touch: the angle times the radius of curvature, which is a²/d of a ball; what else
-    /// turns on an edge or a tip has left its contact where a²/d times the angle is a, too.
+    /// Returns the largest rolled distance of one touch, m, and the contact radius, m.
+    ///
+    /// The distance is the angle times a²/d, which is the radius of curvature of a ball. For edges and tips, the contact has left its point
+    /// when this distance equals a, too.
     fn farthest(&self) -> [f64; 2] {
         let [d, a] = self.deepest;
         let now = [(self.range[1] - self.range[0]) * a * a / d, a];
@@ -189,7 +189,9 @@ impl Roll {
 }
 
 impl Fall {
-    /// One that gravity pulls along a free z, and that no spring and no actuator holds; contacts with the heights over them.
+    /// Returns the fall detection of a body that gravity moves along a free z.
+    ///
+    /// Returns `None` if a spring or an actuator holds the body. `contacts` are its contacts with their heights.
     fn of(
         scene: &Scene,
         body: usize,
@@ -219,7 +221,7 @@ impl Fall {
     }
 }
 
-/// A way over a length; 0 where neither is.
+/// Returns a distance divided by a length, or 0 if the length is 0.
 fn ratio([way, length]: [f64; 2]) -> f64 {
     if length > 0.0 { way / length } else { 0.0 }
 }

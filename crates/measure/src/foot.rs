@@ -1,25 +1,26 @@
-//! The foot: the body that the waveform of the figures moves under the body that steps.
+//! The foot: the body below the stepping body that the waveform of the scenario's `figures` moves.
 
 use crate::Setting;
 use stickslip_drive::scene::{Direction, Freedom, Side, Varying};
 
-/// How the waveform moves a foot.
+/// Drive of the foot.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Foot {
-    /// Its x follows the waveform.
+    /// The x coordinate of the foot follows the waveform.
     Follows,
-    /// A stack that the waveform commands moves it: it may lag behind, ring and fall short.
+    /// A piezo stack moves the foot. The foot may lag behind the waveform, ring, or have a smaller stroke.
     Driven {
-        /// Its place among the bodies.
+        /// Index of the foot among the bodies.
         body: usize,
-        /// The place of the stack among the actuators.
+        /// Index of the stack among the actuators.
         stack: usize,
     },
 }
 
 impl Foot {
-    /// That of a setting's figures: of the bodies that touch the one that steps, the one that the waveform of the figures moves. None without
-    /// such a body, and with two that are driven apart.
+    /// Returns the foot of the scenario's `figures`: a body in contact with the stepping body that the waveform moves.
+    ///
+    /// Returns `None` if there is no such body, or if two bodies are driven differently.
     pub fn of(setting: &Setting) -> Option<Self> {
         let (scene, figures) = (&setting.scenario.scene, setting.scenario.figures);
         let (body, waveform) = (figures.body?, figures.waveform?);
@@ -37,7 +38,7 @@ impl Foot {
         feet.all(|foot| foot == first).then_some(first)
     }
 
-    /// The column with the voltage of its stack; none where no driver makes that.
+    /// Returns the name of the channel with the stack voltage. Returns `None` without a stack or a driver.
     pub fn voltage(self, setting: &Setting) -> Option<String> {
         let Self::Driven { stack, .. } = self else { return None };
         let name = &setting.scenario.scene.actuators.get(stack)?.name;
@@ -46,7 +47,7 @@ impl Foot {
         has_driver.then(|| format!("{name}.voltage_V"))
     }
 
-    /// The body whose motion has to be watched for its travel.
+    /// Returns the body whose motion must be recorded to determine the stroke.
     pub fn driven(self) -> Option<usize> {
         match self {
             Self::Follows => None,
@@ -55,7 +56,7 @@ impl Foot {
     }
 }
 
-/// The stack that a waveform commands and that moves a body along x.
+/// Returns the stack that the waveform commands and that moves the body along x.
 fn stack(setting: &Setting, body: usize, waveform: usize) -> Option<usize> {
     let scene = &setting.scenario.scene;
     scene.actuators.iter().position(|it| {

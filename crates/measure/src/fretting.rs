@@ -1,54 +1,55 @@
-//! The quantities of one fretting cycle.
+//! Evaluation of one fretting cycle.
 
 use crate::series::{SeriesError, check, check_lengths, extent, mean, sum};
 
-/// Share of the displacement range after a reversal over which the tangential stiffness is fitted.
+/// Fraction of the displacement range after a reversal over which the tangential stiffness is fitted.
 pub const STIFFNESS_WINDOW: f64 = 0.1;
-/// Share of the displacement range after a reversal through which the parabola of the tangent goes.
+/// Fraction of the displacement range after a reversal over which the tangent parabola is fitted.
 pub const TANGENT_WINDOW: f64 = 0.25;
-/// Share of the smaller of both extremes of Q, on its two sides of 0, that Q has to reach to have passed 0.
-// Of a loop of 2 000 points with noise of 0.5 % all crossings of one sense apart from all of the other gave an opening of a quarter: on
-// either branch both are in the same place.
+/// Hysteresis threshold for a sign change of Q, relative to the smaller of its two extremes.
+// With noise, Q crosses 0 several times on each branch. The threshold groups these crossings.
 pub const PASSED: f64 = 0.3;
-/// Share of δ\* below which an opening is rounding.
+/// Opening, relative to δ\*, that counts as rounding.
 const ROUNDING: f64 = 1e-9;
 
-/// The quantities of one fretting cycle, from its loop (u, Q).
+/// Results of one fretting cycle, computed from its loop (u, Q).
 ///
-/// Q is the force that drives the motion, so that it grows with u; the loop then runs clockwise and `E_d` and δ₀
-/// are positive. A force of the opposite sign convention shows as negative `E_d` and δ₀.
+/// Q is the force that drives the motion, so it increases with u. The loop then runs clockwise, and `E_d` and δ₀ are positive. A force with
+/// the opposite sign convention gives negative `E_d` and δ₀.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Cycle {
-    /// Displacement amplitude δ\*: half of peak to peak, m.
+    /// Displacement amplitude δ\*, half of peak to peak, m.
     pub displacement_amplitude: f64,
-    /// Force amplitude Q\*: half of peak to peak, N.
+    /// Force amplitude Q\*, half of peak to peak, N.
     pub force_amplitude: f64,
-    /// δ₀: half opening of the loop at Q = 0, m; none where Q does not change sign. Where Q goes to and fro about 0 on its way, as with noise,
-    /// it is there in the middle of all crossings ([`PASSED`]); with several such ways, the mean of the falling less that of the rising
-    /// ones counts, halved.
+    /// Half opening δ₀ of the loop at Q = 0, m. `None` if Q does not change sign.
+    ///
+    /// Several crossings of 0 on one branch, as with noise, are averaged ([`PASSED`]). With several branches, δ₀ is half the difference
+    /// between the means of the falling and the rising branches.
     pub half_opening: Option<f64>,
-    /// `E_d`: loop area ∮Q du, J.
+    /// Dissipated energy `E_d`, the loop area ∮Q du, J.
     pub dissipated: f64,
-    /// Tangential stiffness after the maximum of u: least-squares slope over the first tenth
-    /// ([`STIFFNESS_WINDOW`]) of the displacement range, N/m; none where u does not move.
+    /// Tangential stiffness after the maximum of u, N/m. `None` if u is constant.
+    ///
+    /// It is the least-squares slope over the first tenth ([`STIFFNESS_WINDOW`]) of the displacement range.
     pub stiffness_after_maximum: Option<f64>,
-    /// Tangential stiffness after the minimum of u, N/m; as above.
+    /// Tangential stiffness after the minimum of u, N/m, computed in the same way.
     pub stiffness_after_minimum: Option<f64>,
 }
 
 impl Cycle {
-    /// Takes the quantities of a closed or nearly closed loop, samples in the order of time; the end is joined
-    /// to the start by a chord. Between samples the loop is straight: N samples evenly spread over a smooth
-    /// loop cost a relative error of order 1/N² of the area.
+    /// Evaluates a closed or nearly closed loop with samples in order of time. A chord connects its end to its start.
+    ///
+    /// Linear interpolation between N samples that are evenly spread over a smooth loop gives a relative error of the area of order 1/N².
     ///
     /// # Errors
-    /// Fewer than 3 samples, series of different lengths, values that are not finite.
+    /// Fewer than 3 samples, series of different lengths, or values that are not finite.
     pub fn of_loop(u: &[f64], q: &[f64]) -> Result<Self, SeriesError> {
         check_lengths(("q", q), ("u", u))?;
         check("u", u, 3)?;
         check("q", q, 3)?;
         let (u_range, q_range) = (extent(u), extent(q));
-        // Halved first: the difference of two large numbers may overflow.
+        // Halved first, because the difference of two large numbers may overflow.
         let half = |(low, high): (f64, f64)| high / 2.0 - low / 2.0;
         Ok(Self {
             displacement_amplitude: half(u_range),
@@ -60,47 +61,48 @@ impl Cycle {
         })
     }
 
-    /// `E_t = 4Q*δ*`, J: the area of the rectangle around the loop.
+    /// Returns the energy `E_t = 4Q*δ*` of the rectangle that encloses the loop, J.
     pub fn enclosing_energy(&self) -> f64 {
         4.0 * self.force_amplitude * self.displacement_amplitude
     }
 
-    /// A = `E_d/E_t`; none for a loop without extent.
+    /// Returns the energy ratio A = `E_d/E_t`. Returns `None` for a loop without extent.
     pub fn energy_ratio(&self) -> Option<f64> {
         quotient(self.dissipated, self.enclosing_energy())
     }
 
-    /// B = `E_d/(4Q*δ₀)`: independent of a compliance in series; none without opening, which a billionth of δ\* is not.
+    /// Returns the system-free ratio B = `E_d/(4Q*δ₀)`, which is independent of a compliance in series. Returns `None` without an opening.
     pub fn system_free_ratio(&self) -> Option<f64> {
         quotient(self.dissipated, 4.0 * self.force_amplitude * self.opening()?)
     }
 
-    /// D = δ₀/δ\*: the slip ratio; none for a loop without extent.
+    /// Returns the slip ratio D = δ₀/δ\*. Returns `None` for a loop without extent.
     pub fn slip_ratio(&self) -> Option<f64> {
         quotient(self.half_opening?, self.displacement_amplitude)
     }
 
-    /// Energy coefficient of friction `μ_e` = `E_d/(4Pδ₀)` under a mean normal force P, N; none without opening or
-    /// normal force. Equals Coulomb's μ for a rectangular loop.
+    /// Returns the energy coefficient of friction `μ_e` = `E_d/(4Pδ₀)` under a mean normal force P, N.
+    ///
+    /// It equals Coulomb's μ for a rectangular loop. Returns `None` without an opening or a normal force.
     pub fn friction_coefficient(&self, normal_force: f64) -> Option<f64> {
         quotient(self.dissipated, 4.0 * normal_force * self.opening()?)
     }
 
-    /// δ₀ where it is more than rounding: a quotient of two roundings may be anything.
+    /// Returns δ₀ if it exceeds rounding.
     fn opening(&self) -> Option<f64> {
         self.half_opening.filter(|opening| opening.abs() > ROUNDING * self.displacement_amplitude)
     }
 }
 
-/// a/b where that is a number.
+/// Returns a/b if it is finite.
 fn quotient(a: f64, b: f64) -> Option<f64> {
     Some(a / b).filter(|ratio| b != 0.0 && ratio.is_finite())
 }
 
-/// ∮q du of the closed polygon, about its mean: the rectangle of the means would cancel only on paper.
+/// Returns ∮q du of the closed polygon.
 ///
-/// The straight part q = ku encloses nothing and is taken out as well (a shear keeps areas), so that the narrow
-/// loop of a small amplitude is not the difference of two large triangles.
+/// Means are subtracted first. Then the linear part q = ku is subtracted, which does not change the area. This avoids the cancellation of
+/// large terms for narrow loops.
 fn loop_area(u: &[f64], q: &[f64]) -> f64 {
     let (u_mean, q_mean) = (mean(u), mean(q));
     let centred = |i: usize| (u[i] - u_mean, q[i] - q_mean);
@@ -118,7 +120,7 @@ fn loop_area(u: &[f64], q: &[f64]) -> f64 {
     }))
 }
 
-/// Half the distance between falling and rising passages of Q through 0.
+/// Returns half the distance in u between the falling and the rising zero crossings of Q.
 fn half_opening(u: &[f64], q: &[f64]) -> Option<f64> {
     let (low, high) = extent(q);
     if !(low < 0.0 && high >= 0.0) {
@@ -154,15 +156,16 @@ fn half_opening(u: &[f64], q: &[f64]) -> Option<f64> {
     Some((mean(&falling) - mean(&rising)) / 2.0)
 }
 
-/// Least-squares slope from the reversal at `extreme` over the first tenth of the range. The point where the
-/// tenth ends is interpolated, so that a coarse or jumping record still has a slope.
+/// Returns the least-squares slope over the first tenth of the range after the reversal at `extreme`.
+///
+/// The end point of this tenth is interpolated. Therefore coarse records have a slope, too.
 fn stiffness_after(u: &[f64], q: &[f64], (low, high): (f64, f64), extreme: f64) -> Option<f64> {
     let n = u.len();
     let window = STIFFNESS_WINDOW * (high - low);
     if !(window > 0.0 && window.is_finite()) {
         return None;
     }
-    // The last sample before the motion turns, where it dwells at the extreme.
+    // If u dwells at the extreme, the last sample before the reversal is used.
     let start = (0..n).find(|&i| u[i] == extreme && u[(i + 1) % n] != extreme)?;
     let mut points = vec![(u[start], q[start])];
     for k in 1..n {
@@ -180,8 +183,10 @@ fn stiffness_after(u: &[f64], q: &[f64], (low, high): (f64, f64), extreme: f64) 
     slope(&points)
 }
 
-/// Tangent of the loop at its reversals, N/m: of least-squares parabolas through the first [`TANGENT_WINDOW`] of the way after the maximum and
-/// after the minimum of u, the mean of their slopes at the reversal. None of a loop that does not move, or has fewer than 4 points there.
+/// Returns the tangent stiffness of the loop at its reversals, N/m, as the mean of both reversals.
+///
+/// At each reversal, a parabola is fitted to the first [`TANGENT_WINDOW`] of the displacement range. Returns `None` if u is constant or
+/// both fits have fewer than 4 points.
 #[must_use]
 pub fn reversal_stiffness(u: &[f64], q: &[f64]) -> Option<f64> {
     let (low, high) = extent(u);
@@ -209,7 +214,7 @@ pub fn reversal_stiffness(u: &[f64], q: &[f64]) -> Option<f64> {
     }
 }
 
-/// Slope of the least-squares line.
+/// Returns the slope of the least-squares line.
 fn slope(points: &[(f64, f64)]) -> Option<f64> {
     let n = points.len() as f64;
     let x_mean = sum(points.iter().map(|p| p.0)) / n;
@@ -247,7 +252,7 @@ mod tests {
         assert_relative_eq!(cycle.half_opening.unwrap(), 0.8, max_relative = 1e-14);
         assert_relative_eq!(cycle.stiffness_after_maximum.unwrap(), 5.0, max_relative = 1e-14);
         assert_relative_eq!(cycle.stiffness_after_minimum.unwrap(), 5.0, max_relative = 1e-14);
-        // The other sign convention, and the loop run backwards, are told apart by the sign.
+        // The other sign convention and the reversed loop differ in sign.
         let turned = Cycle::of_loop(&u, &q.map(|q| -q)).unwrap();
         assert_relative_eq!(turned.dissipated, -3.2, max_relative = 1e-14);
         assert_relative_eq!(turned.half_opening.unwrap(), -0.8, max_relative = 1e-14);
@@ -279,7 +284,7 @@ mod tests {
             (Some(0.0), None, Some(0.0))
         );
         assert_relative_eq!(line.stiffness_after_maximum.unwrap(), 2.0, max_relative = 1e-15);
-        // An elastic line as a computer adds it up: E_d and δ₀ are rounding, and their quotient was told as B.
+        // An elastic line with rounding errors: E_d and δ₀ are rounding, so B is undefined.
         let (u, q) = ([-1.0, 0.1, 1.0, -0.1], [-0.3, 0.1 * 0.3 + 1e-17, 0.3, -0.1 * 0.3 + 2e-17]);
         let elastic = Cycle { dissipated: 3e-17, ..Cycle::of_loop(&u, &q).unwrap() };
         assert!(elastic.half_opening.is_some_and(|opening| opening.abs() < 1e-15));
@@ -291,7 +296,7 @@ mod tests {
         );
     }
 
-    /// A parallelogram of 4 000 points under noise of 2 %, and the same with a small loop across 0 on its way up: opening 0.8 as without.
+    /// A parallelogram of 4 000 points with 2 % noise, without and with a small inner loop across 0: the opening is 0.8.
     #[test]
     fn noise_and_loops_across_zero_leave_the_opening() {
         let corners = [(1.0, 1.0), (0.6, -1.0), (-1.0, -1.0), (-0.6, 1.0), (1.0, 1.0)];
@@ -306,7 +311,7 @@ mod tests {
         let noisy: Vec<f64> = q.iter().enumerate().map(|(i, q)| q + noise(i)).collect();
         assert!(noisy.windows(2).filter(|q| q[0] * q[1] < 0.0).count() > 10);
         assert_abs_diff_eq!(Cycle::of_loop(&u, &noisy).unwrap().half_opening.unwrap(), 0.8, epsilon = 1e-3);
-        // On the side from (-1, -1) to (-0.6, 1), which is at 0 in -0.8.
+        // On the side from (-1, -1) to (-0.6, 1), which crosses 0 at -0.8.
         let looped: Vec<f64> = (0..points)
             .map(|i| if i % 1000 > 480 && i % 1000 < 520 && i > 2000 && i < 3000 { -q[i] } else { q[i] })
             .collect();

@@ -1,23 +1,24 @@
-//! What is measured of a run, or of a record of anything: plain series in, numbers out.
+//! Evaluation of runs and of measured records: steps, settling, fretting loops, energies, plausibility.
 //!
-//! Every quantity has one definition, written at its field. Of plain series, simulated or measured alike:
+//! Every quantity is defined at its field. Modules for plain series, simulated or measured:
 //!
-//! * [`series`] – what a series must fulfil, and the error that says where it does not;
-//! * [`cycles`] – cuts a long record into cycles;
-//! * [`fretting`] – the quantities of one cycle: amplitudes, loop area, ratios, stiffness;
-//! * [`regime`] – thresholds between partial and gross slip, and on which side a cycle lies;
-//! * [`sequence`] – values in order, in memory or on a disk;
-//! * [`settling`] – whether a sequence has settled, and where it goes;
-//! * [`mean`] – the mean of values that go on changing, and how far it may be off;
-//! * [`steps`] – the quantities of a drive: step length, back-step, mean speed, repeatability.
+//! * [`series`] – requirements on a series, and the errors;
+//! * [`cycles`] – splits a long record into cycles;
+//! * [`fretting`] – results of one cycle: amplitudes, loop area, ratios, stiffness;
+//! * [`regime`] – slip regime of a cycle and its thresholds;
+//! * [`mod@steady_loop`] – mean loop of many noisy cycles, with confidence intervals;
+//! * [`sequence`] – a sequence of values in memory or on disk;
+//! * [`settling`] – convergence of a sequence and its limit;
+//! * [`mean`] – mean of a stationary sequence with its error;
+//! * [`steps`] – step length, back-step, mean speed and repeatability of a drive.
 //!
-//! Of a [`Setting`] – a scenario, its model and its start – while it runs:
+//! Modules that evaluate a [`Setting`] (a scenario, its model and its initial state) during a run:
 //!
-//! * [`Periods`], [`marks`] – when something is looked at;
-//! * [`tally`] – all of it together, fed mark by mark; [`account`] (energies of a period), [`contact_cycles`] (loops of contacts),
-//!   [`strides`] (lengths of steps), [`excursions`] (beyond the model), [`books`] (whether energies balance), [`foot`];
-//! * [`Series`], [`Trail`], [`Tracks`] – what is kept of it; [`contact_path()`] – the way of a contact;
-//! * [`plausibility`], [`Warning`] – what is odd about a scenario or a run.
+//! * [`Periods`], [`marks`] – period ends and other sampling times;
+//! * [`tally`] – all evaluations together; [`account`] (one drive period), [`contact_cycles`] (hysteresis loops), [`strides`]
+//!   (step lengths), [`excursions`] (limits of the kinematics), [`books`] (energy balance), [`foot`];
+//! * [`Series`], [`Trail`], [`Tracks`] – recorded time histories; [`contact_path()`] – path of a contact in the (u, F_x) plane;
+//! * [`plausibility`], [`Warning`] – implausible scenarios and results.
 
 pub mod account;
 pub mod books;

@@ -1,4 +1,4 @@
-//! The moments at which a run is asked for its figures: ends of periods, and parts of them.
+//! Sampling times of the evaluation: period ends, and further times within periods.
 
 use crate::Setting;
 use crate::account::Phases;
@@ -9,56 +9,55 @@ use crate::periods::{Periods, followed};
 use stickslip_drive::Waveform;
 use stickslip_drive::scene::{Direction, Freedom, Normal, Side, Varying};
 
-/// Parts of a period at whose ends contacts are looked at whose force does not follow from the way alone: their loops have
-/// extremes and corners that are no events. On what drives it the body that steps has no loops.
+/// Number of samples per period for contacts whose force does not follow from the path of u alone.
+///
+/// The extremes and kinks of their loops are not events.
 const PARTS: f64 = 512.0;
-/// The same of a period of a load that is shorter, where the contact's body goes to and fro in many of them: polynomials through moments
-/// so near find the extremes of a sine to 3e-8 of it.
+/// Number of samples per period of a load with a shorter period. Extremes of a sine are then found to 3e-8.
 const LOAD_PARTS: f64 = 64.0;
-/// The same of a ringing of the contact's bodies: where they rang 208 times in a period the 512 moments of it found 0.92 of a peak.
+/// Number of samples per period of a ringing of the contact's bodies.
 const RING_PARTS: f64 = 24.0;
-/// The same of the way of a waveform from least to most, where it goes so fast that parts of the period are longer: a flyback of 0.1 % of the
-/// period went by between two, and openings were told along one chord, half of what they are.
+/// Number of samples over the full range of a waveform. It applies to pieces that are fast compared with the sampling within the period.
 const WAY_PARTS: f64 = 128.0;
-/// Most of these in a period; a table of noise goes without.
+/// Maximum number of such samples per period. A waveform with more, such as a noise table, gets none.
 const MOST_WAY_PARTS: usize = 4096;
-/// Most parts of a period in all: a cycle of more moments than there is room for would not be told.
+/// Maximum number of samples per period, limited by the memory for one cycle.
 const MOST_PARTS: f64 = 65_536.0;
-/// The same of a table, all of it.
+/// Number of samples of a whole table.
 const TABLE_PARTS: f64 = 4096.0;
-/// A moment this near to an end, in periods, is the end.
+/// Time difference below which a time is a period end, in periods.
 const SAME: f64 = 1e-9;
 
-/// Moments to come.
+/// Iterator over the sampling times of a run.
 pub struct Marks {
     grids: Vec<Grid>,
-    /// How many of them, the first, are not for the account of a period alone.
+    /// Number of grids, from the first, that are used by evaluations other than the period account.
     common: usize,
-    /// Body whose way in each period is wanted.
+    /// Body whose displacement in each period is evaluated.
     pub body: Option<usize>,
-    /// The foot that a stack moves under it, whose way is wanted, too.
+    /// Foot below it, moved by a stack, whose displacement is evaluated, too.
     pub foot: Option<usize>,
-    /// Periods of the figures.
+    /// Periods of the waveform in `figures`.
     figures: Option<Periods>,
     /// End of the run, s.
     end: f64,
 }
 
-/// Multiples of an interval.
+/// Equally spaced sampling times.
 struct Grid {
     start: f64,
     interval: f64,
-    /// Number of the next, and of the last.
+    /// Index of the next time, and of the last one.
     next: f64,
     last: f64,
 }
 
 impl Marks {
-    /// Those that the figures of a setting need.
+    /// Returns the sampling times for a setting.
     pub fn of(setting: &Setting) -> Self {
         let (scene, figures, end) =
             (&setting.scenario.scene, setting.scenario.figures, setting.scenario.plan.duration);
-        // A run that goes on beyond this end has had the same marks before it.
+        // The times do not depend on the planned end, so a continued run has the same ones.
         let for_ever = f64::INFINITY;
         let is_free =
             |body: &usize| scene.bodies.get(*body).is_some_and(|b| b.part.x.freedom == Freedom::Free);
@@ -101,43 +100,45 @@ impl Marks {
         Self { grids, common, body, foot, figures, end }
     }
 
-    /// Whether a moment is one for all figures, and not for the account of a period alone.
+    /// Returns whether a sampling time is used by evaluations other than the period account.
     pub fn is_common(&self, t: f64) -> bool {
         self.common == self.grids.len() || self.grids.iter().take(self.common).any(|grid| grid.has(t))
     }
 
-    /// The next moment, s.
+    /// Returns the next sampling time, s.
     pub fn take_next(&mut self) -> Option<f64> {
         let next = self.grids.iter().filter_map(Grid::due).fold(f64::INFINITY, f64::min);
         for grid in &mut self.grids {
-            // Those that rounding puts elsewhere are one.
+            // Times that differ by rounding count as one.
             let same = if grid.interval.is_finite() { SAME * grid.interval } else { 0.0 };
             while grid.due().is_some_and(|due| due <= next + same) {
                 grid.next += 1.0;
             }
         }
-        // Periods and the end of a run are rounded apart.
+        // Period ends and the end of the run may differ by rounding.
         let end = self.end;
         (next < f64::INFINITY).then_some(if next > end && next < end * (1.0 + SAME) { end } else { next })
     }
 
-    /// Periods of the figures.
+    /// Returns the periods of the waveform in `figures`.
     pub fn figures(&self) -> Option<Periods> {
         self.figures
     }
 
-    /// Which period of the figures a moment ends, from 1; 0 for their beginning.
+    /// Returns the number of the period that ends at time t, from 1. Returns 0 for the start of the first period.
     pub fn period_ended(&self, t: f64) -> Option<u64> {
         let periods = self.figures?;
         let place = (t - periods.start) / periods.length;
-        // Of many periods rounding of t is more.
+        // After many periods, the rounding of t is larger.
         let same = SAME.max(4.0 * f64::EPSILON * place.abs());
         ((place - place.round()).abs() <= same && place > -0.5).then(|| place.round() as u64)
     }
 }
 
-/// Whether a contact is looked at in parts of a period, or of a table: its force does not follow from the way alone, and it is none of
-/// those on which the body of the figures steps. Two free bodies may step together.
+/// Returns whether a contact is sampled several times per period or per table.
+///
+/// This is so if its force does not follow from the path of u alone, except for contacts on which the stepping body slides. Contacts
+/// between two free bodies are sampled, because the bodies may step together.
 pub fn are_dense(setting: &Setting, c: usize) -> bool {
     if is_walked(setting, c) {
         return false;
@@ -149,7 +150,7 @@ pub fn are_dense(setting: &Setting, c: usize) -> bool {
     let tells_turns = setting.model.effective(setting.scenario.plan.stepper).locates_events();
     let steps = setting.scenario.figures.body.filter(is_free).zip(sides).is_some_and(|(body, sides)| {
         let frees = |side: &Side| matches!(side, Side::Body(other) if *other != body && is_free(other));
-        // What holds it has loops, of which fixed steps tell no turn.
+        // A contact with the ground has loops. Fixed time steps report no reversals of it.
         let is_untold = sides.contains(&Side::Ground) && !tells_turns;
         sides.contains(&Side::Body(body)) && !sides.iter().any(frees) && !is_untold && !is_held(setting, body)
     });
@@ -159,7 +160,7 @@ pub fn are_dense(setting: &Setting, c: usize) -> bool {
     }
 }
 
-/// Whether a spring or a stack holds a body along x to what does not go along with it: it comes back, and its contacts have loops.
+/// Returns whether a spring or a stack along x connects a body to the ground or to a body that is not free.
 fn is_held(setting: &Setting, body: usize) -> bool {
     let scene = &setting.scenario.scene;
     let own = |side: &Side| *side == Side::Body(body);
@@ -177,7 +178,7 @@ fn is_held(setting: &Setting, body: usize) -> bool {
     })
 }
 
-/// The waveform that presses a contact.
+/// Returns the waveform of the normal load of a contact.
 fn load_of(setting: &Setting, c: usize) -> Option<&Waveform> {
     match setting.scenario.scene.contacts.get(c)?.part.normal {
         Normal::Force(Varying::Follows(w))
@@ -187,20 +188,20 @@ fn load_of(setting: &Setting, c: usize) -> Option<&Waveform> {
     }
 }
 
-/// Parts of a period at whose ends a contact is looked at that moves in it under a load that may be faster.
+/// Returns the number of samples per period of a contact, where its load may have a shorter period.
 fn parts_of(periods: &Periods, load: Option<&Waveform>) -> f64 {
     let loads = load.and_then(Waveform::period).map_or(0.0, |period| periods.length / period);
     (LOAD_PARTS * loads).ceil().clamp(PARTS, MOST_PARTS)
 }
 
-/// The same of a damped contact whose bodies ring, many times in a period: others turn at events.
+/// Returns the number of samples per period for a damped contact whose bodies ring. Without damping, reversals are events.
 fn of_ringing(setting: &Setting, c: usize, periods: &Periods) -> f64 {
     let rings = setting.is_damped(c) && is_integrated(setting, c);
     let frequency = setting.model.contact_frequency(c).filter(|_| rings).unwrap_or(0.0);
     (RING_PARTS * periods.length * frequency / std::f64::consts::TAU).ceil().min(MOST_PARTS)
 }
 
-/// Where a load turns: there the limit of friction has its extremes, and so has the force of a contact that slides.
+/// Returns the turning points of a load. The friction limit and the force of a sliding contact have extremes there.
 fn peaks_of_load(load: &Waveform) -> Vec<Grid> {
     let Some(periods) = Periods::until(load, f64::INFINITY) else { return Vec::new() };
     let Some(phases) = Phases::of(load).filter(|_| !load.is_straight()) else { return Vec::new() };
@@ -208,7 +209,7 @@ fn peaks_of_load(load: &Waveform) -> Vec<Grid> {
     std::iter::once(0.0).chain(phases.turns()).map(grid).collect()
 }
 
-/// Where a waveform jumps: the moment before is the last of the way that led there.
+/// Returns the times just before the jumps of a waveform.
 fn jumps_of(waveform: &Waveform) -> Vec<Grid> {
     if !waveform.has_jumps() {
         return Vec::new();
@@ -220,7 +221,7 @@ fn jumps_of(waveform: &Waveform) -> Vec<Grid> {
     jumps.map(|piece| Grid { start: piece.end, ..Grid::of(&periods, 1.0) }).take(MOST_WAY_PARTS).collect()
 }
 
-/// Within pieces of a waveform that go by in a few parts of a period, each so long, s.
+/// Returns sampling times within fast pieces of a waveform. `part` is the sampling interval otherwise, s.
 fn fast_pieces(waveform: &Waveform, part: f64) -> Vec<Grid> {
     let Some(periods) = Periods::until(waveform, f64::INFINITY) else { return Vec::new() };
     if waveform.generator().is_some() || waveform.interpolation().is_some() {
@@ -244,7 +245,9 @@ fn fast_pieces(waveform: &Waveform, part: f64) -> Vec<Grid> {
     grids
 }
 
-/// Where the waveform of the figures turns without an event: without a corner, or at one of which a run in fixed steps tells nothing.
+/// Returns the turning points of the waveform in `figures` that are not events.
+///
+/// These are turning points without a corner, and all turning points with fixed time steps.
 fn turns(setting: &Setting, periods: &Periods) -> Vec<Grid> {
     let waveform = setting.scenario.figures.waveform.and_then(|w| setting.scenario.scene.waveforms.get(w));
     let tells_corners = setting.model.effective(setting.scenario.plan.stepper).locates_events();
@@ -260,8 +263,9 @@ impl Grid {
         Self { start: periods.start, interval: periods.length / parts, next: 0.0, last }
     }
 
-    /// Along a waveform without a period, for reversals: the beginning and the end of the run, which a reversal needs to be one,
-    /// and where the contact's law does not tell what is between events, parts of the waveform.
+    /// Returns the sampling times for a non-periodic waveform: the start and the end of the run, and times along the waveform.
+    ///
+    /// The latter are needed only if the contact law cannot be evaluated between events.
     fn along(waveform: &Waveform, is_walked: bool, end: f64) -> Vec<Self> {
         let once = |start: f64| Self { start, interval: f64::INFINITY, next: 0.0, last: 0.0 };
         let (from, to) = waveform.window();
@@ -275,7 +279,7 @@ impl Grid {
         (self.next <= self.last).then_some(self.start + way)
     }
 
-    /// Whether a moment is one of its multiples.
+    /// Returns whether time t is in the grid.
     fn has(&self, t: f64) -> bool {
         if self.interval == f64::INFINITY {
             return t == self.start;

@@ -1,48 +1,49 @@
-//! The mean of values that go on changing, and how far it may be off.
+//! Mean of a stationary sequence with correlated values, and its confidence interval by the method of batch means.
 //!
-//! What values vary by is not by how much their mean is off: of values that depend on those before, the means of long batches do no
-//! longer depend on each other, and their scatter says how much the mean of all scatters. Source: Schmeiser, *Oper. Res.* 30 (1982)
-//! 556: ten batches are enough, and more tell little.
+//! The means of long batches are nearly independent. Their scatter gives the error of the total mean. Ten batches suffice (Schmeiser,
+//! *Oper. Res.* 30 (1982) 556).
 
 use crate::sequence::{Sequence, mean_of};
 
-/// Most batches.
+/// Maximum number of batches.
 const BATCHES: usize = 10;
-/// Fewest of them that say anything.
+/// Minimum number of batches.
 const FEWEST: usize = 3;
-/// Student's t of two sides at 95 %, of 2 degrees of freedom and more: Abramowitz and Stegun, *Handbook of Mathematical Functions*
-/// (1964), table 26.10.
+/// Two-sided 95 % quantiles of Student's t for 2 and more degrees of freedom.
+///
+/// Source: Abramowitz and Stegun, *Handbook of Mathematical Functions* (1964), table 26.10.
 const STUDENT: [f64; BATCHES - FEWEST + 1] = [4.303, 3.182, 2.776, 2.571, 2.447, 2.365, 2.306, 2.262];
-/// How much of its move from third to third a mean may keep that has a limit.
+/// Maximum ratio of successive changes of the mean for which a limit is extrapolated.
 const FORESEEN: f64 = 0.9;
 
-/// A mean.
+/// Mean of a sequence.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Mean {
-    /// The mean of the last whole batches.
+    /// Mean of the last whole batches.
     pub value: f64,
-    /// How far the mean of endlessly many such values may lie from it, by 95 %: t s/√b, of b batches whose means have the standard
-    /// deviation s.
+    /// Half-width of the 95 % confidence interval: t s/√b for b batches whose means have the standard deviation s.
     pub error: f64,
 }
 
 impl Mean {
-    /// The mean of values that swing with a period, in values, or change without one (0). Batches have the same number of whole
-    /// swings, and are as many as there are, at most ten; none where that makes fewer than three.
+    /// Computes the mean of a sequence that oscillates with a period, in values, or has no period (0).
+    ///
+    /// Batches contain equal numbers of whole oscillations. There are at most ten. Returns `None` for fewer than three.
     pub fn of<S: Sequence + ?Sized>(values: &S, period: f64) -> Option<Self> {
         let (means, start) = batches(values, period)?;
         let value = mean_of(values, start..values.count());
         Some(Self { value, error: error(&means, value)? })
     }
 
-    /// How the mean of the same values moves, if it does: from the first half of the batches to the last by more than twice how well the
-    /// better of both halves is known. None of fewer than six batches, too.
+    /// Returns the shift of the mean between the first and the last half of the batches, if it is significant.
+    ///
+    /// It is significant if it exceeds twice the smaller error of both halves. Returns `None` for fewer than six batches.
     pub fn moved<S: Sequence + ?Sized>(values: &S, period: f64) -> Option<Moved> {
         let (means, _) = batches(values, period)?;
         let of = |part: &[f64]| part.iter().sum::<f64>() / part.len() as f64;
         let (first, last) = means.split_at(means.len() / 2);
         let [a, b] = [first, last].map(of);
-        // A half on whose way it moves has a large error.
+        // A half in which the mean moves has a large error.
         let known = error(first, a)?.min(error(last, b)?);
         let third = means.len() / 3;
         let [to, middle, from] =
@@ -56,16 +57,16 @@ impl Mean {
     }
 }
 
-/// A mean that is on its way.
+/// A mean that has not converged.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Moved {
-    /// From the first half to the last.
+    /// Difference between the means of the two halves.
     pub by: f64,
-    /// From the mean of all to where it goes if it becomes slower as it has, from third to third; infinite where it does not.
+    /// Distance from the total mean to the extrapolated limit. Infinite if the changes from third to third do not decrease.
     pub to_go: f64,
 }
 
-/// Means of as many batches as there are, and where the first begins.
+/// Returns the means of the batches and the index of the first value used.
 fn batches<S: Sequence + ?Sized>(values: &S, period: f64) -> Option<(Vec<f64>, usize)> {
     let count = values.count();
     let unit = if period > 0.0 { period } else { 1.0 };
@@ -74,13 +75,13 @@ fn batches<S: Sequence + ?Sized>(values: &S, period: f64) -> Option<(Vec<f64>, u
     if batches < FEWEST {
         return None;
     }
-    // Ends of batches are rounded, their lengths are not: no rest is left that grows.
+    // Batch boundaries are rounded, batch lengths are not, so no rounding error accumulates.
     let length = (units / batches as f64).floor() * unit;
     let start = |batch: usize| count - ((batches - batch) as f64 * length).round() as usize;
     Some(((0..batches).map(|b| mean_of(values, start(b)..start(b + 1))).collect(), start(0)))
 }
 
-/// How far the mean of endlessly many batches may lie from a value, by 95 %.
+/// Returns the half-width of the 95 % confidence interval about `value`.
 fn error(means: &[f64], value: f64) -> Option<f64> {
     let student = STUDENT.get(means.len().checked_sub(FEWEST)?)?;
     let scatter = means.iter().map(|mean| (mean - value).powi(2)).sum::<f64>() / (means.len() - 1) as f64;
@@ -92,7 +93,7 @@ mod tests {
     use super::*;
     use std::f64::consts::TAU;
 
-    /// Numbers from -1 to 1 that look random (Knuth's MMIX).
+    /// Pseudo-random numbers from -1 to 1 (Knuth's MMIX generator).
     fn noise(seed: u64) -> impl Iterator<Item = f64> {
         let mut state = seed;
         std::iter::repeat_with(move || {
@@ -101,7 +102,7 @@ mod tests {
         })
     }
 
-    /// A mean that comes to rest has as far to go as its thirds tell; one that goes on evenly may go anywhere, and one of noise does not move.
+    /// The remaining change of a converging mean is extrapolated. That of a steady drift is infinite. Noise has no significant change.
     #[test]
     fn a_mean_on_its_way_is_told_from_chance() {
         let of = |f: &dyn Fn(i32) -> f64| -> Vec<f64> { (0..300).map(f).collect() };
@@ -118,7 +119,7 @@ mod tests {
         assert!(chance.count() < 15);
     }
 
-    /// How often the error is kept of 400 sequences of 200 values with the mean 0, and how large it is on average.
+    /// Returns the fraction of 400 sequences of 200 values with mean 0 whose error covers the mean, and the average error.
     fn kept(of: impl Fn(u64) -> Vec<f64>) -> (f64, f64) {
         let found: Vec<Mean> = (0..400).filter_map(|seed| Mean::of(&of(seed), 0.0)).collect();
         let held = found.iter().filter(|mean| mean.value.abs() <= mean.error).count();
@@ -126,7 +127,7 @@ mod tests {
         (held as f64 / found.len() as f64, error)
     }
 
-    /// Of independent values with the variance 1/3 the mean of 200 is off by 1.96 √(1/600) = 0.080 at 95 %.
+    /// For independent values of variance 1/3, the mean of 200 has the 95 % error 1.96 √(1/600) = 0.080.
     #[test]
     fn values_without_memory_have_the_error_of_their_mean() {
         let (held, error) = kept(|seed| noise(seed).skip(50).take(200).collect());
@@ -134,7 +135,7 @@ mod tests {
         assert!((0.075..0.1).contains(&error), "{error}");
     }
 
-    /// x → a x + noise: the mean of n is off by √((1+a)/(1-a)) times what that of independent values of its variance would be.
+    /// For x → a x + noise, the error of the mean is √((1+a)/(1-a)) times that of independent values of equal variance.
     #[test]
     fn values_that_remember_have_the_larger_error_of_theirs() {
         let of = |a: f64| {
@@ -155,7 +156,7 @@ mod tests {
         }
     }
 
-    /// A swing about 3 by 1, whatever its period: its mean is known far better than by its amplitude.
+    /// An oscillation of amplitude 1 about 3: the error of its mean is far below the amplitude, for any period.
     #[test]
     fn the_mean_of_a_swing_is_that_of_whole_swings() {
         for period in [2.0, 2.7, 7.5, 19.3, 44.4, 63.1] {
@@ -163,18 +164,18 @@ mod tests {
                 let of = |k: usize| 3.0 + (TAU * k as f64 / period + phase).sin();
                 let values: Vec<f64> = (0..200).map(of).collect();
                 let Some(mean) = Mean::of(&values, period) else { panic!("{period}") };
-                // Half a value at either end of n is missing or too much.
+                // At either end of n values, half a value is missing or added.
                 let most = 1.0 / (200.0 - 10.0 * period).max(period * 3.0);
                 assert!((mean.value - 3.0).abs() <= most, "{period} {phase}: {mean:?}");
                 assert!(mean.error <= 0.15, "{period} {phase}: {mean:?}");
             }
         }
-        // Two swings and a half are too few.
+        // Two and a half oscillations are too few.
         assert_eq!(Mean::of(&[1.0; 200], 80.0), None);
         assert_eq!(Mean::of(&[1.0; 2], 0.0), None);
     }
 
-    /// A trend shows in the error: 1 from end to end.
+    /// The error of a drift of 1 over the sequence includes the drift.
     #[test]
     fn what_drifts_has_an_error_of_its_drift() {
         let values: Vec<f64> = (0..200).map(|k| f64::from(k) / 200.0).collect();

@@ -1,39 +1,40 @@
-//! The periods of a waveform within a run.
+//! Periods of a waveform within a run.
 
 use crate::Setting;
 use stickslip_drive::Waveform;
 use stickslip_drive::scene::{Direction, Freedom, Scene, Side, Varying};
 
-/// A sample this near to the end of a period, in periods, is the end.
+/// Time difference below which a time is a period end, in periods.
 const SAME: f64 = 1e-9;
 
-/// The whole periods that a waveform has run through.
+/// The whole periods of a waveform within a run.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Periods {
-    /// Start of the first, s.
+    /// Start of the first period, s.
     pub start: f64,
-    /// Length, s.
+    /// Length of a period, s.
     pub length: f64,
-    /// How many are whole; at least one.
+    /// Number of whole periods, at least 1.
     pub count: usize,
 }
 
 impl Periods {
-    /// The periods of a waveform until time `end`, s; none without period, or before the first is over.
+    /// Returns the periods of a waveform until the time `end`, s. Returns `None` without a period, or before the first one is complete.
     pub fn until(waveform: &Waveform, end: f64) -> Option<Self> {
         let (length, timing) = (waveform.period()?, waveform.timing());
         let cycles = timing.cycles.unwrap_or(f64::INFINITY);
-        // A repeated table may have begun before the run, which sees the first of its periods that begins in it.
+        // A repeated table may start before the run. Its first period that starts within the run counts.
         let before = (-timing.delay / length - SAME).ceil().max(0.0);
         let start = if before > 0.0 { timing.delay + before * length } else { timing.delay };
         let count = ((end - start) / length).min(cycles - before) + SAME;
-        // More than any run comes to.
+        // This exceeds the number of periods of any run.
         let count = count.floor().min(1e9);
         (count >= 1.0).then_some(Self { start, length, count: count as usize })
     }
 
-    /// The periods of whatever drives contact `c`: the one waveform that its bodies follow, or else the waveform of the
-    /// scenario's `figures`; until time `end`, s.
+    /// Returns the periods of the excitation of contact `c` until the time `end`, s.
+    ///
+    /// The excitation is the one waveform that its bodies follow. Otherwise it is the waveform in the scenario's `figures`.
     pub fn of_contact(setting: &Setting, c: usize, end: f64) -> Option<Self> {
         let mut followed = followed(setting, c);
         let waveform = match (followed.next(), followed.next()) {
@@ -43,45 +44,46 @@ impl Periods {
         Self::until(&setting.scenario.scene.waveforms.get(waveform)?.part, end)
     }
 
-    /// End of period k, and start of the next, s; 0: start of the first.
+    /// Returns the end of period k, which is the start of the next one, s. For k = 0 it is the start of the first period.
     pub fn end_of(&self, k: usize) -> f64 {
         self.start + k as f64 * self.length
     }
 
-    /// Start and end of the first period, s.
+    /// Returns start and end of the first period, s.
     pub fn first(&self) -> (f64, f64) {
         (self.start, self.end_of(1))
     }
 
-    /// Start and end of the last period, s.
+    /// Returns start and end of the last period, s.
     pub fn last(&self) -> (f64, f64) {
         (self.end_of(self.count - 1), self.end_of(self.count))
     }
 
-    /// How near to the end of period k a moment is that end, s.
+    /// Returns the time tolerance for the end of period k, s.
     fn hair(&self, k: usize) -> f64 {
-        // Of many periods rounding of t is more.
+        // After many periods, the rounding of t is larger.
         (SAME * self.length).max(4.0 * f64::EPSILON * self.end_of(k).abs())
     }
 }
 
-/// Finds the ends of periods among moments as they come: of each the first moment that is as good as it.
+/// Detects period ends in a sequence of ascending times. The first time within the tolerance counts.
 #[derive(Debug, Clone, Copy)]
 pub struct Tracker {
     periods: Periods,
-    /// The end that comes next.
+    /// Number of the next period end.
     next: usize,
     is_over: bool,
 }
 
 impl Tracker {
-    /// One that stands at the start.
+    /// Creates a detector at the start of the first period.
     pub fn new(periods: Periods) -> Self {
         Self { periods, next: 0, is_over: false }
     }
 
-    /// Which end a moment is, s, moments ascending; 0 for the beginning of the first period. After one that is missing there are
-    /// no more.
+    /// Returns the number of the period that ends at time t, s; 0 for the start of the first period. Times must be ascending.
+    ///
+    /// If a period end is missing, no further ones are reported.
     pub fn pass(&mut self, t: f64) -> Option<usize> {
         if self.is_over {
             return None;
@@ -96,14 +98,15 @@ impl Tracker {
         found
     }
 
-    /// Whether no end comes any more.
+    /// Returns whether there are no further period ends.
     pub fn is_over(&self) -> bool {
         self.is_over
     }
 }
 
-/// Places of the waveforms that the bodies of contact `c` follow along the slide; of a balanced body those of what pulls at
-/// it, through any number of springs and bodies as balanced as it.
+/// Returns the indices of the waveforms that the bodies of contact `c` follow along x.
+///
+/// For a massless body, these are the waveforms of its loads and stacks. Springs to other massless bodies are followed.
 pub fn followed(setting: &Setting, c: usize) -> impl Iterator<Item = usize> + use<> {
     let scene = &setting.scenario.scene;
     let mut bodies: Vec<usize> =
@@ -120,8 +123,7 @@ pub fn followed(setting: &Setting, c: usize) -> impl Iterator<Item = usize> + us
     followed.into_iter()
 }
 
-/// What pulls along x at a balanced body: the waveforms of its loads and stacks, and the bodies at the other ends of its
-/// springs.
+/// Adds the sources of forces along x on a massless body: waveforms of loads and stacks, and bodies at the other ends of springs.
 fn pulls(scene: &Scene, body: usize, (bodies, followed): (&mut Vec<usize>, &mut Vec<usize>)) {
     let varying = |value: Varying| match value {
         Varying::Follows(signal) => scene.waveform_of(signal),
@@ -133,7 +135,7 @@ fn pulls(scene: &Scene, body: usize, (bodies, followed): (&mut Vec<usize>, &mut 
     };
     let stacks = scene.actuators.iter().filter(|it| is_here(it.part.between, it.part.direction));
     for waveform in loads.chain(stacks.clone().filter_map(|it| varying(it.part.stroke))) {
-        // One that pulls twice is one.
+        // A waveform with several effects counts once.
         if !followed.contains(&waveform) {
             followed.push(waveform);
         }
@@ -147,7 +149,7 @@ fn pulls(scene: &Scene, body: usize, (bodies, followed): (&mut Vec<usize>, &mut 
     }
 }
 
-/// The bodies among two sides.
+/// Returns the bodies among two sides of a connection.
 fn sides(between: [Side; 2]) -> impl Iterator<Item = usize> {
     between.into_iter().filter_map(|side| match side {
         Side::Body(body) => Some(body),
@@ -171,7 +173,7 @@ mod tests {
         assert_eq!(until(2.9), None);
         assert_eq!(until(5.0 - 1e-12), Some((1.0, 2)));
         assert_eq!(until(99.0), Some((1.0, 3)));
-        // Of what began before the run the first that begins in it, at its very start if that is where one begins.
+        // If a table started before the run, the first period that starts within the run counts, even at its very start.
         let early = |delay| Periods::until(&triangle(delay, Some(3.0)), 3.5).map(|p| (p.start, p.count));
         assert_eq!(early(-0.5), Some((1.5, 1)));
         assert_eq!(early(-2.0), Some((0.0, 1)));
@@ -189,7 +191,7 @@ mod tests {
         };
         let wanted: Vec<Option<usize>> = (0..=30).map(|i| (i % 3 == 0).then_some(i / 3)).collect();
         assert_eq!(ends(periods), wanted);
-        // One that is missing is the last.
+        // After a missing period end, no further ones are reported.
         let found: Vec<usize> = ends(Periods { length: 0.25, ..periods }).into_iter().flatten().collect();
         assert_eq!(found, [0]);
     }

@@ -1,8 +1,8 @@
-//! What a scene comes to and hardly was meant to: told with its number and its reason, and never a refusal.
+//! Warnings about implausible scenarios, with the implausible number and the reason. They never reject a scenario.
 //!
-//! The scenario's own warnings look at the file alone; these look at pressures, forces and frequencies that follow from it. In
-//! reading order: `contacts` (materials, pressures, shapes), `forces` (loads, stacks, masses), `motion` (strokes,
-//! resonances, tolerances), `drivers` (their cost).
+//! The scenario's own warnings concern the file alone. These warnings concern pressures, forces and frequencies that follow from it. In
+//! reading order: `contacts` (materials, pressures, geometry), `forces` (loads, stacks, masses), `motion` (strokes, resonances,
+//! tolerances), `drivers` (their computing time).
 
 mod contacts;
 mod drivers;
@@ -18,12 +18,12 @@ use stickslip_quantity::Real;
 use stickslip_quantity::quantity;
 use stickslip_scenario::Warning;
 
-/// Most of them that are told: each looks up its line.
+/// Maximum number of warnings shown.
 const MOST: usize = 20;
-/// Contacts that the dearer questions are asked of.
+/// Maximum number of contacts for expensive checks.
 const ASKED: usize = 256;
 
-/// Everything implausible about a setting.
+/// Returns all warnings about a setting.
 pub fn of(setting: &Setting) -> Vec<Warning> {
     let mut odd = Implausible { setting, found: Vec::new(), left_out: 0, misnamed: Vec::new() };
     odd.materials();
@@ -51,7 +51,7 @@ pub fn of(setting: &Setting) -> Vec<Warning> {
     found
 }
 
-/// What is not bounded where a stepper takes a setting in frames, whatever stepper its scenario names.
+/// Returns the warnings about unbounded errors if a setting is simulated in frames. The integrator of the scenario is ignored.
 pub fn of_frames(setting: &Setting, stepper: Stepper) -> Vec<Warning> {
     let mut odd = Implausible { setting, found: Vec::new(), left_out: 0, misnamed: Vec::new() };
     odd.frames(stepper);
@@ -64,7 +64,7 @@ struct Implausible<'a> {
     setting: &'a Setting,
     found: Vec<Warning>,
     left_out: usize,
-    /// Materials whose moduli are not those of their names.
+    /// Materials whose moduli do not fit their names.
     misnamed: Vec<&'a str>,
 }
 
@@ -77,27 +77,29 @@ impl Implausible<'_> {
         }
     }
 
-    /// Indentation of contact `c` that is sure to come, m: the largest that is prescribed; where bodies press, that at the start.
+    /// Returns an indentation of contact `c` that certainly occurs, m.
+    ///
+    /// It is the largest prescribed one. If bodies press the contact, it is the initial one.
     fn depth(&self, c: usize) -> f64 {
         let depths = self.setting.model.indentations(&self.setting.start, c);
         depths.map_or(0.0, |d| if self.setting.is_coupled(c) { d.start } else { d.most })
     }
 
-    /// Whether a side is free along x or z.
+    /// Returns whether a side is free along x or z.
     fn is_free(&self, side: Side) -> bool {
         let Side::Body(body) = side else { return false };
         let body = self.setting.scenario.scene.bodies.get(body);
         body.is_some_and(|body| [body.part.x, body.part.z].iter().any(|c| c.freedom == Freedom::Free))
     }
 
-    /// Mass of a side that is free along x or z, kg.
+    /// Returns the mass of a side that is free along x or z, kg.
     fn free_mass(&self, side: Side) -> Option<f64> {
         let Side::Body(body) = side else { return None };
         self.setting.scenario.scene.bodies.get(body).filter(|_| self.is_free(side))?.part.mass
     }
 }
 
-/// A number with its unit, four digits.
+/// Returns a number with its unit, with four digits.
 fn told(value: f64, unit: &str) -> String {
     quantity(Real(value), unit)
 }

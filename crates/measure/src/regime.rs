@@ -1,37 +1,37 @@
-//! Fretting regimes: thresholds between partial and gross slip of a profile in its rig.
+//! Slip regimes of fretting cycles: thresholds between partial and gross slip for a profile and a test rig.
 
 use crate::Cycle;
 use crate::series::{SeriesError, check_positive};
 
-/// The values of A, B and D at the limit between partial and gross slip.
+/// Values of the ratios A, B and D at the onset of gross slip.
 ///
-/// For a profile f ~ rⁿ on a rigid rig A = 1/(2n+1), D = 2^{1/(n+1)} - 1, B = A/D; sphere (n = 2) 0.2, 0.2599,
-/// 0.7695. A compliance in series stretches δ\* alone: A and D fall by 1 + `C/(u_c/μF_N)`, B stays.
+/// For a profile f ~ rⁿ on a rigid rig, A = 1/(2n+1), D = 2^{1/(n+1)} - 1 and B = A/D. A sphere (n = 2) has 0.2, 0.2599 and 0.7695. A
+/// compliance C in series increases δ\* only. It divides A and D by 1 + `C/(u_c/μF_N)` and leaves B unchanged.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Thresholds {
-    /// A = `E_d/E_t` at the limit; none with an unknown rig.
+    /// Threshold of A = `E_d/E_t`. `None` if the compliance of the rig is unknown.
     pub energy_ratio: Option<f64>,
-    /// B = `E_d/(4Q*δ₀)` at the limit; none for a flat punch, which has no loop there.
+    /// Threshold of B = `E_d/(4Q*δ₀)`. `None` for a flat punch, which has no loop at the onset.
     pub system_free_ratio: Option<f64>,
-    /// D = δ₀/δ\* at the limit; none with an unknown rig.
+    /// Threshold of D = δ₀/δ\*. `None` if the compliance of the rig is unknown.
     pub slip_ratio: Option<f64>,
 }
 
-/// How a contact slips over its cycles.
+/// Slip regime of a contact.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Regime {
-    /// No loss above the resolution: every point sticks, or the cycle does not move at all.
+    /// Full stick: the loss is below the resolution, or the contact does not move.
     Stick,
-    /// The rim slips, the centre sticks.
+    /// Partial slip: the rim slips, the centre sticks.
     Partial,
-    /// The criteria do not agree (the loop lies at the limit), or partial and gross cycles follow each other.
+    /// The criteria disagree, as at the onset of gross slip, or the cycles have different regimes.
     Mixed,
-    /// The whole contact slides in every cycle.
+    /// Gross slip: the whole contact slips in every cycle.
     Gross,
 }
 
 impl Regime {
-    /// Its word.
+    /// Returns the name of the regime.
     #[must_use]
     pub fn word(self) -> &'static str {
         match self {
@@ -44,22 +44,24 @@ impl Regime {
 }
 
 impl Thresholds {
-    /// Energy ratio A below which a loop counts as closed: above the noise of a good rig and of a simulation's
-    /// tolerance, below the loop of a sphere at a hundredth of its gross-slip amplitude.
+    /// Energy ratio A below which a loop counts as full stick.
+    ///
+    /// It is above the noise of a good rig and the error of a simulation. It is below the loop of a sphere at 1 % of its gross slip
+    /// amplitude.
     pub const RESOLUTION: f64 = 5e-4;
 
-    /// Thresholds of the profile exponent n (f ~ rⁿ, above 0; infinite: flat punch) on a rigid rig.
+    /// Returns the thresholds for the profile exponent n (f ~ rⁿ, above 0; infinite for a flat punch) on a rigid rig.
     ///
     /// # Errors
-    /// An exponent that is not above 0.
+    /// The exponent is not above 0.
     pub fn of_profile(n: f64) -> Result<Self, SeriesError> {
         Self::with_rig(n, 0.0)
     }
 
-    /// Thresholds on a rig whose compliance is `compliance` times the contact's secant `u_c/μF_N`, at least 0.
+    /// Returns the thresholds for a rig with the given compliance, at least 0, relative to the secant compliance `u_c/μF_N` of the contact.
     ///
     /// # Errors
-    /// An exponent that is not above 0, a compliance that is negative or not finite.
+    /// The exponent is not above 0, or the compliance is negative or not finite.
     pub fn with_rig(n: f64, compliance: f64) -> Result<Self, SeriesError> {
         if !(compliance >= 0.0 && compliance.is_finite()) {
             return Err(SeriesError::Parameter {
@@ -76,17 +78,18 @@ impl Thresholds {
         })
     }
 
-    /// Thresholds on a rig of unknown compliance: B alone remains.
+    /// Returns the thresholds for a rig of unknown compliance. Only B has one.
     ///
     /// # Errors
-    /// An exponent that is not above 0.
+    /// The exponent is not above 0.
     pub fn with_unknown_rig(n: f64) -> Result<Self, SeriesError> {
         let (energy, slip) = rigid(n)?;
         Ok(Self { energy_ratio: None, system_free_ratio: ratio(energy, slip), slip_ratio: None })
     }
 
-    /// The regime of one cycle: gross where every defined criterion reaches its threshold, partial where none
-    /// does, mixed in between; stick below [`Self::RESOLUTION`]. A loop of the wrong sign counts as stick.
+    /// Returns the regime of one cycle: gross if all ratios reach their thresholds, partial if none does, and mixed otherwise.
+    ///
+    /// The regime is stick if A is below [`Self::RESOLUTION`], and for loops of the wrong sign.
     pub fn regime(&self, cycle: &Cycle) -> Regime {
         if cycle.energy_ratio().is_none_or(|a| a < Self::RESOLUTION) {
             return Regime::Stick;
@@ -99,7 +102,7 @@ impl Thresholds {
         let reached = pairs.iter().filter_map(|(value, limit)| Some((*value)? >= (*limit)?));
         let (gross, all) = reached.fold((0, 0), |(gross, all), yes| (gross + usize::from(yes), all + 1));
         match gross {
-            // Nothing to compare (a loop that never crosses Q = 0 on an unknown rig) decides nothing.
+            // Without any ratio to compare, the regime is undecided.
             _ if all == 0 => Regime::Mixed,
             0 => Regime::Partial,
             _ if gross == all => Regime::Gross,
@@ -107,8 +110,9 @@ impl Thresholds {
         }
     }
 
-    /// The regime of a run: that of its cycles where they agree (sticking cycles aside), else mixed. None for no
-    /// cycles.
+    /// Returns the common regime of all cycles, or mixed if they differ. Cycles in full stick are ignored unless there are no others.
+    ///
+    /// Returns `None` without cycles.
     pub fn regime_of_run(&self, cycles: &[Cycle]) -> Option<Regime> {
         cycles.iter().map(|cycle| self.regime(cycle)).reduce(|a, b| match (a, b) {
             (Regime::Stick, other) | (other, Regime::Stick) => other,
@@ -118,13 +122,13 @@ impl Thresholds {
     }
 }
 
-/// A and D of a rigid rig.
+/// Returns the thresholds of A and D for a rigid rig.
 fn rigid(n: f64) -> Result<(f64, f64), SeriesError> {
     if n == f64::INFINITY {
         return Ok((0.0, 0.0));
     }
     check_positive("n", n)?;
-    // 2^{1/(n+1)} - 1 without cancellation for large n.
+    // This form of 2^{1/(n+1)} - 1 has no cancellation for large n.
     Ok((1.0 / (2.0 * n + 1.0), math::exp_m1(std::f64::consts::LN_2 / (n + 1.0))))
 }
 

@@ -1,14 +1,14 @@
-//! Values in order, wherever they lie.
+//! Sequences of values in memory or on disk.
 
 use crate::series::sum;
 use std::ops::Range;
 
-/// Values in order: in memory, or on a disk where there are too many. They are read in parts, each from its first to its last.
+/// A sequence of values that can be read in parts, from memory or from disk.
 pub trait Sequence {
-    /// How many.
+    /// Returns the number of values.
     fn count(&self) -> usize;
 
-    /// Those of a range. What cannot be read is NaN.
+    /// Iterates over the values of an index range. Unreadable values are NaN.
     fn part(&self, range: Range<usize>) -> impl Iterator<Item = f64>;
 }
 
@@ -22,13 +22,13 @@ impl<T: AsRef<[f64]> + ?Sized> Sequence for T {
     }
 }
 
-/// Arithmetic mean of a part; NaN of nothing.
+/// Returns the arithmetic mean of an index range; NaN if it is empty.
 pub(crate) fn mean_of(values: &(impl Sequence + ?Sized), range: Range<usize>) -> f64 {
     let count = range.len();
     sum(values.part(range)) / count as f64
 }
 
-/// Half of what lies between the least and the largest of a part.
+/// Returns half the difference between the maximum and the minimum of an index range.
 pub(crate) fn half_range(values: &(impl Sequence + ?Sized), range: Range<usize>) -> f64 {
     let extent = |(low, high): (f64, f64), v: f64| (low.min(v), high.max(v));
     let (low, high) = values.part(range).fold((f64::INFINITY, f64::NEG_INFINITY), extent);

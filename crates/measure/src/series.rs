@@ -1,56 +1,56 @@
-//! What a series must fulfil before numbers are taken from it.
+//! Checks on series of samples.
 
 use thiserror::Error;
 
-/// Why no numbers can be taken from a series.
+/// Error for a series that cannot be evaluated.
 #[derive(Debug, Clone, Copy, PartialEq, Error)]
 pub enum SeriesError {
-    /// Fewer samples than the quantity needs.
+    /// The series has too few samples.
     #[error("{series}: expected at least {least} samples, got {got}")]
     TooShort {
         /// Name of the series.
         series: &'static str,
-        /// Samples needed.
+        /// Required number of samples.
         least: usize,
-        /// Samples given.
+        /// Actual number of samples.
         got: usize,
     },
-    /// Two series that belong together have different lengths.
+    /// Two series have different lengths.
     #[error("{series} has {got} samples where {other} has {expected}")]
     Lengths {
         /// Name of the series.
         series: &'static str,
-        /// Its length.
+        /// Number of its samples.
         got: usize,
-        /// Name of the series it belongs to.
+        /// Name of the other series.
         other: &'static str,
-        /// The length of that one.
+        /// Number of samples of the other series.
         expected: usize,
     },
-    /// A sample is not a finite number.
+    /// A sample is not finite.
     #[error("{series}[{index}] is {value}, expected a finite number")]
     NotFinite {
         /// Name of the series.
         series: &'static str,
-        /// Place of the sample.
+        /// Index of the sample.
         index: usize,
-        /// The sample.
+        /// Value of the sample.
         value: f64,
     },
-    /// Time runs backwards. Equal times are allowed: a jump takes no time and leaves two rows.
-    #[error("t[{index}] = {after} s comes after {before} s, expected times that do not decrease")]
+    /// Times decrease. Equal times are allowed: at a jump there are two rows with the same time.
+    #[error("t[{index}] = {after} s follows {before} s, expected times in ascending order")]
     TimeDecreases {
-        /// Place of the later sample.
+        /// Index of the later sample.
         index: usize,
-        /// Time before, s.
+        /// Time of the previous sample, s.
         before: f64,
-        /// Time at the place, s.
+        /// Time of the later sample, s.
         after: f64,
     },
-    /// The record does not contain one whole period.
+    /// The record is shorter than one period.
     #[error("the record lasts {duration} s, expected at least one period of {period} s")]
     ShorterThanPeriod {
-        /// Length of the record, s.
+        /// Duration of the record, s.
         duration: f64,
         /// Period, s.
         period: f64,
@@ -60,14 +60,14 @@ pub enum SeriesError {
     Parameter {
         /// Name of the parameter.
         name: &'static str,
-        /// What would be allowed.
+        /// Description of the allowed range.
         range: &'static str,
-        /// What was given.
+        /// Value of the parameter.
         value: f64,
     },
 }
 
-/// Checks length and finiteness of one series.
+/// Checks that a series has at least `least` samples, all finite.
 pub(crate) fn check(series: &'static str, values: &[f64], least: usize) -> Result<(), SeriesError> {
     if values.len() < least {
         return Err(SeriesError::TooShort { series, least, got: values.len() });
@@ -78,7 +78,7 @@ pub(crate) fn check(series: &'static str, values: &[f64], least: usize) -> Resul
     }
 }
 
-/// Checks that a series is as long as the one it belongs to.
+/// Checks that two series have equal lengths.
 pub(crate) fn check_lengths(
     (series, values): (&'static str, &[f64]),
     (other, others): (&'static str, &[f64]),
@@ -106,13 +106,13 @@ pub(crate) fn check_positive(name: &'static str, value: f64) -> Result<(), Serie
     Err(SeriesError::Parameter { name, range: "above 0", value })
 }
 
-/// Smallest and largest value; (∞, -∞) of nothing.
+/// Returns the minimum and the maximum; (∞, -∞) for an empty slice.
 #[must_use]
 pub fn extent(values: &[f64]) -> (f64, f64) {
     values.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(lo, hi), &v| (lo.min(v), hi.max(v)))
 }
 
-/// Sum with Neumaier's compensation: the error does not grow with the number of terms.
+/// Returns the sum by Neumaier's compensated summation. Its error does not grow with the number of terms.
 pub(crate) fn sum(terms: impl Iterator<Item = f64>) -> f64 {
     let (mut total, mut lost) = (0.0_f64, 0.0_f64);
     for term in terms {
@@ -123,7 +123,7 @@ pub(crate) fn sum(terms: impl Iterator<Item = f64>) -> f64 {
     total + lost
 }
 
-/// Arithmetic mean; NaN of nothing.
+/// Returns the arithmetic mean; NaN for an empty slice.
 pub(crate) fn mean(values: &[f64]) -> f64 {
     sum(values.iter().copied()) / values.len() as f64
 }
@@ -138,7 +138,7 @@ mod tests {
         let text = check("u", &[0.0, f64::INFINITY], 1).unwrap_err().to_string();
         assert_eq!(text, "u[1] is inf, expected a finite number");
         let text = check_time(&[0.0, 1.0, 0.5], 1).unwrap_err().to_string();
-        assert_eq!(text, "t[2] = 0.5 s comes after 1 s, expected times that do not decrease");
+        assert_eq!(text, "t[2] = 0.5 s follows 1 s, expected times in ascending order");
         assert!(check_time(&[0.0, 1.0, 1.0], 1).is_ok());
         assert!(check_positive("period", f64::NAN).is_err());
     }

@@ -1,4 +1,4 @@
-//! What is run: a scenario, its constants assembled, its start.
+//! A scenario with its model and its initial state.
 
 use crate::plausibility;
 use stickslip_drive::facts::{Setup, has_constant_load};
@@ -6,48 +6,50 @@ use stickslip_drive::scene::{Freedom, Normal, Side};
 use stickslip_drive::{Accuracy, Model, State, Stepper};
 use stickslip_scenario::{Scenario, Warning};
 
-/// A scenario with its constants and its start: what is measured and judged is measured and judged of these.
+/// A scenario, its model and its initial state. All evaluations and checks refer to it.
 pub struct Setting {
-    /// What is to be run.
+    /// Scenario.
     pub scenario: Scenario,
-    /// Its constants, assembled.
+    /// Model of the scenario.
     pub model: Model,
-    /// The state at t = 0.
+    /// State at t = 0.
     pub start: State,
 }
 
 impl Setting {
-    /// Number of identical contacts behind contact `c`.
+    /// Returns the number of identical contacts that contact `c` represents.
     pub fn count(&self, c: usize) -> u32 {
         self.scenario.scene.contacts.get(c).map_or(1, |contact| contact.part.count)
     }
 
-    /// What facts are told of.
+    /// Returns the arguments for the computation of `facts` (properties known before a run).
     pub fn setup(&self) -> Setup<'_> {
         Setup { scene: &self.scenario.scene, model: &self.model, start: &self.start }
     }
 
-    /// Whether the load of contact `c` never changes.
+    /// Returns whether the normal load of contact `c` is constant.
     pub fn has_constant_load(&self, c: usize) -> bool {
         self.scenario.scene.contacts.get(c).is_some_and(|contact| has_constant_load(&contact.part))
     }
 
-    /// Whether the force of contact `c` follows from the way of its bodies along the slide alone.
+    /// Returns whether the tangential force of contact `c` depends only on the path of its displacement u, not on time.
     pub fn has_law_without_time(&self, c: usize) -> bool {
         self.has_constant_load(c) && !self.is_damped(c)
     }
 
-    /// Whether contact `c` has damping of its own.
+    /// Returns whether contact `c` has damping.
     pub fn is_damped(&self, c: usize) -> bool {
         self.scenario.scene.contacts.get(c).is_some_and(|contact| contact.part.interface.damping() > 0.0)
     }
 
-    /// Whether a waveform of its scene jumps.
+    /// Returns whether a waveform of the model jumps.
     pub fn has_jumps(&self) -> bool {
         self.scenario.scene.waveforms.iter().any(|waveform| waveform.part.has_jumps())
     }
 
-    /// Whether nothing but friction loses energy beside contact `c`: no other damped contact, no damper, and no block.
+    /// Returns whether no other part than contact `c` dissipates energy, except by friction.
+    ///
+    /// There must be no other damped contact, no damper and no block.
     pub fn loses_nothing_beside(&self, c: usize) -> bool {
         let scene = &self.scenario.scene;
         let mut others = (0..scene.contacts.len()).filter(|other| *other != c);
@@ -56,12 +58,12 @@ impl Setting {
         scene.blocks.is_empty() && !others.any(|other| self.is_damped(other)) && dampers.all(|it| it == 0.0)
     }
 
-    /// Whether the bodies' motion presses contact `c`.
+    /// Returns whether the motion of bodies determines the normal load of contact `c`.
     pub fn is_coupled(&self, c: usize) -> bool {
         self.scenario.scene.contacts.get(c).is_some_and(|contact| contact.part.normal == Normal::Coupled)
     }
 
-    /// Whether a body that is free along z presses contact `c`.
+    /// Returns whether a body that is free along z presses contact `c`.
     pub fn is_pressed_freely(&self, c: usize) -> bool {
         let scene = &self.scenario.scene;
         let is_free = |side: &Side| match side {
@@ -72,8 +74,7 @@ impl Setting {
             && scene.contacts.get(c).is_some_and(|contact| contact.part.between.iter().any(is_free))
     }
 
-    /// Gross-slip displacement u_c (m) and normal force (N) of one contact of `c` at t = 0: in equilibrium, if the run
-    /// starts there.
+    /// Returns the gross slip displacement u_c, m, and the normal force, N, of one contact of `c` at t = 0.
     pub fn contact_scale(&self, c: usize) -> (f64, f64) {
         let contact = self.model.contacts().zip(self.start.memories()).nth(c);
         contact.map_or((0.0, 0.0), |((_, law), memory)| {
@@ -82,25 +83,25 @@ impl Setting {
         })
     }
 
-    /// Everything odd about the scenario: what its file alone tells, then what its scene comes to.
+    /// Returns all warnings about the scenario: those about the file and those about the model.
     pub fn warnings(&self) -> Vec<Warning> {
         let mut warnings = self.scenario.warnings.clone();
         warnings.extend(plausibility::of(self));
         warnings
     }
 
-    /// What is odd about the scenario if this stepper takes it in frames.
+    /// Returns the warnings about unbounded errors if this integrator simulates the scenario in frames.
     pub fn warnings_of_frames(&self, stepper: Stepper) -> Vec<Warning> {
         plausibility::of_frames(self, stepper)
     }
 
-    /// Name of the stepper that the run takes and its tolerance or step with that word.
+    /// Returns the name of the integrator used, the name of its accuracy setting, and the value of this setting.
     pub fn stepper(&self) -> (&'static str, &'static str, f64) {
         let stepper = self.model.effective(self.scenario.plan.stepper);
         match stepper.accuracy() {
             Accuracy::Tolerance(tolerance) => (stepper.name(), "tolerance", tolerance),
             Accuracy::Step(step) => (stepper.name(), "step_s", step),
-            // The longest of its steps.
+            // The longest time step.
             Accuracy::Frame { length, error } => {
                 (stepper.name(), "step_s", length / self.model.substeps(length, error))
             }

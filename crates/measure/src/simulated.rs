@@ -1,28 +1,27 @@
-//! What is kept of a run for the summary and the pictures.
+//! Time histories of a run that are kept for the summary and the plots.
 
 use std::collections::HashMap;
 use stickslip_drive::Channel;
 use stickslip_scenario::PlotName;
 
-/// Quantities kept; the rest is in the tables only.
+/// Quantities that are always kept.
 const KEPT: [&str; 11] =
     ["time_s", "x_m", "vx_m_s", "z_m", "vz_m_s", "pitch_rad", "vpitch_rad_s", "u_m", "d_m", "fx_N", "fn_N"];
 
 /// Quantities of a driver.
 const DRIVER: [&str; 2] = ["voltage_V", "current_A"];
 
-/// A row this near to the end of a part, in its lengths, is the end.
+/// Tolerance for a row at the end of a time interval, relative to its length.
 const SAME: f64 = 1e-9;
 
-/// Part that the energies of the whole belong to.
+/// Name of the part that the total energies belong to.
 pub const ENERGY: &str = "energy";
 
-/// Rows and the moments after events, in order of time: all are exact states of the run, and the turning points
-/// between two rows are among them.
+/// Time history of a run: the rows and the states after events, in order of time. All are computed states, none is interpolated.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Series {
     columns: Vec<Column>,
-    /// Places of the columns by name: a scene may have tens of thousands.
+    /// Column indices by name.
     places: HashMap<String, usize>,
 }
 
@@ -33,7 +32,7 @@ struct Column {
 }
 
 impl Series {
-    /// An empty series of a model's channels; what only pictures need is kept for those in `plots`.
+    /// Creates an empty series for the channels of a model. Some channels are kept only if the plots in `plots` need them.
     pub fn new(channels: &[Channel], plots: &[PlotName]) -> Self {
         let (with_energies, with_all) = (plots.contains(&PlotName::Energy), plots.contains(&PlotName::Xy));
         let with_drive = plots.contains(&PlotName::Drive);
@@ -47,7 +46,7 @@ impl Series {
         Self::kept(channels, is_kept)
     }
 
-    /// One that keeps nothing.
+    /// Creates a series without columns.
     pub fn none() -> Self {
         Self { columns: Vec::new(), places: HashMap::new() }
     }
@@ -69,22 +68,22 @@ impl Series {
         }
     }
 
-    /// Number of columns.
+    /// Returns the number of columns.
     pub fn width(&self) -> usize {
         self.columns.len()
     }
 
-    /// Numbers kept so far.
+    /// Returns the number of values kept so far.
     pub fn size(&self) -> u64 {
         self.columns.len() as u64 * self.time().len() as u64
     }
 
-    /// Times, s.
+    /// Returns the times, s.
     pub fn time(&self) -> &[f64] {
         self.columns.first().map_or(&[], |column| &column.values)
     }
 
-    /// The rows from one time to another, s; an end that falls between two rows is on the straight lines between them.
+    /// Returns the rows within a time interval, s. End rows between two rows are interpolated linearly.
     #[must_use]
     pub fn part(&self, (from, to): (f64, f64)) -> Self {
         let time = self.time();
@@ -109,8 +108,9 @@ impl Series {
         Self { columns: self.columns.iter().map(cut).collect(), places: self.places.clone() }
     }
 
-    /// The same for drawing, where rows are only within a window, s: between it and the first and the last row of the run, which are
-    /// there anyway, a row of what is not known, so that no line leads over.
+    /// Returns the series with NaN rows before and after a time window, s.
+    ///
+    /// Plots then draw no line from the window to the first and the last row of the run, which are kept, too.
     #[must_use]
     pub fn broken(&self, [from, to]: [f64; 2]) -> Self {
         let time = self.time();
@@ -129,7 +129,7 @@ impl Series {
         Self { columns: self.columns.iter().map(split).collect(), places: self.places.clone() }
     }
 
-    /// The same with these quantities of all parts less what they are in the first row.
+    /// Returns the series with the initial values of some quantities subtracted.
     #[must_use]
     pub fn counted_from_start(mut self, quantities: &[&str]) -> Self {
         let is_counted = |name: &str| name.rsplit_once('.').is_some_and(|(_, it)| quantities.contains(&it));
@@ -142,18 +142,18 @@ impl Series {
         self
     }
 
-    /// Whether a column is kept.
+    /// Returns whether a column is kept.
     pub fn has(&self, name: &str) -> bool {
         self.places.contains_key(name)
     }
 
-    /// A column by its name; empty where there is none.
+    /// Returns a column by its name; an empty slice if it is absent.
     pub fn named(&self, name: &str) -> &[f64] {
         let place = self.places.get(name);
         place.and_then(|place| self.columns.get(*place)).map_or(&[], |column| &column.values)
     }
 
-    /// A column by part and quantity; empty where there is none.
+    /// Returns a column by part and quantity; an empty slice if it is absent.
     pub fn column(&self, part: &str, quantity: &str) -> &[f64] {
         self.named(&format!("{part}.{quantity}"))
     }
@@ -204,7 +204,7 @@ mod tests {
             (part.time().to_vec(), part.column("ball", "u_m").to_vec())
         };
         assert_eq!(part((0.5, 2.5)), (vec![0.5, 1.0, 2.0, 2.0, 2.5], vec![1.0, 2.0, 0.0, 1.0, 3.0]));
-        // Rounded ends are the rows' own, and beyond the last row there is nothing.
+        // Rounded interval ends coincide with rows. Beyond the last row the part is empty.
         assert_eq!(part((1.0 + 1e-10, 2.0 - 1e-10)), (vec![1.0, 2.0, 2.0], vec![2.0, 0.0, 1.0]));
         assert_eq!(part((2.5, 9.0)), (vec![2.5, 3.0], vec![3.0, 5.0]));
         assert_eq!(part((4.0, 9.0)), (vec![], vec![]));

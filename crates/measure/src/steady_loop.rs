@@ -1,9 +1,9 @@
-//! The figures of a steady measured loop, each with an interval that holds the truth in 95 of 100 records.
+//! Evaluation of a steady measured loop with noise, with 95 % confidence intervals.
 //!
-//! Displacements are fitted by harmonics of one period and a drift; forces are folded into that period. Branches of the loop are one of a
-//! family that has elastic-plastic elements, balls and cones at constant load, and elastic lines beside them, in partial and in gross slip; the
-//! force may come late or early. Samples of all that is compatible with the rows ([Goodman and Weare
-//! 2010](https://doi.org/10.2140/camcos.2010.5.65)) have the intervals: each is between the 2.5 % and the 97.5 % of them.
+//! Displacements are fitted by the harmonics of one period and a drift. Forces are averaged over the period phase. The branches of the loop
+//! belong to a family of curves: elastic-plastic elements, balls and cones at constant load, in partial and gross slip. The family includes
+//! an elastic part and a time lag of the force. Its parameters are sampled from the posterior distribution by Markov chains ([Goodman and
+//! Weare 2010](https://doi.org/10.2140/camcos.2010.5.65)). The intervals are the 2.5 % and 97.5 % quantiles of the samples.
 
 mod branch;
 mod motion;
@@ -14,38 +14,39 @@ use posterior::{BINS, Folded, Sample};
 use serde::Serialize;
 use std::f64::consts::TAU;
 
-/// Most cycles that are fitted to one period: that of a rig wanders.
+/// Maximum number of cycles that are fitted with one period, because the period of a rig may drift.
 const CHUNK: usize = 40;
-/// Most such parts: of more, so many are taken, evenly spread.
+/// Maximum number of such parts. A longer record is sampled evenly.
 const PARTS: usize = 25;
-/// Fewest rows of a cycle.
+/// Minimum number of rows per cycle.
 const ROWS: usize = 16;
-/// Harmonics of forces by which their spikes are found, beside those of the displacement.
+/// Minimum number of harmonics of the force for the detection of spikes.
 const FORCES: usize = 12;
-/// What is left of displacements after the fit, as a share of their amplitude and in noises of neighbours: more than both is no period.
+/// Largest residuals of the displacement: relative to its amplitude, and relative to the noise. If both are exceeded, there is no common
+/// period.
 const UNEVEN: [f64; 2] = [0.02, 2.0];
-/// How much more likely than the other sense one has to be, as half a logarithm.
+/// Difference of the log likelihoods above which the sign of the force is certain.
 const SURE: f64 = 12.0;
-/// Shares of the samples below and above an interval, and above one that begins with zero.
+/// Probability below and above an interval. An interval that starts at zero has both above it.
 const TAIL: f64 = 0.025;
-/// One-sided tail (Imbens and Manski 2004): of an interval that goes from a value that lag has moved to the truth.
+/// Probability beyond one end of an interval whose other end is a value moved by lag (Imbens and Manski 2004).
 const ONE_SIDED: f64 = 0.05;
-/// An interval whose low end is less than this share of its high end begins with zero, where nothing is below zero.
+/// Ratio of the lower to the upper end below which the interval of a non-negative value starts at zero.
 const FROM_ZERO: f64 = 0.05;
 const NORMAL: f64 = 1.96;
 
-/// A value between the ends of its interval of 95 %.
+/// A value with its 95 % confidence interval.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize)]
 pub struct Interval {
-    /// As it is measured.
+    /// Measured value.
     pub value: f64,
-    /// Low end.
+    /// Lower end.
     pub low: f64,
-    /// High end.
+    /// Upper end.
     pub high: f64,
 }
 
-/// The figures of a steady loop.
+/// Results of a steady loop.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SteadyLoop {
     /// Displacement amplitude δ\*, m.
@@ -54,21 +55,23 @@ pub struct SteadyLoop {
     pub force_amplitude: Interval,
     /// Dissipated energy E_d, J.
     pub dissipated: Interval,
-    /// Half of the opening at the middle of the forces, m.
+    /// Half opening at the middle of the force range, m.
     pub half_opening: Interval,
-    /// Half of the opening where the force is zero, m; none of a loop that nowhere is.
+    /// Half opening at zero force, m. `None` if the force does not change sign.
     pub half_opening_at_zero_force: Option<Interval>,
-    /// A = E_d/(4Q\*δ\*).
+    /// Energy ratio A = E_d/(4Q\*δ\*).
     pub energy_ratio: Interval,
-    /// B = E_d/(4Q\*δ₀); none of a loop that may have no opening.
+    /// System-free ratio B = E_d/(4Q\*δ₀). `None` if the opening may be zero.
     pub system_free_ratio: Option<Interval>,
-    /// D = δ₀/δ\*.
+    /// Slip ratio D = δ₀/δ\*.
     pub slip_ratio: Interval,
-    /// E_d/(4δ₀), N: the energy coefficient of friction is this over the mean normal force. None of a loop that may have no opening.
+    /// Friction force E_d/(4δ₀), N. The energy coefficient of friction is this force divided by the mean normal force.
+    ///
+    /// `None` if the opening may be zero.
     pub friction_force: Option<Interval>,
-    /// Tangent of the branches at the reversals, N/m.
+    /// Tangent stiffness at the reversals, N/m.
     pub stiffness: Interval,
-    /// By how much the force comes late, in units of time.
+    /// Time lag of the force, in units of time.
     pub lag: Interval,
     /// Drift of the displacement per unit of time.
     pub displacement_drift: Interval,
@@ -76,11 +79,11 @@ pub struct SteadyLoop {
     pub force_drift: Interval,
     /// Period, in units of time.
     pub period: f64,
-    /// What no branch of the family has of the forces: root of the mean square as a share of Q\*, 0 where it is not more than noise.
+    /// Deviation of the forces from the family of curves: root mean square relative to Q\*. It is 0 if it does not exceed the noise.
     pub misfit: f64,
-    /// Whether the force resists the motion, so that it was turned round.
+    /// Whether the sign of the force was inverted, because the measured force resists the motion.
     pub is_turned: bool,
-    /// Whether the rows tell which sense the force has.
+    /// Whether the data determine the sign of the force with certainty.
     pub is_sense_sure: bool,
 }
 
@@ -89,13 +92,13 @@ impl Interval {
         Self { value, low: value - NORMAL * deviation, high: value + NORMAL * deviation }
     }
 
-    /// Half of its width.
+    /// Returns half the width of the interval.
     #[must_use]
     pub fn half_width(&self) -> f64 {
         0.5 * (self.high - self.low)
     }
 
-    /// The interval of samples, widened to a value that need not lie among them, as lag has moved it.
+    /// Returns the interval of samples. It is widened to include `value`, which time lag may have moved outside.
     fn of(mut samples: Vec<f64>, value: f64) -> Self {
         samples.sort_unstable_by(f64::total_cmp);
         let at = |share: f64| samples[((share * samples.len() as f64) as usize).min(samples.len() - 1)];
@@ -113,8 +116,9 @@ impl Interval {
     }
 }
 
-/// Measures rows of cycles of about one period that follow each other; `period` is about theirs, in units of t. None where they have no common period, or are
-/// too few.
+/// Evaluates the rows of consecutive cycles. `period` is their approximate period, in units of t.
+///
+/// Returns `None` if there is no common period, or if there are too few rows.
 #[must_use]
 pub fn steady_loop(t: &[f64], u: &[f64], force: &[f64], period: f64) -> Option<SteadyLoop> {
     let parts = parts(t, u, force, period)?;
@@ -131,26 +135,28 @@ pub fn steady_loop(t: &[f64], u: &[f64], force: &[f64], period: f64) -> Option<S
     Some(all.figures((&samples, &at_zero_lag), (misfit, sign, surety)))
 }
 
-/// The mean loop of cycles of about one period, without drift and spikes.
+/// Mean loop of cycles, without drift and spikes.
 #[derive(Debug, Clone, PartialEq)]
 pub struct MeanLoop {
-    /// Shares of the period gone since the maximum of the displacement, that ascend.
+    /// Phases since the maximum of the displacement, in periods, in ascending order.
     pub phase: Vec<f64>,
-    /// Displacements there by their harmonics, about their middle, m.
+    /// Displacements at these phases from the fitted harmonics, relative to the middle of their range, m.
     pub u: Vec<f64>,
     /// Mean forces, N.
     pub force: Vec<f64>,
-    /// How many rows each is the mean of.
+    /// Number of rows of each mean.
     pub counts: Vec<f64>,
     /// Period, in units of time.
     pub period: f64,
-    /// Standard deviation of rows about these means, N, with its degrees of freedom.
+    /// Standard deviation of the rows about the means, N.
     pub noise: f64,
-    /// Degrees of freedom of the noise.
+    /// Degrees of freedom of the standard deviation.
     pub freedom: f64,
 }
 
-/// The mean loop of rows of cycles that follow each other; none where they have no common period, or are too few.
+/// Computes the mean loop of consecutive cycles.
+///
+/// Returns `None` if there is no common period, or if there are too few rows.
 #[must_use]
 pub fn mean_loop(t: &[f64], u: &[f64], force: &[f64], period: f64) -> Option<MeanLoop> {
     let parts = parts(t, u, force, period)?;
@@ -169,7 +175,7 @@ pub fn mean_loop(t: &[f64], u: &[f64], force: &[f64], period: f64) -> Option<Mea
     })
 }
 
-/// Fits the cycles in parts that have one period each.
+/// Splits the rows into parts and fits each with one period.
 fn parts(t: &[f64], u: &[f64], force: &[f64], period: f64) -> Option<Vec<Part>> {
     let cycles = ((t.last()? - t.first()?) / period).round();
     if cycles.is_nan() || cycles < 1.0 || (u.len() as f64) < ROWS as f64 * cycles {
@@ -180,16 +186,16 @@ fn parts(t: &[f64], u: &[f64], force: &[f64], period: f64) -> Option<Vec<Part>> 
     let chosen = pieces.min(PARTS as f64);
     let starts = (0..chosen as usize).map(|part| (part as f64 * pieces / chosen) as usize * rows);
     let spans = starts.map(|start| start..(start + rows).min(u.len()));
-    // A last part that is no cycle adds nothing.
+    // A last part without a whole cycle is omitted.
     let whole = spans.filter(|span| span.len() > 1 && t[span.end - 1] - t[span.start] > 0.9 * period);
     whole.map(|span| Part::fit(&t[span.clone()], &u[span.clone()], &force[span], period)).collect()
 }
 
-/// Cycles that are fitted to one period.
+/// Consecutive cycles that are fitted with one period.
 struct Part {
     motion: Motion,
     forces: Harmonics,
-    /// Phases and forces of rows without spikes and drift.
+    /// Phases and forces of the rows, without spikes and drift.
     rows: Vec<[f64; 2]>,
 }
 
@@ -212,7 +218,7 @@ impl Part {
     }
 }
 
-/// What all parts have in common.
+/// Common results of all parts.
 struct Together {
     shares: Vec<f64>,
     turn: f64,
@@ -226,7 +232,7 @@ impl Together {
     fn of(parts: &[Part]) -> Option<Self> {
         let count = parts.len() as f64;
         let mean = |of: &dyn Fn(&Part) -> f64| parts.iter().map(of).sum::<f64>() / count;
-        // Of several parts, the deviation of the mean.
+        // The second value is the standard deviation of the mean of all parts.
         let both = |of: &dyn Fn(&Part) -> [f64; 2]| {
             let squares = parts.iter().map(|part| of(part)[1].powi(2)).sum::<f64>();
             [mean(&|part| of(part)[0]), squares.sqrt() / count]
@@ -245,7 +251,9 @@ impl Together {
         })
     }
 
-    /// The figures of samples, and of samples without a lag; with what no branch has, the sign of the force and how sure it is.
+    /// Computes the results from samples with a free time lag and samples without a lag.
+    ///
+    /// `misfit`, `sign` and `surety` are the deviation from the family of curves, the sign of the force and the certainty of this sign.
     fn figures(
         &self,
         (samples, at_zero_lag): (&[Sample], &[Sample]),

@@ -1,33 +1,33 @@
-//! The quantities of a stepping drive.
+//! Evaluation of a stepping drive.
 
 use crate::sequence::Sequence;
 use crate::series::{SeriesError, check, check_lengths, check_positive, check_time, sum};
 use crate::settling::{Bounds, Settled, Settling};
 use std::ops::Range;
 
-/// Where a body was in a period of its drive, m.
+/// Positions of a body in one drive period, m.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Stride {
-    /// At its start.
+    /// Position at the start.
     pub start: f64,
-    /// At its end.
+    /// Position at the end.
     pub end: f64,
-    /// The least place within it.
+    /// Minimum position.
     pub least: f64,
-    /// The largest.
+    /// Maximum position.
     pub most: f64,
-    /// The largest fall after a maximum within it.
+    /// Largest decrease of the position after a maximum.
     pub fall: f64,
-    /// The largest rise after a minimum within it.
+    /// Largest increase of the position after a minimum.
     pub rise: f64,
 }
 
-/// Strides in order: in memory, or on a disk where there are too many.
+/// A sequence of strides that can be read in parts, from memory or from disk.
 pub trait Strides {
-    /// How many.
+    /// Returns the number of strides.
     fn count(&self) -> usize;
 
-    /// Those of a range. What cannot be read is NaN.
+    /// Iterates over the strides of an index range. Unreadable strides contain NaN.
     fn part(&self, range: Range<usize>) -> impl Iterator<Item = Stride>;
 }
 
@@ -41,7 +41,7 @@ impl Strides for [Stride] {
     }
 }
 
-/// The lengths of strides.
+/// The step lengths of a sequence of strides.
 struct Lengths<'a, S: ?Sized>(&'a S);
 
 impl<S: Strides + ?Sized> Sequence for Lengths<'_, S> {
@@ -54,40 +54,40 @@ impl<S: Strides + ?Sized> Sequence for Lengths<'_, S> {
     }
 }
 
-/// The steady state: statistics over the last periods, of a drive that has settled.
+/// Steady state of a settled drive: statistics over the last periods.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Steady {
-    /// First period from which every step lies within [`BAND`](crate::settling::BAND) of what the steps settle to.
+    /// First period from which all steps are within [`BAND`](crate::settling::BAND) of the limit.
     pub from: usize,
-    /// Number of periods averaged: those at the end whose steps are as near to that as the last one.
+    /// Number of periods at the end that are averaged.
     pub periods: usize,
-    /// Steady step: mean step length, m.
+    /// Steady step length: mean of the averaged periods, m.
     pub step: f64,
-    /// How far the mean of all later steps may lie from it, m: by the decay of the differences.
+    /// Error of the steady step length as an estimate for all later steps, m.
     pub error: f64,
-    /// Repeatability: standard deviation of the step length (n-1), m; none for a single period.
+    /// Repeatability: standard deviation of the step length (n-1), m. `None` for a single period.
     pub repeatability: Option<f64>,
-    /// Mean back-step, m: [`Stride::back_step`].
+    /// Mean back-step, m, see [`Stride::back_step`].
     pub back_step: f64,
 }
 
-/// The quantities of a drive's record.
+/// Evaluated steps of a drive.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Steps {
     /// Number of whole periods.
     pub periods: usize,
-    /// Mean speed over the whole periods, m/s.
+    /// Mean velocity over the whole periods, m/s.
     pub mean_speed: f64,
-    /// Net travel over the whole record, a trailing part of a period included, m.
+    /// Displacement over the whole record, including an incomplete period at its end, m.
     pub net_travel: f64,
-    /// What the step lengths do.
+    /// Convergence of the step length.
     pub settling: Settling,
-    /// The steady state; none of a drive that has not settled.
+    /// Steady state. `None` for a drive that has not settled.
     pub steady: Option<Steady>,
 }
 
 impl Stride {
-    /// That of a body that goes through some positions from its start to its end, m.
+    /// Creates the stride of a body that moves from `start` through the positions `inside` to `end`, m.
     fn along(start: f64, inside: impl Iterator<Item = f64>, end: f64) -> Self {
         let blank = Self { start, end, least: start, most: start, fall: 0.0, rise: 0.0 };
         inside.chain([end]).fold(blank, |so_far, x| Self {
@@ -99,13 +99,14 @@ impl Stride {
         })
     }
 
-    /// Length of the step, m.
+    /// Returns the step length, m.
     pub fn length(&self) -> f64 {
         self.end - self.start
     }
 
-    /// Back-step, m: the largest motion against the step after an extreme, within this period and its repetition: max x(t₁) - x(t₂)
-    /// over t₁ ≤ t₂ of a step forward. Without a step it is the peak-to-peak motion.
+    /// Returns the back-step, m: the largest motion against the step direction within this period and its repetition.
+    ///
+    /// For a step forward, it is max x(t₁) - x(t₂) over t₁ ≤ t₂. Without a step it is the peak-to-peak motion.
     pub fn back_step(&self) -> f64 {
         let step = self.length();
         if step >= 0.0 {
@@ -117,11 +118,10 @@ impl Stride {
 }
 
 impl Steps {
-    /// Takes the quantities from where the body was in each of its periods, s. `net_travel` is theirs and that of what comes
-    /// before and after, m.
+    /// Evaluates strides with a drive period, s. `net_travel` is the displacement over the whole record, m.
     ///
-    /// The direction of travel is the sign of the displacement over the whole periods: a drive that runs backwards
-    /// has negative steps and the same back-steps. What is known of the lengths is in `bounds`.
+    /// The direction of travel is the sign of the displacement over the whole periods. A drive that moves backwards has negative steps.
+    /// `bounds` are known bounds of the step lengths.
     pub fn of_strides<S: Strides + ?Sized>(
         strides: &S,
         period: f64,
@@ -141,12 +141,13 @@ impl Steps {
         Self { mean_speed: travel / time, net_travel, settling, steady, periods }
     }
 
-    /// Takes the quantities of the slider's position x(t), m over s, driven with a period T, s. Periods count
-    /// from the first sample; positions at their ends are interpolated linearly.
+    /// Evaluates a recorded position x(t), m and s, with the drive period T, s.
+    ///
+    /// Periods start at the first sample. Positions at their ends are interpolated linearly.
     ///
     /// # Errors
-    /// Fewer than 2 samples, series of different lengths, values that are not finite, times that decrease, a
-    /// period not above 0, a record shorter than a period or with fewer samples than periods.
+    /// The series have fewer than 2 samples or different lengths, are not finite, or have decreasing times. Or the period is not above 0,
+    /// exceeds the record, or is shorter than the sampling interval.
     pub fn of_record(t: &[f64], x: &[f64], period: f64, bounds: Bounds) -> Result<Self, SeriesError> {
         check_lengths(("x", x), ("t", t))?;
         check_time(t, 2)?;
@@ -182,10 +183,10 @@ impl Steady {
     }
 }
 
-/// Number of whole periods in the record; at least one.
+/// Returns the number of whole periods in the record, at least one.
 fn whole_periods(t: &[f64], period: f64) -> Result<usize, SeriesError> {
     let duration = t[t.len() - 1] - t[0];
-    // Sums of rounded time steps miss the end of a period by a little.
+    // Sums of rounded time steps may miss the end of a period slightly.
     let count = (duration / period + 1e-6).floor();
     if count < 1.0 {
         return Err(SeriesError::ShorterThanPeriod { duration, period });
@@ -196,14 +197,14 @@ fn whole_periods(t: &[f64], period: f64) -> Result<usize, SeriesError> {
     Ok(count as usize)
 }
 
-/// Samples with start < t < end (a hair inside, so that rounding moves no sample into the wrong period).
+/// Returns the samples with start < t < end. A small tolerance prevents rounding from moving a sample to the wrong period.
 fn span(t: &[f64], start: f64, end: f64) -> Range<usize> {
     let hair = 1e-9 * (end - start);
     let first = t.partition_point(|&s| s <= start + hair);
     first..t.partition_point(|&s| s < end - hair).max(first)
 }
 
-/// x at a time by linear interpolation, the end value beyond the end. At a jump in x the value before it.
+/// Returns x at a time by linear interpolation. Beyond the record it is the end value, and at a jump the value before it.
 fn position(t: &[f64], x: &[f64], time: f64) -> f64 {
     let after = t.partition_point(|&s| s < time);
     if after == 0 {
@@ -223,7 +224,7 @@ mod tests {
 
     const BOUNDS: Bounds = Bounds { least: 0.0, most: f64::INFINITY, error: 0.0 };
 
-    /// A slider that goes forward by `forward` over 0.8 of each period and back by `back(k)` in the rest.
+    /// Returns the position of a slider that moves by `forward` during 0.8 of each period and back by `back(k)` in the rest.
     fn staircase(count: usize, forward: f64, back: impl Fn(usize) -> f64) -> (Vec<f64>, Vec<f64>) {
         let (mut t, mut x, mut at) = (vec![0.0], vec![5.0], 5.0);
         for k in 0..count {
@@ -250,8 +251,8 @@ mod tests {
 
     #[test]
     fn the_way_in_is_told_from_the_steady_state() {
-        // Two short steps of 0.5, then steps of 1.4 and 1.6 by turns: a beat of two periods that neither fades nor grows. At
-        // ±0.5e-3 they are settled: mean 1.5, standard deviation (n-1) over ten 0.5e-3·√(10/9).
+        // Two short steps of 0.5, then steps of 1.4 and 1.6 alternately: a constant oscillation of two periods. At ±0.5e-3 they are
+        // settled: mean 1.5, standard deviation (n-1) over ten 0.5e-3·√(10/9).
         let back = |k: usize, wobble: f64| match k {
             0 | 1 => 1.5,
             k if k % 2 == 0 => 0.5 - wobble,
@@ -298,7 +299,7 @@ mod tests {
 
     #[test]
     fn a_back_step_goes_on_into_the_next_period() {
-        // From the third of these positions down to the first after the end of the period, which is the start of the next one.
+        // From the third of these positions down to the first one after the period end, where the next period starts.
         let stride = Stride::along(0.0, [-1.0, 2.5, 4.0, 3.0].into_iter(), 2.0);
         assert_eq!((stride.fall, stride.rise, stride.back_step()), (2.0, 5.0, 3.0));
         let mirrored = Stride::along(0.0, [1.0, -2.5, -4.0, -3.0].into_iter(), -2.0);

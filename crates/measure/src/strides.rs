@@ -1,4 +1,4 @@
-//! The steps of a run: the last of them in memory, the rest in a file without a name.
+//! Storage of the strides of a run: the last ones in memory, the others in an unnamed temporary file.
 
 use crate::{Stride, Strides};
 use std::fs::File;
@@ -6,11 +6,11 @@ use std::io::{self, Read, Seek, SeekFrom, Write};
 use std::ops::Range;
 use std::sync::{Mutex, PoisonError};
 
-/// Most that are kept in memory where there is a file.
+/// Maximum number of strides in memory if there is a file.
 const MOST: usize = 1 << 13;
-/// Bytes of one in the file: six numbers.
+/// Size of a stride in the file, in bytes: six numbers.
 const BYTES: usize = 48;
-/// One that could not be read.
+/// Stride that could not be read.
 const UNREADABLE: Stride = Stride {
     start: f64::NAN,
     end: f64::NAN,
@@ -20,26 +20,26 @@ const UNREADABLE: Stride = Stride {
     rise: f64::NAN,
 };
 
-/// The steps so far.
+/// The strides of a run so far.
 #[derive(Debug, Default)]
 pub struct StrideList {
-    /// Those that are not in the file.
+    /// Strides in memory.
     recent: Vec<Stride>,
-    /// Number of those in the file.
+    /// Number of strides in the file.
     spilled: usize,
     file: Option<Mutex<File>>,
     failure: Option<io::Error>,
-    /// The longest, m.
+    /// Largest magnitude of the step length, m.
     longest: f64,
 }
 
 impl StrideList {
-    /// Keeps what there is too much of in a file. Without one all stays in memory.
+    /// Sets the file that stores older strides. Without a file, all strides stay in memory.
     pub fn spill(&mut self, file: File) {
         self.file = Some(Mutex::new(file));
     }
 
-    /// Takes the next.
+    /// Appends a stride.
     pub fn push(&mut self, stride: Stride) {
         self.longest = self.longest.max(stride.length().abs());
         self.recent.push(stride);
@@ -50,7 +50,7 @@ impl StrideList {
             let numbers = self.recent.iter().flat_map(|s| [s.start, s.end, s.least, s.most, s.fall, s.rise]);
             let bytes: Vec<u8> = numbers.flat_map(f64::to_le_bytes).collect();
             let mut file = file.lock().unwrap_or_else(PoisonError::into_inner);
-            // What a write that failed has left behind is written over.
+            // The remains of a failed write are overwritten.
             let end = SeekFrom::Start((BYTES * self.spilled) as u64);
             match file.seek(end).and_then(|_| file.write_all(&bytes)) {
                 Ok(()) => {
@@ -62,28 +62,28 @@ impl StrideList {
         }
     }
 
-    /// Why no more can be written.
+    /// Returns the error of the last failed write and clears it.
     pub fn take_failure(&mut self) -> Option<io::Error> {
         self.failure.take()
     }
 
-    /// What those in memory take, B.
+    /// Returns the memory used, in bytes.
     pub fn bytes(&self) -> usize {
         self.recent.capacity() * size_of::<Stride>()
     }
 
-    /// Magnitude of the longest, m.
+    /// Returns the largest magnitude of the step length, m.
     pub fn longest(&self) -> f64 {
         self.longest
     }
 
-    /// The last.
+    /// Returns the last stride.
     pub fn last(&self) -> Option<Stride> {
         let count = self.count();
         self.part(count.checked_sub(1)?..count).next()
     }
 
-    /// A part of those in the file.
+    /// Reads strides from the file.
     fn read(&self, range: Range<usize>) -> Vec<Stride> {
         let mut bytes = vec![0; BYTES * range.len()];
         let read = |file: &Mutex<File>| {
@@ -149,7 +149,7 @@ mod tests {
             assert_eq!(all.part(part.clone()).collect::<Vec<_>>(), want);
             assert_eq!(spilled.part(part).collect::<Vec<_>>(), want);
         }
-        // One that is read while it grows goes on at its end.
+        // Reading during the writing continues at the end of the file.
         spilled.push(stride(count));
         assert_eq!(spilled.last(), Some(stride(count)));
     }

@@ -1,4 +1,4 @@
-//! What figures are taken from while a run goes on: no more of it than figures need, however long the run.
+//! Evaluation of a run while it proceeds. The memory used does not depend on the length of the run.
 
 use crate::Setting;
 use crate::Stride;
@@ -12,56 +12,56 @@ use std::collections::HashMap;
 use stickslip_drive::scene::Freedom;
 use stickslip_drive::{Extent, Source};
 
-/// No place yet.
+/// Empty range.
 const NOWHERE: [f64; 2] = [f64::INFINITY, f64::NEG_INFINITY];
 
-/// What figures are taken from.
+/// Evaluations of a run.
 pub struct Tally {
     contacts: Vec<ContactTally>,
     walker: Option<Walker>,
     accounts: Option<Accounts>,
     excursions: Excursions,
-    /// How far the body of the figures and its foot went in the period under way, and the foot in the last whole one.
+    /// Extents of the positions of the stepping body and of the foot in the current period. `foot` is that of the last whole period.
     extents: [Extent; 2],
     foot: Option<Extent>,
-    /// The same of the voltage behind the driver of the foot's stack, at events and marks, and its place among all channels.
+    /// Extents of the driver voltage of the foot's stack in the current and in the last whole period, and its channel index.
     voltages: [Extent; 2],
     voltage_place: Option<usize>,
 }
 
-/// What a contact has come to, over all rows and events.
+/// Extremes of a contact over all rows and events.
 pub struct ContactTally {
-    /// Places of `fx_N`, `fn_N` and `d_m` among all channels.
+    /// Channel indices of `fx_N`, `fn_N` and `d_m`.
     places: [Option<usize>; 3],
-    /// Largest magnitudes of the forces, N.
+    /// Largest magnitudes of the tangential and normal force, N.
     pub peaks: [f64; 2],
-    /// Least and largest normal force, N, and indentation, m.
+    /// Minimum and maximum of the normal force, N, and of the indentation, m.
     pub ranges: [[f64; 2]; 2],
-    /// Time in which it was open, s.
+    /// Total time in which the contact was open, s.
     pub open: f64,
-    /// Since when it has been open, s; none while it is closed.
+    /// Time since which the contact has been open, s. `None` while it is closed.
     pub open_since: Option<f64>,
-    /// The first moment and the last, s, and the indentation at the last, m.
+    /// Time of the first sample, s; time, s, and indentation, m, of the last sample.
     first: f64,
     last: Option<[f64; 2]>,
-    /// Its cycles, where it may have any.
+    /// Cycles of the contact. `None` if it has none.
     loops: Option<Loops>,
 }
 
-/// The body whose steps are counted.
+/// Detection of the steps of the stepping body.
 struct Walker {
-    /// Place of its x among all channels.
+    /// Channel index of x of the body.
     place: usize,
     tracker: Tracker,
-    /// Where it was at the last end of a period, and whether the end of the present one has come, m.
+    /// Positions at the last period end, m, and at the end of the current period if it has been reached.
     ends: [Option<f64>; 2],
     strides: StrideList,
-    /// Where it was at first and at last, m.
+    /// First and last position, m.
     way: Option<[f64; 2]>,
 }
 
 impl Tally {
-    /// Nothing yet, of the figures of a setting.
+    /// Creates the evaluations for a setting.
     pub fn new(setting: &Setting) -> Self {
         let channels = setting.model.channels();
         let places: HashMap<&str, usize> =
@@ -86,14 +86,14 @@ impl Tally {
         }
     }
 
-    /// Keeps what there is too much of in a file without a name.
+    /// Sets the file that stores older strides.
     pub fn spill(&mut self, file: std::fs::File) {
         if let Some(walker) = &mut self.walker {
             walker.strides.spill(file);
         }
     }
 
-    /// Takes a row, or the row of an event.
+    /// Adds a row, or the row of an event.
     pub fn row(&mut self, values: &[f64]) {
         self.contacts.iter_mut().for_each(|contact| contact.row(values));
         self.excursions.row(values);
@@ -105,7 +105,7 @@ impl Tally {
         }
     }
 
-    /// Takes a moment that figures are taken at: after an event, where something bends, or else a mark.
+    /// Adds a sample: the state after an event or at a sampling time. Cycles that end are appended to `ended` with their contact index.
     pub fn moment(
         &mut self,
         setting: &Setting,
@@ -121,7 +121,7 @@ impl Tally {
         }
     }
 
-    /// Takes a moment of the account of a period: an event, or a mark.
+    /// Adds a sample of the period account: an event or a sampling time.
     pub fn account(&mut self, event: Option<(Source, &str)>, values: &[f64]) {
         if let Some(accounts) = &mut self.accounts {
             accounts.moment(event, values);
@@ -132,28 +132,28 @@ impl Tally {
         }
     }
 
-    /// How far bodies have turned, rolled and fallen.
+    /// Returns the rotations, rolled distances and falls of bodies.
     pub fn excursions(&self) -> &Excursions {
         &self.excursions
     }
 
-    /// What happened in the last whole period, where that is told.
+    /// Returns the period account, if there is one.
     pub fn accounts(&self) -> Option<&Accounts> {
         self.accounts.as_ref()
     }
 
-    /// Takes how far the body of the figures and its foot went.
+    /// Adds the extents of the positions of the stepping body and the foot.
     pub fn extents(&mut self, [body, foot]: [Extent; 2]) {
         self.extents = [self.extents[0].join(body), self.extents[1].join(foot)];
     }
 
-    /// Begins the first period of the figures: what was before it is none of theirs.
+    /// Starts the first period. Earlier extents are discarded.
     pub fn begin_extents(&mut self) {
         self.extents = [Extent::NONE; 2];
         self.voltages[0] = Extent::NONE;
     }
 
-    /// Ends a period of the figures.
+    /// Ends a period and returns its stride.
     pub fn end_extents(&mut self) -> Option<Stride> {
         let [body, foot] = std::mem::replace(&mut self.extents, [Extent::NONE; 2]);
         self.foot = Some(foot).filter(|foot| !foot.is_none());
@@ -161,28 +161,28 @@ impl Tally {
         self.walker.as_mut()?.end_stride(body)
     }
 
-    /// How far the foot went in the last whole period of the figures; none of a foot that is not free.
+    /// Returns the extent of the foot's position in the last whole period. Returns `None` if the foot is not free.
     pub fn foot(&self) -> Option<Extent> {
         self.foot
     }
 
-    /// How far the voltage behind the driver of its stack went meanwhile; none without a driver.
+    /// Returns the extent of the driver voltage in the last whole period. Returns `None` without a driver.
     pub fn voltage(&self) -> Option<Extent> {
         Some(self.voltages[1]).filter(|voltage| !voltage.is_none())
     }
 
-    /// Why no more steps can be kept.
+    /// Returns the error of the last failed write of strides and clears it.
     pub fn take_failure(&mut self) -> Option<std::io::Error> {
         self.walker.as_mut()?.strides.take_failure()
     }
 
-    /// What it takes, B.
+    /// Returns the memory used, in bytes.
     pub fn bytes(&self) -> usize {
         let loops = self.contacts.iter().filter_map(|contact| contact.loops.as_ref()).map(Loops::bytes);
         loops.sum::<usize>() + self.walker.as_ref().map_or(0, |walker| walker.strides.bytes())
     }
 
-    /// The cycles that are known only at the end.
+    /// Returns the cycles that can only be evaluated at the end of the run, with their contact indices.
     pub fn finish(&mut self, setting: &Setting) -> Vec<(usize, CycleFigures)> {
         let mut found = Vec::new();
         for (c, (contact, (_, law))) in self.contacts.iter_mut().zip(setting.model.contacts()).enumerate() {
@@ -192,23 +192,23 @@ impl Tally {
         found
     }
 
-    /// What contact `c` has come to.
+    /// Returns the extremes of contact `c`.
     pub fn contact(&self, c: usize) -> Option<&ContactTally> {
         self.contacts.get(c)
     }
 
-    /// The steps so far; none where no body makes any.
+    /// Returns the strides so far. Returns `None` if no body steps.
     pub fn strides(&self) -> Option<&StrideList> {
         self.walker.as_ref().map(|walker| &walker.strides)
     }
 
-    /// The way of the body that steps, m.
+    /// Returns the total displacement of the stepping body, m.
     pub fn net_travel(&self) -> f64 {
         let way = self.walker.as_ref().and_then(|walker| walker.way);
         way.map_or(0.0, |[first, last]| last - first)
     }
 
-    /// Moments that cycles are without, for there were too many of them.
+    /// Returns the number of samples that were dropped because a cycle had too many.
     pub fn left_out(&self) -> u64 {
         self.contacts.iter().filter_map(|contact| contact.loops.as_ref()).map(|loops| loops.left_out).sum()
     }
@@ -240,7 +240,7 @@ impl ContactTally {
         for (range, value) in self.ranges.iter_mut().zip([normal, d]) {
             *range = [range[0].min(value), range[1].max(value)];
         }
-        // Touching and lifting off are events: between two of these moments it is open or closed all the time.
+        // Touch and lift-off are events, so the contact is either open or closed between two samples.
         match self.last {
             None => self.first = t,
             Some([before, depth]) if depth + d <= 0.0 => self.open += t - before,
@@ -250,7 +250,7 @@ impl ContactTally {
         self.last = Some([t, d]);
     }
 
-    /// Share of the time in which it was open; none without a row.
+    /// Returns the fraction of time in which the contact was open. Returns `None` without a row.
     pub fn open_share(&self) -> Option<f64> {
         let [last, _] = self.last?;
         let total = last - self.first;
@@ -283,7 +283,7 @@ impl Walker {
         }
     }
 
-    /// The step of a period in whose end it has come to stand; none of one whose end was not among the moments.
+    /// Returns the stride of the current period. Returns `None` if a sample at its start or end is missing.
     fn end_stride(&mut self, extent: Extent) -> Option<Stride> {
         let [start, end] = self.ends;
         let Extent { least: [least, _], most: [most, _], fall, rise } = extent;
@@ -311,7 +311,7 @@ mod tests {
             loops: None,
         };
         assert_eq!(tally.open_share(), None);
-        // Falls, touches at 2, rests until 3, lifts off, flies until 8, touches.
+        // The body falls, touches at 2, rests until 3, lifts off, flies until 8 and touches again.
         let rows =
             [[0.0, -1.0, 0.0], [2.0, 1e-20, 0.0], [2.5, 3.0, 7.0], [3.0, -1e-20, 0.0], [5.0, -9.0, 0.0]];
         rows.iter().for_each(|row| tally.row(row));

@@ -1,30 +1,30 @@
-//! Moments of the events of a run, by source and kind.
+//! Event times of a run by source and kind.
 
 use std::collections::HashMap;
 
-/// All events.
+/// Event times of all sources and kinds.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Tracks {
     tracks: Vec<Track>,
-    /// Places of the tracks by source.
+    /// Indices of the tracks by source.
     places: HashMap<String, Vec<usize>>,
-    /// Number of moments.
+    /// Number of events.
     size: u64,
 }
 
-/// The events of one kind from one source.
+/// Event times of one source and kind.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Track {
-    /// Name of a contact or waveform.
+    /// Name of the contact or waveform.
     pub source: String,
-    /// What happened.
+    /// Kind of the events.
     pub kind: String,
-    /// Moments, s, ascending.
+    /// Times, s, in ascending order.
     pub times: Vec<f64>,
 }
 
 impl Tracks {
-    /// Takes the next event.
+    /// Adds an event.
     pub fn push(&mut self, [source, kind]: [&str; 2], time: f64) {
         self.size += 1;
         let places = self.places.get(source).map_or(&[][..], |places| places);
@@ -36,12 +36,12 @@ impl Tracks {
         self.tracks.push(Track { source: source.to_owned(), kind: kind.to_owned(), times: vec![time] });
     }
 
-    /// Number of moments.
+    /// Returns the number of events.
     pub fn size(&self) -> u64 {
         self.size
     }
 
-    /// In the order of the first event of each.
+    /// Returns all tracks in the order of their first events.
     pub fn all(&self) -> &[Track] {
         &self.tracks
     }

@@ -1,16 +1,16 @@
-//! A way through a plane in the course of time.
+//! Path in a plane as a function of time.
 
-/// Net way of a cycle along x, as a share of its stroke, below which it counts as closed.
+/// Distance in x between start and end, relative to the stroke, below which a path is closed.
 const CLOSED: f64 = 0.01;
 
-/// Points in order of time: displacement and force of a contact, displacement and velocity of a body.
+/// Path in order of time, such as force versus displacement of a contact, or velocity versus displacement of a body.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Trail {
     /// Times, s.
     pub t: Vec<f64>,
     /// Displacements, m.
     pub x: Vec<f64>,
-    /// What goes with them.
+    /// Second coordinate: forces or velocities.
     pub y: Vec<f64>,
 }
 
@@ -22,14 +22,14 @@ impl Trail {
         self.y.push(y);
     }
 
-    /// Leaves the first points only.
+    /// Keeps only the first `length` points.
     pub fn cut(&mut self, length: usize) {
         self.t.truncate(length);
         self.x.truncate(length);
         self.y.truncate(length);
     }
 
-    /// The part from one time to another, both ends interpolated.
+    /// Returns the part of a time interval. Both ends are interpolated linearly.
     pub fn part(&self, (from, to): (f64, f64)) -> Self {
         let mut part = Self::default();
         let end = |time: f64, after: usize, part: &mut Self| {
@@ -50,7 +50,7 @@ impl Trail {
         part
     }
 
-    /// The points of a stretch of time alone, both ends included: nothing is known of what lies between them and others.
+    /// Returns the points of a time interval, both ends included, without interpolation.
     pub fn within(&self, [from, to]: [f64; 2]) -> Self {
         let mut points = Self::default();
         for ((&t, &x), &y) in self.t.iter().zip(&self.x).zip(&self.y) {
@@ -61,7 +61,7 @@ impl Trail {
         points
     }
 
-    /// Whether it comes back to where this part began.
+    /// Returns whether the path ends close to its start in x.
     pub fn is_closed(&self) -> bool {
         match (self.x.first(), self.x.last()) {
             (Some(first), Some(last)) => (last - first).abs() <= CLOSED * self.stroke(),
@@ -69,13 +69,13 @@ impl Trail {
         }
     }
 
-    /// From the smallest x to the largest; 0 without points.
+    /// Returns the range of x, m; 0 without points.
     pub fn stroke(&self) -> f64 {
         let (low, high) = self.x.iter().fold((f64::MAX, f64::MIN), |(l, h), &x| (l.min(x), h.max(x)));
         (high - low).max(0.0)
     }
 
-    /// The same with x counted from the start.
+    /// Returns the path with x relative to its first value.
     pub fn counted_from_start(mut self) -> Self {
         let start = self.x.first().copied().unwrap_or(0.0);
         self.x.iter_mut().for_each(|x| *x -= start);

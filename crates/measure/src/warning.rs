@@ -1,45 +1,48 @@
-//! What makes results worth less than they look.
+//! Warnings about a scenario or the results of a run.
 
 use schemars::JsonSchema;
 use serde::Serialize;
 use std::fmt;
 
-/// Something that makes results worth less than they look.
+/// Warning that results are implausible or less accurate than they look.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, JsonSchema)]
 pub struct Warning {
-    /// what a warning is about, one word for machines. Of the scenario, among others: `mass`, `stiffness`, `capacitance`,
-    /// `stroke`, `modulus` out of proportion; `pressure` beyond yield; `damping_time` beyond a tenth of the period; `flank`
-    /// below ten passages of a shear wave; `load` beyond friction. Of the run: `energy_balance`, `error_estimate`, `flight`,
-    /// `angle` beyond 0.1 rad, `rolling` beyond the contact radius, `through_ground` for a fall below all contacts
+    /// kind of the warning, one word for programs. About the scenario, among others: `mass`, `stiffness`,
+    /// `capacitance`, `stroke`, `modulus` (each: unusual value), `pressure` (above yield), `damping_time` (contact
+    /// damping above a tenth of the shortest period), `flank` (of a waveform, shorter than ten passages of a shear
+    /// wave), `load` (above the friction limit). About the run: `energy_balance`, `error_estimate`, `flight` (all
+    /// contacts open), `angle` (rotation above 0.1 rad), `rolling` (by more than the contact radius), `through_ground`
+    /// (fall below all contacts).
     pub kind: &'static str,
-    /// the place in the scenario that it is about
+    /// path of the scenario key that the warning is about. Absent if it is about the run.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub path: Option<String>,
     /// what is implausible, or why the results are unreliable
     pub message: String,
-    /// what to try
+    /// advice. Absent if there is none.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub help: Option<String>,
 }
 
 impl Warning {
-    /// One about what came out in a run.
+    /// Creates a warning about the results of a run.
     pub fn new(kind: &'static str, message: impl Into<String>) -> Self {
         Self { kind, path: None, message: message.into(), help: None }
     }
 
-    /// The same with what to try.
+    /// Returns the warning with advice.
     #[must_use]
     pub fn help(self, help: impl Into<String>) -> Self {
         Self { help: Some(help.into()), ..self }
     }
 
-    /// One about the scenario, as what is odd about it says.
+    /// Creates a warning about the scenario from a finding of its plausibility check.
     pub fn of_odd(odd: &stickslip_scenario::Warning) -> Self {
         Self { kind: odd.kind, path: Some(odd.path.clone()), message: odd.message.clone(), help: None }
     }
 
-    /// Whether it is about what came out in the run, and not about its scenario, which `stickslip check` tells beforehand.
+    /// Returns whether the warning is about the results of a run. Warnings about the scenario are also reported by
+    /// `stickslip check`.
     pub fn is_of_results(&self) -> bool {
         self.path.is_none()
     }

@@ -1,16 +1,16 @@
-//! Loops built from the closed-form loading and unloading laws of a power-law profile f ~ rⁿ, p = (n+1)/n, at
-//! constant normal force (Popov, Heß, Willert, Handbook of Contact Mechanics, section 4.4).
+//! Loops computed from the closed-form branches of a power-law profile f ~ rⁿ with p = (n+1)/n at constant normal force.
 //!
-//! Sampling error. A branch is convex or concave, its slope runs monotonically from `pμF_N/u_c` down. The area
-//! between such a branch and its chords over cells of width h is at most h²/8 times the change of slope, which
-//! over the two branches of a loop is at most h²/4 · `pμF_N/u_c`. The tests of the loop
-//! energy use this bound; tolerances of ratios, crossings and slopes follow from h by the estimates beside them.
+//! Source: Popov, Heß, Willert, Handbook of Contact Mechanics, section 4.4.
+//!
+//! Sampling error: the slope of a branch decreases monotonically from `pμF_N/u_c`. The area between a branch and its chords of width h is
+//! at most h²/8 times the change of slope. For both branches of a loop it is at most h²/4 · `pμF_N/u_c`. The tests of the loop energy use
+//! this bound. Tolerances of ratios, crossings and slopes follow from h by the estimates given there.
 
 use approx::{assert_abs_diff_eq, assert_relative_eq};
 use proptest::prelude::*;
 use stickslip_measure::{Cut, Cycle, Regime, Thresholds, split_cycles};
 
-/// A contact: exponent p, limit force `μF_N` (N), gross-slip displacement `u_c` (m).
+/// A contact: exponent p, friction limit `μF_N`, N, gross slip displacement `u_c`, m.
 #[derive(Clone, Copy)]
 struct Contact {
     p: f64,
@@ -23,13 +23,13 @@ impl Contact {
         Self { p: (n + 1.0) / n, limit: 0.06, u_c: 40e-9 }
     }
 
-    /// Force fallen from a reversal after a way s back (one for the first loading, two for every later branch).
+    /// Returns the force change at a displacement after a reversal. `folds` is 1 for the first loading and 2 for later branches.
     fn branch(self, way: f64, folds: f64) -> f64 {
         let rest = (1.0 - way / (folds * self.u_c)).max(0.0);
         folds * self.limit * (1.0 - rest.powf(self.p))
     }
 
-    /// The steady loop of amplitude U, `cells` cells per branch; the last sample closes it.
+    /// Returns the steady loop of amplitude U with `cells` cells per branch. The last sample closes it.
     fn steady_loop(self, amplitude: f64, cells: usize) -> (Vec<f64>, Vec<f64>) {
         let top = self.branch(amplitude, 1.0);
         let way = |i: usize| 2.0 * amplitude * i as f64 / cells as f64;
@@ -38,7 +38,7 @@ impl Contact {
         down.chain(up).unzip()
     }
 
-    /// Loop energy, J: the two closed forms.
+    /// Returns the loop energy, J, from its closed forms.
     fn loop_energy(self, amplitude: f64) -> f64 {
         let (p, ratio) = (self.p, amplitude / self.u_c);
         if ratio > 1.0 {
@@ -49,7 +49,7 @@ impl Contact {
         4.0 * self.limit * self.u_c * braces
     }
 
-    /// Bound of the area lost between chords and branches.
+    /// Returns the bound of the area between chords and branches.
     fn sampling_error(self, amplitude: f64, cells: usize) -> f64 {
         let h = 2.0 * amplitude / cells as f64;
         h * h / 4.0 * self.p * self.limit / self.u_c
@@ -68,7 +68,7 @@ fn the_loop_energy_is_the_closed_form_below_and_above_gross_slip() {
             let cycle = Cycle::of_loop(&u, &q).unwrap();
             let bound = contact.sampling_error(amplitude, 4000) + 1e-14 * cycle.enclosing_energy();
             assert_abs_diff_eq!(cycle.dissipated, contact.loop_energy(amplitude), epsilon = bound);
-            // Chords cut the corners of the loop: they never add area.
+            // Chords cut the corners of the loop and never add area.
             assert!(cycle.dissipated <= contact.loop_energy(amplitude) + 1e-14 * cycle.enclosing_energy());
         }
     }
@@ -133,7 +133,7 @@ fn a_compliant_rig_lowers_the_ratios_as_its_thresholds_say() {
         );
         assert_eq!(limits.regime(&seen(0.9)), Regime::Partial);
         assert_eq!(limits.regime(&seen(1.1)), Regime::Gross);
-        // Against a rigid rig's thresholds the same gross loop looks like partial slip to A and D; B sees through.
+        // Compared with the thresholds of a rigid rig, A and D classify the gross loop as partial slip. B is independent of the rig.
         let rigid = Thresholds::of_profile(2.0).unwrap();
         assert_eq!(rigid.regime(&seen(1.1)), Regime::Mixed);
         assert_eq!(Thresholds::with_unknown_rig(2.0).unwrap().regime(&seen(1.1)), Regime::Gross);

@@ -1,4 +1,4 @@
-//! Drawn loops with noise, lag, drift, lost rows and spikes: the truth lies in the intervals.
+//! Random loops with noise, time lag, drift, missing rows and spikes: the intervals contain the true values.
 
 #![allow(clippy::print_stdout, reason = "how many of how many: the figure that the page has")]
 
@@ -27,12 +27,12 @@ impl Random {
     }
 }
 
-/// Virgin curve of power n, of u_c = 1 and μF_N = 1: elastic-plastic element, ball, cone.
+/// Returns the first-loading curve of exponent n with u_c = 1 and μF_N = 1: elastic-plastic element, ball or cone.
 fn virgin(power: f64, u: f64) -> f64 {
     1.0 - (1.0 - u.min(1.0)).powf(power)
 }
 
-/// E_d, δ*, Q*, half opening, stiffness at the reversal, by the closed forms of the branches f = Q* - 2 F(s/2).
+/// Returns E_d, δ*, Q*, half opening and stiffness at the reversal from the closed-form branches f = Q* - 2 F(s/2).
 fn truth(power: f64, amplitude: f64) -> [f64; 5] {
     let q = virgin(power, amplitude);
     // ∫ over s from 0 to 2A of 2 F(s/2) = 4 ∫ F from 0 to A.
@@ -116,8 +116,11 @@ fn measured(drawn: &Drawn) -> ([Interval; 5], Interval) {
 
 const NAMES: [&str; 5] = ["E_d", "amplitude", "Q*", "opening", "stiffness"];
 
-/// Closed forms of the branches. Drawn: powers 1, 3/2 and 2; A from .15 to 1.6 u_c; noise to 3 %, lag to 1 % of a period, drifts to 5 %. Of 1 000
-/// records the truth is to be inside for 93 to 97 %; of the 60 here, for 51 at least (three standard deviations).
+/// Random loops with the exponents 1, 3/2 and 2 and amplitudes of 0.15 to 1.6 u_c. Noise is up to 3 %, time lag up to 1 % of a period,
+/// drift up to 5 %.
+///
+/// The intervals should contain the true values in 93 to 97 % of 1 000 records. Of the 60 records here, at least 51 must (three standard
+/// deviations).
 #[test]
 fn the_truth_lies_in_the_intervals() {
     let count = std::env::var("DRAWN").ok().and_then(|count| count.parse().ok()).unwrap_or(60);
@@ -150,14 +153,15 @@ fn the_truth_lies_in_the_intervals() {
     }
 }
 
-/// Noise of 1 % alone, A from .4 u_c, ten cycles of 200 points: δ* and Q* within 1 %, E_d within 2 %, stiffness within 5 % of the closed forms.
+/// Noise of 1 % only, amplitudes from 0.4 u_c, ten cycles of 200 points. Deviations from the closed forms: δ* and Q* below 1 %, E_d below 2
+/// %, stiffness below 5 %.
 #[test]
 fn noise_alone_moves_figures_little() {
     let mut worst = [0.0_f64; 5];
     for seed in 0..30 {
         let mut random = Random(1_000_000 + seed);
         let power = [1.0, 1.5, 2.0][(seed % 3) as usize];
-        // An element in full stick encloses nothing.
+        // An element in full stick has no loop area.
         let amplitude = random.between(if power == 1.0 { 1.1 } else { 0.4 }, 1.6);
         let faults = Faults { noise: 0.01, lag: 0.0, drift: [0.0; 2], lost: 0, spikes: 0 };
         let (figures, _) = measured(&draw(&mut random, power, amplitude, faults));

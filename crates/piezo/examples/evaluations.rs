@@ -1,5 +1,6 @@
-//! Evaluates hysteresis with ten plays as often as the first argument says, with plays taken up and not: what an evaluation costs
-//! is the difference of two counts of instructions, such as of `valgrind --tool=callgrind` with 0 and 1000000.
+//! Evaluates a hysteresis block with ten plays; the first argument is the number of evaluations.
+//!
+//! The cost of one evaluation follows from two instruction counts, for example by `valgrind --tool=callgrind` with 0 and 1000000.
 
 use std::error::Error;
 use std::hint::black_box;
@@ -23,7 +24,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         );
         let standing = Standing { law: &law, memory: &memory };
         let block: &dyn Block = black_box(&*block);
-        // As a step does: slopes and signal at a stage.
+        // A time step evaluates slopes and signal.
         block.slopes(standing, &at, &mut slopes, &mut efforts);
         sum += block.signal(standing, &at).value;
     }

@@ -1,6 +1,6 @@
-//! Creep of a stack: after a step of the voltage its stroke goes on with the logarithm of the time.
+//! Creep of a piezo stack: after a voltage step the stroke changes with the logarithm of time.
 //!
-//! The [`Creep`] law is a sum of exponentials, a [`CreepBlock`] their filter, or the inverse of it.
+//! [`Creep`] approximates the logarithm by a sum of exponentials. [`CreepBlock`] is the corresponding linear filter or its inverse.
 
 mod block;
 mod law;

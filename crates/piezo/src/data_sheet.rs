@@ -1,88 +1,88 @@
-//! What a maker says of a stack, and what follows from it.
+//! Mechanical properties of a piezo stack from its data sheet.
 //!
-//! A stack is a rod of stiffness k = EA/L whose mass m is spread over its length. Held at one end it rings first at
-//! ω = (π/2)√(k/m), with both ends free at ω = π√(k/m) (Rayleigh, *The Theory of Sound*, §§ 150-152). The drive knows springs without
-//! a mass, so that of the rod goes to its ends, as much as makes a spring of stiffness k ring at those frequencies: 4m/π² to
-//! the free end of a rod that is held, 2m/π² to each of two free ends.
+//! A stack is modelled as a rod of stiffness k = EA/L with a mass m that is uniform over its length. The first resonance is ω =
+//! (π/2)√(k/m) with one end held and ω = π√(k/m) with both ends free (Rayleigh, *The Theory of Sound*, §§ 150-152). The drive model
+//! has massless springs. The mass of the rod is therefore lumped at its ends, so that a spring of stiffness k has these resonances.
+//! The lumped mass is 4m/π² at the free end of a held rod and 2m/π² at each of two free ends.
 
 use std::f64::consts::PI;
 use std::fmt;
 
-/// How far two numbers that say the same may be apart: data sheets round to two or three digits.
+/// Largest relative difference of two values of the same quantity. Data sheets round to two or three digits.
 pub const AGREEMENT: f64 = 0.01;
 
-/// Mechanical quality factor of a stack of which nothing is known.
+/// Default mechanical quality factor of a stack.
 ///
 /// Soft ceramics have 65 (PZT-5H) to 75 (PZT-5A) in the bulk and at low fields (Morgan Technical Publication TP-226, table of
-/// properties); electrodes, bonds and high fields take a part of it.
+/// properties). Electrodes, bonds and high fields reduce the quality factor.
 pub const QUALITY: f64 = 50.0;
 
-/// Numbers of a data sheet, and those that the scenario gives itself: SI, all above 0 where given.
+/// Values of a data sheet in SI units. Every value that is given must be above 0.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct DataSheet {
-    /// Nominal free stroke, m, …
+    /// Nominal free stroke at the voltage `voltage`, m.
     pub stroke: Option<f64>,
-    /// … at this voltage, V.
+    /// Voltage of the nominal stroke, V.
     pub voltage: Option<f64>,
     /// Stiffness, N/m.
     pub stiffness: Option<f64>,
-    /// Force at the nominal voltage that leaves no stroke, N.
+    /// Blocking force at the nominal voltage, N: the force at which the stroke is 0.
     pub blocking_force: Option<f64>,
     /// Capacitance, F.
     pub capacitance: Option<f64>,
-    /// First resonance without a load, Hz, both ends free.
+    /// First resonance without a load and with both ends free, Hz.
     pub free_resonance: Option<f64>,
-    /// First resonance without a load, Hz, one end held.
+    /// First resonance without a load and with one end held, Hz.
     pub held_resonance: Option<f64>,
 }
 
-/// What the scenario says itself.
+/// Values of a stack that the scenario gives outside the data sheet.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Own {
-    /// N/m.
+    /// Stiffness, N/m.
     pub stiffness: Option<f64>,
-    /// m/V.
+    /// Free stroke per volt, m/V.
     pub stroke_per_volt: Option<f64>,
-    /// F.
+    /// Capacitance, F.
     pub capacitance: Option<f64>,
-    /// kg.
+    /// Mass of the stack, kg.
     pub mass: Option<f64>,
 }
 
-/// What is known of a stack.
+/// Properties of a stack.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Stack {
-    /// N/m.
+    /// Stiffness, N/m.
     pub stiffness: f64,
-    /// Free stroke per voltage, m/V, where anything tells.
+    /// Free stroke per volt, m/V, if known.
     pub stroke_per_volt: Option<f64>,
-    /// F, where anything tells.
+    /// Capacitance, F, if known.
     pub capacitance: Option<f64>,
-    /// Its own mass, kg; 0 where nothing tells.
+    /// Mass of the stack, kg; 0 if unknown.
     pub mass: f64,
 }
 
-/// A number that others contradict, by its key.
+/// Contradiction between a value and others.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Contradiction {
-    /// The key that is in the wrong, from the actuator on.
+    /// Path of the contradicting key, relative to the actuator.
     pub key: &'static [&'static str],
-    /// The other keys of which it is judged.
+    /// Paths of the other keys, with which the value was compared.
     pub against: Vec<&'static [&'static str]>,
-    /// What does not fit, with its numbers.
+    /// Message with the values that do not agree.
     pub message: String,
 }
 
-/// Why numbers make no stack.
+/// Reason why values do not define a stack.
 #[derive(Debug, Clone, PartialEq)]
 pub enum SheetError {
-    /// Two numbers do not fit.
+    /// Two values contradict each other.
     Contradiction(Contradiction),
-    /// Nothing tells the stiffness.
+    /// Neither stiffness nor blocking force and stroke are given.
     NoStiffness,
 }
 
-/// Keys of the form, from the actuator on.
+/// Paths of the keys in the scenario file, relative to the actuator.
 mod keys {
     pub(super) const STROKE: &[&str] = &["data_sheet", "stroke"];
     pub(super) const VOLTAGE: &[&str] = &["data_sheet", "voltage"];
@@ -98,10 +98,10 @@ mod keys {
 }
 
 impl DataSheet {
-    /// What follows from the numbers.
+    /// Computes the properties of a stack from its data sheet and the scenario's own values. The scenario's values take precedence.
     ///
     /// # Errors
-    /// Numbers that miss each other by more than [`AGREEMENT`], and a stack whose stiffness nothing tells.
+    /// Values that differ by more than [`AGREEMENT`], and a stack whose stiffness is unknown.
     pub fn stack(&self, own: &Own) -> Result<Stack, SheetError> {
         let force = self.blocking_force.zip(self.stroke).map(|(force, stroke)| force / stroke);
         let stiffness = own.stiffness.or(self.stiffness).or(force).ok_or(SheetError::NoStiffness)?;
@@ -116,7 +116,7 @@ impl DataSheet {
             agree((force, stiffness * stroke), (keys::BLOCKING, &[key, keys::STROKE]), || {
                 let made = stiffness * stroke;
                 format!(
-                    "stiffness times stroke is {} N/um times {} um = {} N, but the blocking force is {} N",
+                    "stiffness times stroke is {} N/um × {} um = {} N, but the blocking force is {} N",
                     Short(stiffness / 1e6),
                     Short(stroke * 1e6),
                     Short(made),
@@ -143,7 +143,7 @@ impl DataSheet {
             let others = &[keys::STROKE, keys::VOLTAGE];
             agree((own * voltage, stroke), (keys::OWN_PER_VOLT, others), || {
                 format!(
-                    "{} nm/V times {} V is {} um, but the data sheet has {} um there",
+                    "{} nm/V × {} V is {} um, but the data sheet has {} um",
                     Short(own * 1e9),
                     Short(voltage),
                     Short(own * voltage * 1e6),
@@ -154,7 +154,7 @@ impl DataSheet {
         Ok(own.stroke_per_volt.or(sheet.map(|(stroke, voltage)| stroke / voltage)))
     }
 
-    /// m = k(π/2ω)² of a rod that is held at one end, m = k(π/ω)² of one with both ends free.
+    /// Returns the mass, kg: m = k(π/2ω)² from a resonance with one end held, m = k(π/ω)² with both ends free.
     fn mass(&self, stiffness: f64, own: &Own) -> Result<f64, SheetError> {
         let of = |quarter_waves: f64, frequency: f64| stiffness * (quarter_waves / (4.0 * frequency)).powi(2);
         let told = [
@@ -169,7 +169,7 @@ impl DataSheet {
             (Some((first, mass)), Some((key, other))) => {
                 let said = |key: &[&str]| key.last().copied().unwrap_or_default().replace('_', " ");
                 let message = format!(
-                    "the {} makes a mass of {} g, the {} one of {} g: a lumped stack has one",
+                    "the {} gives a mass of {} g, the {} gives {} g: a lumped stack has one mass",
                     said(first),
                     Short(mass * 1e3),
                     said(key),
@@ -183,14 +183,14 @@ impl DataSheet {
 }
 
 impl Stack {
-    /// kα²/C, the part of the electrical energy that goes to and fro with the strain where C is the free capacitance.
+    /// Returns the electromechanical coupling kα²/C, if stroke per volt and capacitance are known. C is the free capacitance.
     #[must_use]
     pub fn coupling(&self) -> Option<f64> {
         let gain = self.stroke_per_volt?;
         self.capacitance.map(|capacitance| self.stiffness * gain * gain / capacitance)
     }
 
-    /// What of its mass goes to each end, kg: nothing to one that is held.
+    /// Returns the lumped mass at each end, kg; 0 at a held end.
     #[must_use]
     pub fn ends(&self, is_free: [bool; 2]) -> [f64; 2] {
         let share = match is_free {
@@ -200,9 +200,10 @@ impl Stack {
         is_free.map(|free| if free { share * self.mass } else { 0.0 })
     }
 
-    /// Damping c = √(k m)/Q of a stack between two masses, N s/m: then the resonance of what it moves, m = m₁m₂/(m₁ + m₂), has the
-    /// quality factor Q, as of a material whose loss per cycle does not depend on the frequency. Infinite masses are those
-    /// of ends that are held; nothing rings between two of them.
+    /// Returns the damping c = √(k m)/Q of a stack between two masses, N s/m, where m = m₁m₂/(m₁ + m₂) is the reduced mass.
+    ///
+    /// The resonance of the masses on the stack then has the quality factor Q. An infinite mass stands for a held end. The damping is
+    /// 0 if both masses are infinite.
     #[must_use]
     pub fn damping(&self, masses: [f64; 2], quality: f64) -> f64 {
         let mobility: f64 = masses.iter().map(|mass| mass.recip()).sum();
@@ -214,7 +215,7 @@ impl Stack {
     }
 }
 
-/// Refuses two numbers that ought to be the same and are not.
+/// Checks that two values of the same quantity agree.
 fn agree(
     (value, other): (f64, f64),
     (key, against): (&'static [&'static str], &[&'static [&'static str]]),
@@ -226,7 +227,7 @@ fn agree(
     Err(SheetError::Contradiction(Contradiction { key, against: against.to_vec(), message: message() }))
 }
 
-/// A number in a sentence: four digits.
+/// Number for a message, rounded to four digits.
 struct Short(f64);
 
 impl fmt::Display for Short {
@@ -240,7 +241,7 @@ impl fmt::Display for Short {
 mod tests {
     use super::*;
 
-    /// The stage of a designer: 4.6 µm at 120 V, 100 N/µm, 7.2 µF.
+    /// Example stack: 4.6 µm at 120 V, 100 N/µm, 7.2 µF.
     fn sheet() -> DataSheet {
         DataSheet {
             stroke: Some(4.6e-6),
@@ -265,19 +266,19 @@ mod tests {
         let Err(SheetError::Contradiction(of)) = sheet().stack(&own) else { panic!("agrees") };
         assert_eq!(
             of.message,
-            "stiffness times stroke is 90 N/um times 4.6 um = 414 N, but the blocking force is 460 N"
+            "stiffness times stroke is 90 N/um × 4.6 um = 414 N, but the blocking force is 460 N"
         );
         let own = Own { stroke_per_volt: Some(40e-9), ..Own::default() };
         let Err(SheetError::Contradiction(of)) = sheet().stack(&own) else { panic!("agrees") };
-        assert_eq!(of.message, "40 nm/V times 120 V is 4.8 um, but the data sheet has 4.6 um there");
-        // Rounded within a hundredth they agree, and what the scenario says itself holds.
+        assert_eq!(of.message, "40 nm/V × 120 V is 4.8 um, but the data sheet has 4.6 um");
+        // Values within 1 % agree, and the value of the scenario is used.
         let own = Own { stiffness: Some(1.009e8), ..Own::default() };
         assert_eq!(sheet().stack(&own).unwrap().stiffness, 1.009e8);
         let none = DataSheet { stroke: Some(1e-6), ..DataSheet::default() };
         assert_eq!(none.stack(&Own::default()), Err(SheetError::NoStiffness));
     }
 
-    /// A spring between lumped masses rings where the rod does, by either way of holding it: ω² = k/m and ω² = 2k/m.
+    /// A spring with lumped masses has the resonance of the rod in both cases: ω² = k/m and ω² = 2k/m.
     #[test]
     fn lumped_masses_ring_at_the_resonance_of_the_data_sheet() {
         let frequency = 40e3;
@@ -290,7 +291,7 @@ mod tests {
         let free = free.stack(&own).unwrap();
         let [one, other] = free.ends([true, true]);
         assert!(((2.0 * 1e8 / one).sqrt() / (4.0 * PI) / frequency - 1.0).abs() < 1e-14 && one == other);
-        // One rod, held or free.
+        // The rod is the same, held or free.
         assert!((held.mass / free.mass - 1.0).abs() < 1e-14);
         assert!((held.damping([f64::INFINITY, end], 50.0) - (1e8 * end).sqrt() / 50.0).abs() < 1e-12);
         assert_eq!(held.damping([f64::INFINITY; 2], 50.0), 0.0);

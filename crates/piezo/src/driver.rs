@@ -1,23 +1,26 @@
-//! Driver electronics: what voltage a stack gets of the voltage that is commanded.
+//! Driver electronics: the block that converts the commanded voltage into the voltage of the stack.
 //!
 //! ```text
 //! command e ──► window ──► second order ──► output stage: R, ±I ──► voltage V at the capacitance C
 //! ```
 //!
-//! The window cuts the command, e' = min(max(e, lo), hi). A bandwidth makes f of it, f̈ = ω²(e' - f) - 2ζω ḟ; without one f = e'.
-//! The output stage charges C through R, V̇ = (f - V)/RC, or follows, V = f, where there is no R; and V̇ stays between -I₋/C and I₊/C.
-//! Where the limit ends, V̇ or V meets what it would be without it: that, and the beginning, are events.
+//! * The window limits the command: e' = min(max(e, lo), hi).
+//! * The low-pass filters e': f̈ = ω²(e' - f) - 2ζω ḟ. Without a bandwidth, f = e'.
+//! * The output stage charges C through R: V̇ = (f - V)/RC. Without a resistance, V = f.
+//! * The current limits bound the voltage rate: -I₋/C ≤ V̇ ≤ I₊/C.
 //!
-//! All signals are free strokes of the stack, αe, αf and αV with α its stroke per volt: a scene knows lengths alone. Columns
-//! are volts and amperes.
+//! The start and the end of a current limit are events. A limit ends when V meets f or, with a resistance, when the unlimited rate is
+//! within the limits.
 //!
-//! Its books are its own. The output stage is fed with f·I, I = C V̇, stores ½CV² and loses (f - V)I, in R and in what limits the
-//! current; both are integrated beside the voltage, so that source = stored + lost is a check. The mechanical side takes nothing out of
-//! them: what a stack's charge has from its strain is left out (one-way), a share κ = k α²/C of the energy.
+//! All signals are free strokes of the stack in m: αe, αf and αV, where α is the stroke per volt. Output columns are in V and A.
 //!
-//! With [`Driver::reciprocal`] it is there: Q = CV + kα(e - αV), C the free capacitance and e the elongation. As a stroke the current is
-//! αI/C = (1 - κ)αV̇ + κė, which is what flows through R and what the limit holds; stored are ½CV² - k αV(αV - e), and the
-//! source gives the work of the stroke ∫k(αV - e)α dV beside: source = stored + lost + worked.
+//! The driver has an energy balance of its own: source = stored + lost. The source supplies the power f·I with I = C V̇. The
+//! capacitance stores ½CV². The output stage loses the power (f - V)I. Source and losses are integrated as states. By default the
+//! charge due to strain is neglected, which is a fraction κ = kα²/C of the energy.
+//!
+//! [`Driver::reciprocal`] adds the charge due to strain: Q = CV + kα(e - αV), where C is the free capacitance and e the elongation.
+//! As a stroke rate, the current is αI/C = (1 - κ)αV̇ + κė. This current flows through R and is subject to the limits. The stored
+//! energy is ½CV² - kαV(αV - e). The work of the stack is ∫k(αV - e)α dV. The balance is then source = stored + lost + work.
 
 mod block;
 mod course;
@@ -32,23 +35,25 @@ use std::sync::Arc;
 use stickslip_drive::component::{Input, SharedBlock};
 use strain::Strain;
 
-/// Driver electronics as a block.
+/// Block of the driver electronics.
 #[derive(Debug)]
 pub struct Driver {
     spec: Spec,
-    /// The command, and the elongation of a stack whose strain acts back.
+    /// Signal of the command and, with strain coupling, the elongation of the stack.
     inputs: Vec<Input>,
     strain: Option<Strain>,
-    /// Widest range of its command, as a stroke, m: the scale of its states.
+    /// Scale of the voltage as a stroke, m: the maximum of the command's range and of its magnitude.
     span: f64,
-    /// Shortest time between two turns of its command, s.
+    /// Shortest time between two reversals of the command, s.
     quickest: f64,
-    /// Guards of each law.
+    /// Indices of the event functions of each mode.
     guards: Vec<Vec<usize>>,
 }
 
 impl Driver {
-    /// A driver that reads the signal at this place of the scene, which moves within `range` (m, as a stroke).
+    /// Creates a driver for the command with index `signal` in the model.
+    ///
+    /// `range` is the smallest and largest value of the command as a stroke, m.
     #[must_use]
     pub fn new(spec: Spec, signal: usize, range: (f64, f64)) -> Self {
         let span = (range.1 - range.0).max(range.0.abs()).max(range.1.abs());
@@ -58,15 +63,17 @@ impl Driver {
         Self { spec, inputs, strain: None, span, quickest: f64::INFINITY, guards }
     }
 
-    /// The same with the shortest time between two turns of its command, s: what the voltage lags by is as small as RC is beside it, and
-    /// current and losses are made of that.
+    /// Sets the shortest time between two reversals of the command, s.
+    ///
+    /// From this time and RC the driver computes the error scale of its voltage, so that current and losses are accurate.
     #[must_use]
     pub fn commanded_within(self, quickest: f64) -> Self {
         Self { quickest, ..self }
     }
 
-    /// The same with the charge that the strain of its stack makes: `coupling` κ, above 0 and below 1, and the elongation, a
-    /// [`Input::Length`].
+    /// Adds the charge due to the strain of the stack.
+    ///
+    /// `coupling` is κ = kα²/C, above 0 and below 1. `elongation` is an [`Input::Length`].
     #[must_use]
     pub fn reciprocal(mut self, coupling: f64, elongation: Input) -> Self {
         self.inputs.push(elongation);
@@ -74,7 +81,7 @@ impl Driver {
         self
     }
 
-    /// The same for a scene.
+    /// Converts the driver into a shared block for a model.
     #[must_use]
     pub fn shared(self) -> SharedBlock {
         SharedBlock(Arc::new(self))

@@ -1,57 +1,57 @@
-//! What a driver has done: kept in its memory, step by step.
+//! Totals and peak values of a driver, stored in the memory of its block.
 
 use crate::driver::Spec;
 
-/// Numbers of a driver's memory.
+/// Number of values in a driver's memory.
 pub(crate) const COUNT: usize = 15;
 
-/// A driver's memory by its places.
+/// Memory of a driver, with one field for each value.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(crate) struct Kept {
-    /// By how much the voltage lies beyond its state, as a stroke, m.
+    /// Difference between the voltage and its state, as a stroke, m.
     pub(crate) offset: f64,
     /// Voltage at the end of the last step, as a stroke, m.
     pub(crate) last: f64,
-    /// Work of the source until then, J.
+    /// Work of the source up to the end of the last step, J.
     pub(crate) work: f64,
-    /// Way of the voltage, as a stroke, m.
+    /// Total charge moved in both directions, as a stroke, m: ∫|αI/C| dt.
     pub(crate) way: f64,
-    /// Work drawn where any was, J.
+    /// Energy drawn from the source, J: the integral of its positive power.
     pub(crate) drawn: f64,
-    /// Largest current, as a rate of the stroke, m/s.
+    /// Largest current, as a stroke rate, m/s.
     pub(crate) fastest: f64,
-    /// Time at the upper and the lower limit of the current, and at the lower and the upper end of the window, s.
+    /// Times at the upper and lower current limit and at the lower and upper end of the window, s.
     pub(crate) limited: [f64; 4],
-    /// Time in all, s.
+    /// Total time, s.
     pub(crate) time: f64,
-    /// When the last step ended, s.
+    /// End of the last step, s.
     pub(crate) at: f64,
-    /// Elongation of a stack whose strain makes charge, then, m.
+    /// Elongation of the stack at the end of the last step, m; used only with strain coupling.
     pub(crate) elongation: f64,
-    /// Current then, as a rate of the stroke, m/s, and power of the source, W: with both the next step begins behind a resistance.
+    /// Current as a stroke rate, m/s, and power of the source, W, at the end of the last step.
     pub(crate) flow: f64,
     pub(crate) power: f64,
 }
 
-/// Where a driver stood at the end of the last step.
+/// State of a driver at the end of the last step.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(crate) struct Last {
-    /// Its voltage as a stroke, m.
+    /// Voltage, as a stroke, m.
     pub(crate) stroke: f64,
     /// Elongation of the stack, m.
     pub(crate) elongation: f64,
-    /// When that was, s.
+    /// Time of the end of the step, s.
     pub(crate) at: f64,
 }
 
-/// Of a driver's memory.
+/// Returns the state at the end of the last step from a driver's memory.
 pub(crate) fn last(memory: &[f64]) -> Last {
     let of = |kept: Kept| Last { stroke: kept.last, elongation: kept.elongation, at: kept.at };
     Kept::read(memory).map_or_else(Last::default, of)
 }
 
 impl Kept {
-    /// Read from a memory; none where that is of another kind.
+    /// Reads the values of a memory. Returns `None` if the memory does not have [`COUNT`] values.
     pub(crate) fn read(memory: &[f64]) -> Option<Self> {
         let &[
             offset,
@@ -89,7 +89,7 @@ impl Kept {
         })
     }
 
-    /// As a memory.
+    /// Returns the values in the order of the memory.
     pub(crate) fn numbers(&self) -> [f64; COUNT] {
         let [up, down, below, above] = self.limited;
         let Self { offset, last, work, way, drawn, fastest, time, at, elongation, flow, power, .. } = *self;
@@ -97,21 +97,21 @@ impl Kept {
     }
 }
 
-/// What a driver has done since the start.
+/// Results of a driver since the start of the evaluation.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Figures {
-    /// Energy that its source gave where it gave any, J; what came back is not taken off.
+    /// Energy drawn from the source, J: the integral of its positive power. Energy returned to the source is not subtracted.
     pub drawn: f64,
     /// Largest current, A.
     pub peak_current: f64,
-    /// Mean of |I|, A.
+    /// Mean of the current's magnitude |I|, A.
     pub mean_current: f64,
-    /// Share of the time at the current's upper and lower limit, and at the window's lower and upper end.
+    /// Fractions of the time at the upper and lower current limit and at the lower and upper end of the window.
     pub limited: [f64; 4],
 }
 
 impl Figures {
-    /// By the memory of a driver; none where it is another block's.
+    /// Computes the results from a driver's memory. Returns `None` for the memory of another block.
     #[must_use]
     pub fn of(memory: &[f64], spec: &Spec) -> Option<Self> {
         let kept = Kept::read(memory)?;

@@ -1,82 +1,84 @@
-//! What a driver will make of a periodic command, before any run.
+//! Forecast of the effect of a driver on a periodic command, without a simulation of the drive.
 
 use crate::driver::Spec;
 use stickslip_drive::{Piece, Waveform};
 
-/// Looks at a smooth piece for where it is steepest.
+/// Smallest number of samples of a smooth piece in the search for its largest rate.
 const LOOKS: f64 = 64.0;
-/// … and at a quarter of its shortest wave.
+/// Number of samples in a quarter of the shortest wave, in the same search.
 const WAVE_LOOKS: f64 = 16.0;
-/// Part of its steepest rate by which that of a straight piece may differ: rounding.
+/// Largest relative difference of the rates of a straight piece, due to rounding.
 const CURVED: f64 = 1e-9;
-/// Most pieces of a period that are looked at.
+/// Largest number of pieces of a period in the search.
 const PIECES: usize = 10_000;
-/// Steps of a period of what is walked through, at least; of a quarter of its shortest wave; and of a piece.
+/// Smallest number of integration steps: per period, per quarter of the shortest wave, and per piece.
 const STEPS: f64 = 8000.0;
 const LOOKS_PER_WAVE: f64 = 50.0;
 const FEWEST: f64 = 8.0;
-/// Most steps of a period.
+/// Largest number of integration steps per period.
 const MOST: f64 = 200_000.0;
-/// Most periods after which its range is looked at.
+/// Largest number of periods until the range of the voltage must be steady.
 const PERIODS: u32 = 400;
-/// Change of the range from period to period, as a part of the command's, at which it has settled.
+/// Change of the range from period to period at which the range counts as steady, as a fraction of the commanded range.
 const SETTLED: f64 = 1e-6;
-/// Part of 1/ω that one step of the low-pass takes at most, and most of them in a step of the walk: beyond, nothing is told.
+/// Longest substep of the low-pass in units of 1/ω, and largest number of substeps in a step. Beyond this number there is no
+/// forecast.
 const FINE: f64 = 0.1;
 const MOST_FINE: f64 = 50.0;
 
-/// The part of a period that asks most of the current.
+/// Part of a period that needs the largest fraction of the available current.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Steepest {
-    /// From when to when, s from the start of a period.
+    /// Start and end of the part, s from the start of the period.
     pub between: (f64, f64),
-    /// From which voltage to which, V.
+    /// Voltages at start and end, V.
     pub volts: (f64, f64),
-    /// Current that it needs, A, at its steepest; infinite for a jump; negative out of the stack.
+    /// Current at the largest rate of the part, A; infinite for a jump; negative for a current out of the stack.
     pub current: f64,
-    /// Current that there is in that sense, A; infinite without a limit.
+    /// Available current in the same direction, A; infinite without a limit.
     pub available: f64,
-    /// Whether the rate changes on the way: then the current is that of one moment, and nothing takes as long as all of it.
+    /// Whether the rate changes within the part. If so, the current is that of one time only.
     pub curved: bool,
 }
 
-/// What a driver will make of a command, from figures and a coarse walk through it.
+/// Forecast of the voltage that a driver makes of a command.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Forecast {
-    /// Where the most current is asked for, as a part of what there is.
+    /// Part of a period that needs the largest fraction of the available current.
     pub steepest: Steepest,
-    /// The commanded strokes, m.
+    /// Range of the commanded strokes, m.
     pub asked: (f64, f64),
-    /// What is left of them when periods repeat, to about a thousandth of the command, m, and after how many of them; none
-    /// where that is not told by a coarse walk.
+    /// Range of the strokes that remains in periodic operation, m, and the number of periods until then.
+    ///
+    /// The range is accurate to about a thousandth of the command. `None` if a coarse integration cannot determine the range.
     pub left: Option<((f64, f64), u32)>,
 }
 
 impl Steepest {
-    /// Whether the driver cannot follow there.
+    /// Returns whether the command needs more current than available.
     #[must_use]
     pub fn is_too_steep(&self) -> bool {
         self.current.abs() > self.available
     }
 
-    /// Rate of the voltage that there is, V/s.
+    /// Returns the largest available rate of the voltage, V/s.
     #[must_use]
     pub fn slew(&self, spec: &Spec) -> f64 {
         self.available / spec.capacitance
     }
 
-    /// Time that it will take for its change of voltage, s.
+    /// Returns the time for the change of voltage at the available current, s.
     #[must_use]
     pub fn takes(&self, spec: &Spec) -> f64 {
         (self.volts.1 - self.volts.0).abs() / self.slew(spec)
     }
 }
 
-/// What a driver will make of a command (as a stroke, m); none of one without a period.
+/// Computes the forecast for a command given as a stroke in m. Returns `None` for a command without a period.
 #[must_use]
 pub fn forecast(spec: &Spec, command: &Waveform) -> Option<Forecast> {
     let period = command.period()?;
-    // From the second one on, which may begin otherwise than the first: with what is left of the one before.
+    // The second period is used if there is one, because the first may begin differently.
     let (first, end) = (command.timing().delay, command.window().1);
     let start = if first + 2.0 * period <= end { first + period } else { first };
     Some(Forecast {
@@ -86,9 +88,9 @@ pub fn forecast(spec: &Spec, command: &Waveform) -> Option<Forecast> {
     })
 }
 
-/// The largest rate of a piece, and whether it has others.
+/// Returns the rate with the largest magnitude in a piece, and whether the rate varies.
 fn rates(command: &Waveform, piece: &Piece, (from, to): (f64, f64)) -> (f64, bool) {
-    // Infinite resolution: a straight piece.
+    // A straight piece has an infinite resolution.
     let looks = ((to - from) / command.resolution() * WAVE_LOOKS).ceil().clamp(LOOKS, MOST) as u32;
     let rate_at = |k: u32| command.sample(piece, from + (to - from) * f64::from(k) / f64::from(looks)).rate;
     let steeper = |most: f64, rate: f64| if rate.abs() > most.abs() { rate } else { most };
@@ -100,7 +102,7 @@ fn steepest(spec: &Spec, command: &Waveform, (start, period): (f64, f64)) -> Opt
     let (sink, source) = spec.current.unwrap_or((f64::INFINITY, f64::INFINITY));
     let volts = |value: f64| value / spec.gain;
     let mut most: Option<Steepest> = None;
-    // The largest part of what there is, and without a limit the largest current.
+    // Fraction of the available current or, without a limit, the current.
     let weight = |it: &Steepest| {
         if it.available.is_finite() { it.current.abs() / it.available } else { it.current.abs() }
     };
@@ -139,15 +141,16 @@ fn steepest(spec: &Spec, command: &Waveform, (start, period): (f64, f64)) -> Opt
     most
 }
 
-/// What is commanded from piece to piece, in steps: their length, s, and the commands at their ends. Corners are ends of steps. None of
-/// a period that takes too many.
+/// Divides one period of the command into steps. Returns the length of each step, s, and the command at its end.
+///
+/// Corners are ends of steps. Returns `None` if a period needs too many steps.
 fn course(spec: &Spec, command: &Waveform, (start, period): (f64, f64)) -> Option<Vec<(f64, f64)>> {
     let (low, high) = spec.reach();
     let mut steps = Vec::new();
     let mut piece = command.piece_at(start);
     while piece.start < start + period {
         let (from, to) = (piece.start.max(start), piece.end.min(start + period));
-        // A rest that is longer than all waves needs no steps as short as theirs.
+        // A straight piece needs no steps as short as those of a wave.
         let (_, curved) = rates(command, &piece, (from, to));
         let wave = if curved { command.resolution() / LOOKS_PER_WAVE } else { period };
         let n = ((to - from) / wave.min(period / STEPS)).ceil().max(FEWEST);
@@ -162,8 +165,10 @@ fn course(spec: &Spec, command: &Waveform, (start, period): (f64, f64)) -> Optio
     Some(steps)
 }
 
-/// Range of the voltage, as a stroke, in the last of as many periods as it takes to settle, and their number; none where steps are
-/// too coarse for the low-pass, or where it does not settle.
+/// Integrates the driver over periods until the range of the voltage is steady.
+///
+/// Returns the range of the last period as strokes, m, and the number of periods. Returns `None` if the range does not become steady
+/// or the steps are too coarse for the low-pass.
 fn walk(spec: &Spec, command: &Waveform, (start, period): (f64, f64)) -> Option<((f64, f64), u32)> {
     let (low, high) = spec.reach();
     let (down, up) = spec.slew();
@@ -184,7 +189,7 @@ fn walk(spec: &Spec, command: &Waveform, (start, period): (f64, f64)) -> Option<
                 None => passed = cut,
                 Some(low) => {
                     let fine = fine(h);
-                    // The rate first: then it stays as it is where nothing damps.
+                    // Symplectic Euler: the rate first, so that an undamped low-pass keeps its amplitude.
                     for _ in 0..fine as u32 {
                         rate += h / fine * omega * (omega * (cut - passed) - 2.0 * low.ratio * rate);
                         passed += h / fine * rate;
@@ -213,7 +218,7 @@ mod tests {
     use crate::driver::Control;
     use stickslip_drive::{Section, Shape, Timing};
 
-    /// The stage: 4.6 µm at 120 V, 7.2 µF, 2 A, back in 20 µs.
+    /// Forecast for a stack of 4.6 µm at 120 V and 7.2 µF at 2 A, with a flyback of 20 µs.
     fn of(period: f64) -> (Spec, Forecast) {
         let spec = Spec {
             capacitance: 7.2e-6,
@@ -228,8 +233,8 @@ mod tests {
         (spec, forecast(&spec, &Waveform::new(saw, Timing::every(period)).unwrap()).unwrap())
     }
 
-    /// 7.2 µF · 120 V/20 µs = 43.2 A; 2 A/7.2 µF = 0.278 V/µs, which take 432 µs; meeting the next rise leaves 2/C against
-    /// 120 V/980 µs.
+    /// The flyback needs 7.2 µF · 120 V/20 µs = 43.2 A. At 2 A the voltage changes by 0.278 V/µs and needs 432 µs. The falling
+    /// voltage meets the next rise of 120 V/980 µs.
     #[test]
     fn the_flyback_of_a_large_stack_is_cut_short() {
         let (spec, forecast) = of(1e-3);
@@ -243,7 +248,7 @@ mod tests {
         assert!((forecast.left.unwrap().0.1 - 4.6e-6).abs() < 1e-9);
     }
 
-    /// At 2 kHz it rises at 0.25 V/µs: what falls at 0.278 V/µs meets that at 54.2 V.
+    /// At 2 kHz the command rises at 0.25 V/µs. The voltage that falls at 0.278 V/µs meets it at 54.2 V.
     #[test]
     fn a_faster_saw_leaves_a_part_of_the_stroke() {
         let (spec, forecast) = of(0.5e-3);
@@ -262,7 +267,8 @@ mod tests {
         forecast(&spec, &Waveform::new(shape, timing).unwrap()).unwrap()
     }
 
-    /// A low-pass of 10 kHz on 10 s: too fine for the walk, which says nothing instead of infinity. On 10 ms it leaves all.
+    /// A low-pass of 10 kHz needs too many steps at a period of 10 s, so there is no forecast. At a period of 10 ms it leaves the
+    /// full range.
     #[test]
     fn what_cannot_be_walked_through_is_not_told() {
         let sine = || Shape::Sine { amplitude: 2.3e-6, phase: 0.0, offset: 0.0 };
@@ -271,7 +277,7 @@ mod tests {
         assert!((low + 2.3e-6).abs() < 1e-8 && (high - 2.3e-6).abs() < 1e-8);
     }
 
-    /// A sine is steepest at one moment, Aω of it, and no range of volts says so.
+    /// A sine has its largest rate Aω at one time only.
     #[test]
     fn a_curve_is_told_by_its_rate() {
         let sine = Shape::Sine { amplitude: 2.3e-6, phase: 0.0, offset: 0.0 };
@@ -284,7 +290,7 @@ mod tests {
         assert!(!of(1e-3).1.steepest.curved);
     }
 
-    /// A burst of three sines of 1 ms in 2 s: the peaks are as high as the command, and its rate is that of the sine.
+    /// The peaks of a burst of three sines of 1 ms in 2 s are those of the command, and the rate is that of the sine.
     #[test]
     fn short_waves_in_a_long_pattern_keep_their_peaks() {
         let sine = Shape::Sine { amplitude: 0.5e-6, phase: 0.0, offset: 1e-6 };

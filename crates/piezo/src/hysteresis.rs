@@ -1,10 +1,10 @@
-//! Hysteresis of a stack between the stroke that its voltage asks for and the one it makes.
+//! Rate-independent hysteresis of a piezo stack: models of Prandtl–Ishlinskii and Bouc–Wen.
 //!
-//! Two laws, both independent of the rate: [`Plays`] of Prandtl and Ishlinskii, a sum of play operators with an exact inverse,
-//! and [`BoucWen`], one state with loops of another shape. Either stands in a scene as a block: [`PlayBlock`],
-//! [`BoucWenBlock`]. They are one-way: what they make of a voltage does not come back to the driver, and they make no
-//! claim about energy. The heat of a loop, tan δ times the energy that goes to and fro, is not in the books of a scene, and no
-//! stack warms itself.
+//! * [`Plays`] is the Prandtl–Ishlinskii model, a weighted sum of play operators with an exact inverse; [`PlayBlock`] is its block.
+//! * [`BoucWen`] is the Bouc–Wen model with one state; [`BoucWenBlock`] is its block.
+//!
+//! Input and output are strokes. The blocks do not act back on the driver. The energy loss of a loop is not part of the model's
+//! energy balance.
 
 mod block;
 mod bouc_wen;

@@ -1,29 +1,30 @@
-//! How a rate goes within a step, by what is known of the step: p(σ) = a + bσ + cσ² over its part σ, in units a step.
+//! Quadratic interpolation of a rate within a step: p(σ) = a + bσ + cσ², 0 ≤ σ ≤ 1. The integral of p over σ is the change in the
+//! step.
 
-/// A rate over a step.
+/// Rate within a step, as the coefficients of a quadratic polynomial in σ.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Pace([f64; 3]);
 
 impl Pace {
-    /// By what it comes to and what it is at both ends.
+    /// Creates the polynomial from its integral `given` and its values at both ends.
     pub(crate) fn between(given: f64, first: f64, last: f64) -> Self {
         Self([first, 6.0 * given - 4.0 * first - 2.0 * last, 3.0 * (first + last) - 6.0 * given])
     }
 
-    /// By what it comes to, what it is at the end, and its slope there.
+    /// Creates the polynomial from its integral `given` and its value and slope at the end.
     pub(crate) fn ending(given: f64, last: f64, slope: f64) -> Self {
         let c = 3.0 * (0.5 * slope - last + given);
         let b = slope - 2.0 * c;
         Self([last - b - c, b, c])
     }
 
-    /// By what it comes to and what it is at the end: straight.
+    /// Creates a linear polynomial from its integral `given` and its value at the end.
     pub(crate) fn straight(given: f64, last: f64) -> Self {
         let b = 2.0 * (last - given);
         Self([last - b, b, 0.0])
     }
 
-    /// What it comes to where it is above 0.
+    /// Returns the integral of the positive part of the polynomial.
     pub(crate) fn risen(self) -> f64 {
         let cuts = self.turns();
         let ends = cuts.into_iter().chain([1.0]);
@@ -31,7 +32,7 @@ impl Pace {
         starts.zip(ends).map(|(from, to)| (self.until(to) - self.until(from)).max(0.0)).sum()
     }
 
-    /// Its largest magnitude within the step and at its end; how it begins is known from the step before.
+    /// Returns the largest magnitude within the step and at its end. The start is excluded, because the step before contains it.
     pub(crate) fn most(self) -> f64 {
         let Self([_, b, c]) = self;
         let extreme = -0.5 * b / c;
@@ -44,17 +45,17 @@ impl Pace {
         a + part * (b + part * c)
     }
 
-    /// What it has come to so far.
+    /// Returns the integral from 0 to `part`.
     fn until(self, part: f64) -> f64 {
         let Self([a, b, c]) = self;
         part * (a + part * (0.5 * b + part * c / 3.0))
     }
 
-    /// Where it may go through zero, ascending; an end of the step where it does not.
+    /// Returns the zeros within the step in ascending order; 0 stands for a zero that is absent.
     fn turns(self) -> [f64; 2] {
         let Self([a, b, c]) = self;
         let root = (b * b - 4.0 * a * c).sqrt();
-        // Of both roots the one that loses no digits, and the other by their product a/c.
+        // The first root has no cancellation; the second follows from the product a/c of both.
         let sum = -0.5 * (b + root.copysign(b));
         let within = |part: f64| if part > 0.0 && part < 1.0 { part } else { 0.0 };
         let [one, two] = [within(a / sum), within(sum / c)];
@@ -66,7 +67,7 @@ impl Pace {
 mod tests {
     use super::*;
 
-    /// (σ - ¼)(σ - ¾), whose integral is σ³/3 - σ²/2 + 3σ/16, is below zero between its roots.
+    /// The polynomial (σ - ¼)(σ - ¾) has the integral σ³/3 - σ²/2 + 3σ/16 and is negative between its roots.
     #[test]
     fn a_rate_of_two_turns_is_known_by_what_bounds_it() {
         let until = |x: f64| x * x * x / 3.0 - 0.5 * x * x + 0.1875 * x;
@@ -75,12 +76,12 @@ mod tests {
             assert!((pace.risen() - risen).abs() < 1e-15, "{pace:?}: {}", pace.risen());
             assert!((pace.most() - 0.1875).abs() < 1e-15, "{}", pace.most());
         }
-        // Between its ends it goes beyond both.
+        // The extremum between the ends is larger than both end values.
         let hill = Pace::between(4.0 / 6.0, 0.0, 0.0);
         assert!((hill.most() - 1.0).abs() < 1e-15 && (hill.risen() - 2.0 / 3.0).abs() < 1e-15);
     }
 
-    /// A rate that goes straight from a to b through zero comes to half of what lies above it.
+    /// The positive part of a linear rate from a to b is a triangle or a trapezoid.
     #[test]
     fn what_comes_back_within_a_step_is_not_taken_off() {
         for (a, b) in [(3.0, -1.0), (-1.0, 3.0), (1.0, 2.0), (-1.0, -2.0), (2.0, 0.0), (0.0, 2.0), (0.0, 0.0)]

@@ -1,17 +1,18 @@
-//! What a block of this crate reads, and how large and fast that is.
+//! Input signal of a block, with its scales.
 
-/// A signal that a block reads.
+/// Input signal of a block, with its magnitude, its frequencies and the name of the block's output column.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Reading {
-    /// Its place among the signals of the scene: waveforms, then blocks.
+    /// Index of the signal in the model: waveforms first, then blocks.
     pub signal: usize,
-    /// Natural span of the signal, in its own unit, above 0. Guards and errors of states are measured by it.
+    /// Natural span of the signal in its own unit, above 0. Event functions and errors of states are scaled by this span.
     pub span: f64,
-    /// The fastest at which it swings, 1/s, above 0: 2π over the shortest period, or the bandwidth of what makes it.
+    /// Largest angular frequency of the signal, 1/s, above 0: 2π over the shortest period, or the bandwidth of the source.
     pub swings: f64,
-    /// The fastest at which it turns, 1/s, above 0: 2π over the shortest time between two turns. More than `swings` where a waveform
-    /// has corners close together.
+    /// Largest angular frequency of reversals, 1/s, above 0: 2π over the shortest time between two reversals.
+    ///
+    /// `turns` is larger than `swings` if a waveform has corners close together.
     pub turns: f64,
-    /// Name of the block's column, with its SI unit.
+    /// Name of the block's output column, with its SI unit.
     pub column: &'static str,
 }

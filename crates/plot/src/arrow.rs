@@ -1,4 +1,4 @@
-//! Heads of arrows on curves: which way they are run through.
+//! Arrowheads on curves that show the direction of traversal.
 
 use crate::PlotError;
 use crate::paint::Painter;
@@ -6,15 +6,14 @@ use crate::theme::Stroke;
 use crate::thin::Point;
 use plotters_backend::DrawingBackend;
 
-/// Length and half width of a head, in widths of the line.
+/// Length and half width of an arrowhead, in line widths.
 const LENGTH: f64 = 5.5;
 const HALF: f64 = 2.4;
-/// A curve shorter than this many heads has none.
+/// Sections shorter than this many arrowheads have none.
 const LEAST: f64 = 6.0;
 
 impl<B: DrawingBackend> Painter<'_, B> {
-    /// A head on the longest way forth and one on the longest way back of a curve of one or more pieces: where it swings
-    /// about, nobody would see one.
+    /// Draws one arrowhead on the longest section to the right and one on the longest section to the left.
     pub(crate) fn arrows(&mut self, lines: &[Vec<Point>], stroke: Stroke) -> Result<(), PlotError> {
         let head = LENGTH * stroke.width * self.sizes.scale;
         let ways = lines.iter().flat_map(|line| ways(line));
@@ -37,7 +36,7 @@ impl<B: DrawingBackend> Painter<'_, B> {
     }
 }
 
-/// The parts of a polyline between its turns to the left or to the right.
+/// Splits a polyline where its horizontal direction changes.
 fn ways(line: &[Point]) -> Vec<&[Point]> {
     let mut ways = Vec::new();
     let (mut start, mut sense) = (0, 0.0);
@@ -57,12 +56,12 @@ fn ways(line: &[Point]) -> Vec<&[Point]> {
     ways
 }
 
-/// Length of a way, px.
+/// Length of a polyline, px.
 fn length(way: &[Point]) -> f64 {
     way.windows(2).map(|pair| math::hypot(pair[1].0 - pair[0].0, pair[1].1 - pair[0].1)).sum()
 }
 
-/// The point so far along a way, px.
+/// Point at a distance `gone` along a polyline, px.
 fn at(way: &[Point], gone: f64) -> Point {
     let mut left = gone;
     for pair in way.windows(2) {

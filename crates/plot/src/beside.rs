@@ -1,4 +1,4 @@
-//! The same axes in other units, right of and above a frame.
+//! Second axes in other units, right of and above a frame.
 
 use crate::canvas::Anchor;
 use crate::layout::{Placed, Sizes};
@@ -9,24 +9,24 @@ use crate::scale::{Along, Scale};
 use crate::{Label, PlotError};
 use plotters_backend::DrawingBackend;
 
-/// The scales of a panel's other units.
+/// Scales of the second axes of a panel.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub(crate) struct Beside {
-    /// Of the horizontal axis, above the frame.
+    /// Scale above the frame.
     pub(crate) top: Option<Scale>,
-    /// Of the vertical axis, right of the frame.
+    /// Scale right of the frame.
     pub(crate) right: Option<Scale>,
 }
 
 impl Beside {
-    /// Of the scales of both axes.
+    /// Creates the scales from those of the main axes.
     pub(crate) fn new(
         (top, right): (Option<&Rescaled>, Option<&Rescaled>),
         (x, y): (&Scale, &Scale),
     ) -> Self {
         let scale = |rescaled: Option<&Rescaled>, of: &Scale| {
             let Rescaled { label, by } = rescaled.filter(|r| r.by > 0.0 && r.by.is_finite())?;
-            // The ends of what is 0 throughout say nothing in this unit either.
+            // If all values are 0, the range is arbitrary.
             let by = if of.is_of_nothing() { &1.0 } else { by };
             let range = of.range().map(|(low, high)| (low / by, high / by));
             Some(Scale::new(&Axis::new(label.clone(), ""), range).of_nothing(of.is_of_nothing()))
@@ -42,13 +42,13 @@ impl Beside {
         self.right.as_mut().map_or(Ok(()), |scale| scale.set_ticks(Along::Height(height), em))
     }
 
-    /// Height of what stands above the frame, px.
+    /// Height of the second horizontal axis above the frame, px.
     pub(crate) fn height(&self, sizes: Sizes) -> f64 {
         let height = sizes.mark + TICK_LINE * sizes.tick + LABEL_LINE * sizes.label;
         if self.top.is_some() { height } else { 0.0 }
     }
 
-    /// Width of what stands right of the frame, px.
+    /// Width of the second vertical axis right of the frame, px.
     pub(crate) fn width(&self, sizes: Sizes) -> Result<f64, PlotError> {
         let Some(right) = &self.right else { return Ok(0.0) };
         Ok(sizes.mark + 0.4 * sizes.tick + right.label_width(sizes.tick)? + LABEL_LINE * sizes.label)
@@ -56,7 +56,7 @@ impl Beside {
 }
 
 impl<B: DrawingBackend> Painter<'_, B> {
-    /// Ticks, numbers and labels of the other units.
+    /// Draws ticks, numbers and labels of the second axes.
     pub(crate) fn beside(&mut self, place: &Placed<'_, '_>) -> Result<(), PlotError> {
         let (sizes, frame) = (self.sizes, place.frame);
         let right = frame.left + frame.width;

@@ -1,41 +1,41 @@
-//! A branch of steady motions: what they are over something that is varied, and how disturbances come back.
+//! Branch of periodic orbits over a parameter: step length and Floquet multipliers.
 
 use crate::Label;
 use crate::figure::{Arrangement, Figure};
 use crate::panel::{Axis, Panel, Reference, Series};
 use crate::theme::{Dash, Ink, Style};
 
-/// A branch of steady motions.
+/// Branch of periodic orbits over a continuation parameter.
 #[derive(Debug, Clone, PartialEq)]
 pub struct BranchCourse<'a> {
-    /// What is varied, and its unit.
+    /// Name and unit of the parameter.
     pub axis: (&'a str, &'a str),
-    /// What it is in the scene.
+    /// Value of the parameter in the scenario.
     pub present: f64,
-    /// Stretches of one kind along the branch; each begins where the one before ends.
+    /// Sections of equal stability along the branch. Each begins where the previous one ends.
     pub stretches: Vec<Stretch>,
-    /// Places at which something happens: what, the varied number, and the step where there is one.
+    /// Special points such as bifurcations: name, and for each point the parameter and the step length (NaN if none).
     pub marks: Vec<(String, Vec<[f64; 2]>)>,
 }
 
-/// Motions one after another that are all stable, or all not.
+/// Section of a branch with constant stability.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Stretch {
-    /// Whether a run that is disturbed a little comes back.
+    /// Whether the periodic orbits are stable.
     pub stable: bool,
-    /// What is varied.
+    /// Values of the parameter.
     pub values: Vec<f64>,
-    /// Steps, m; not finite where there are none.
+    /// Step lengths, m; NaN without a step length.
     pub steps: Vec<f64>,
-    /// |λ| of the largest multipliers, the largest first, each along the stretch.
+    /// Moduli |λ| of the largest Floquet multipliers in descending order, each along the section.
     pub moduli: Vec<Vec<f64>>,
 }
 
-/// Steps over what is varied, and below them |λ| of the largest multipliers: stable motions solid, others dashed, places at which
-/// something happens as dots.
+/// Draws step lengths over the parameter, and below |λ| of the largest Floquet multipliers. Stable sections are
+/// solid, unstable ones dashed, special points are dots.
 pub fn branch_figure<'a>(title: &str, branch: &BranchCourse<'a>) -> Figure<'a> {
     if branch.stretches.iter().all(|stretch| stretch.values.is_empty()) {
-        return Figure::without_data(title, "the branch has no motions");
+        return Figure::without_data(title, "the branch has no orbits");
     }
     let has_steps = branch.stretches.iter().any(|stretch| stretch.steps.iter().any(|step| step.is_finite()));
     let panels: Vec<Panel<'a>> =
@@ -58,7 +58,7 @@ fn steps<'a>(branch: &BranchCourse<'a>) -> Panel<'a> {
     panel(branch, Axis::new(Label::plain("step"), "m"), (lines.series, dots(branch, |mark| mark[1])), 0.0)
 }
 
-/// Where there are no steps the places stand here, on the circle.
+/// Panel of the moduli. Special points are drawn here at |λ| = 1 if there are no step lengths.
 fn moduli<'a>(branch: &BranchCourse<'a>, with_marks: bool) -> Panel<'a> {
     let mut lines = Lines::default();
     for stretch in &branch.stretches {
@@ -83,13 +83,13 @@ fn panel<'a>(
         series: lines.into_iter().chain(marks).collect(),
         references: vec![
             Reference::Horizontal { y: level, label: Label::default() },
-            Reference::Vertical { x: branch.present, label: Label::plain("as in the scenario") },
+            Reference::Vertical { x: branch.present, label: Label::plain("value in the scenario") },
         ],
         ..Panel::default()
     }
 }
 
-/// Lines of which only the first of each kind is named.
+/// Curves of which only the first stable and the first unstable one have a legend entry.
 #[derive(Default)]
 struct Lines<'a> {
     series: Vec<Series<'a>>,
@@ -98,8 +98,7 @@ struct Lines<'a> {
 
 impl Lines<'_> {
     fn add(&mut self, stretch: &Stretch, place: usize, ys: Vec<f64>) {
-        let (dash, name) =
-            if stretch.stable { (Dash::Solid, "stable") } else { (Dash::Dashed, "a run leaves it") };
+        let (dash, name) = if stretch.stable { (Dash::Solid, "stable") } else { (Dash::Dashed, "unstable") };
         let named = &mut self.named[usize::from(stretch.stable)];
         let label = if *named || place > 0 { Label::default() } else { Label::plain(name) };
         *named |= place == 0;
@@ -110,10 +109,10 @@ impl Lines<'_> {
     }
 }
 
-/// Dots of each kind of place.
+/// Dots of the special points, one series per kind.
 fn dots<'a>(branch: &BranchCourse<'a>, height: impl Fn(&[f64; 2]) -> f64) -> Vec<Series<'a>> {
     let of = |(kind, (name, places)): (usize, &(String, Vec<[f64; 2]>))| {
-        // A gap after every dot: points that no line joins are marked.
+        // Points separated by gaps are drawn as dots.
         let xs: Vec<f64> = places.iter().flat_map(|place| [place[0], f64::NAN]).collect();
         let ys: Vec<f64> = places.iter().flat_map(|place| [height(place), f64::NAN]).collect();
         let style = Style { ink: Some(Ink::Palette(1 + kind)), dash: Some(Dash::Solid), width: 1.0 };

@@ -1,7 +1,7 @@
-//! What a figure is drawn with: strokes, areas and texts on any backend of plotters.
+//! Drawing primitives: strokes, areas and texts on any plotters backend.
 //!
-//! Backends count in whole units; a unit is an eighth of a pixel here, so that curves stay smooth and a picture and
-//! a drawing get the same numbers.
+//! Plotters uses integer coordinates. One unit is an eighth of a pixel, so that curves are smooth and PNG and SVG get
+//! the same coordinates.
 
 use crate::PlotError;
 use crate::dash::dashed;
@@ -16,12 +16,12 @@ use plotters_backend::DrawingBackend;
 
 /// Backend units per pixel.
 pub(crate) const UNITS: u32 = 8;
-/// Plotters' size of a font is this times its em.
+/// Ratio of plotters' font size to the em.
 pub(crate) const FONT_SIZE: f64 = 1.24;
-/// With a top anchor plotters' SVG puts the baseline this far below the given point, em.
+/// Distance of the baseline below the given point with a top anchor in plotters' SVG, em.
 pub(crate) const BASELINE: f64 = 0.76;
 
-/// Which point of a text is given: always on its baseline.
+/// Horizontal alignment of a text. The given point lies on its baseline.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Anchor {
     Left,
@@ -29,7 +29,7 @@ pub(crate) enum Anchor {
     Right,
 }
 
-/// A backend, the ink of texts and the scale of strokes.
+/// Backend with text colour and scale of strokes.
 pub(crate) struct Canvas<'c, B> {
     pub(crate) backend: &'c mut B,
     pub(crate) ink: Colour,
@@ -43,13 +43,13 @@ impl<B: DrawingBackend> Canvas<'_, B> {
         Ok(self.backend.draw_rect(corners.0, corners.1, &solid(colour), true)?)
     }
 
-    /// Fills what a line encloses.
+    /// Fills a polygon.
     pub(crate) fn polygon(&mut self, points: &[Point], colour: Colour) -> Result<(), PlotError> {
         let corners = points.iter().copied().map(units);
         Ok(self.backend.fill_polygon(corners, &solid(colour))?)
     }
 
-    /// A point that is a series of its own.
+    /// Draws a point as a disc.
     pub(crate) fn disc(&mut self, centre: Point, radius: f64, colour: Colour) -> Result<(), PlotError> {
         let radius = (radius * self.scale * f64::from(UNITS)).round().max(1.0) as u32;
         Ok(self.backend.draw_circle(units(centre), radius, &solid(colour), true)?)
@@ -66,7 +66,7 @@ impl<B: DrawingBackend> Canvas<'_, B> {
         Ok(())
     }
 
-    /// Text from left to right, its anchor on the baseline.
+    /// Draws a horizontal text.
     pub(crate) fn text(
         &mut self,
         label: &Label,
@@ -77,7 +77,7 @@ impl<B: DrawingBackend> Canvas<'_, B> {
         self.runs(label, em, anchor, |along, down| (at.0 + along, at.1 + down), &FontTransform::None)
     }
 
-    /// Text from bottom to top, centred, its baseline through the point.
+    /// Draws a text from bottom to top, centred, with its baseline through the point.
     pub(crate) fn upright(&mut self, label: &Label, em: f64, at: Point) -> Result<(), PlotError> {
         self.runs(
             label,
@@ -88,7 +88,7 @@ impl<B: DrawingBackend> Canvas<'_, B> {
         )
     }
 
-    /// Draws the runs of a label; `turned` maps ways along and below the baseline to a point of the picture.
+    /// Draws the runs of a label. `turned` maps distances along and below the baseline to a point of the picture.
     fn runs(
         &mut self,
         label: &Label,
@@ -99,7 +99,7 @@ impl<B: DrawingBackend> Canvas<'_, B> {
     ) -> Result<(), PlotError> {
         let whole = label.width(em)?;
         let colour = rgb(self.ink);
-        // A single run leaves the alignment to the viewer of an SVG, whose font may be a little wider.
+        // The SVG viewer aligns a single run, as its font may have other widths.
         let single = label.runs().len() == 1;
         let (mut along, h_pos) = match anchor {
             Anchor::Left => (0.0, HPos::Left),
@@ -116,7 +116,7 @@ impl<B: DrawingBackend> Canvas<'_, B> {
             let style = TextStyle::from(font.into_font().transform(transform.clone()))
                 .color(&colour)
                 .pos(Pos::new(h_pos, VPos::Top));
-            // An SVG drops the blanks at the ends of a text: they are a way, not characters.
+            // SVG drops blanks at the ends of a text, so they are added as distances.
             let text = run.text.trim_start();
             along += font::advance(&run.text[..run.text.len() - text.len()])? * em_run;
             let at = units(turned(along, drop - BASELINE * em_run));

@@ -1,20 +1,20 @@
-//! What a file carries unseen: where its figure comes from.
+//! Metadata in picture files: the origin of a figure.
 
 use crate::png::read_png;
 use crate::svg::read_svg;
 use crate::{Figure, PlotError};
 
-/// Texts longer than this, bytes, are for programs: compressed in a PNG, left out of the description of an SVG.
+/// Texts longer than this (bytes) are compressed in a PNG and left out of the SVG description.
 pub(crate) const LONG_TEXT: usize = 1024;
-/// Most that a text may unpack to, bytes: a stranger's picture does not fill the memory.
+/// Maximum size of an uncompressed text, bytes; limits memory use for foreign files.
 pub(crate) const MOST_TEXT: usize = 64 << 20;
-/// How a PNG begins.
+/// Signature of a PNG.
 const PNG: [u8; 8] = *b"\x89PNG\r\n\x1a\n";
 
-/// The keys and texts that a drawn figure carries: its title and its provenance.
+/// Returns the keys and texts in a drawn figure: its title and provenance.
 ///
 /// # Errors
-/// Bytes that are neither PNG nor SVG; a damaged text; one beyond 64 MiB.
+/// If the bytes are neither PNG nor SVG, if a text is damaged, or if one exceeds 64 MiB.
 pub fn read_text(bytes: &[u8]) -> Result<Vec<(String, String)>, PlotError> {
     if bytes.starts_with(&PNG) {
         return read_png(bytes);
@@ -25,7 +25,7 @@ pub fn read_text(bytes: &[u8]) -> Result<Vec<(String, String)>, PlotError> {
     }
 }
 
-/// The figure's title and provenance.
+/// Title and provenance of a figure.
 pub(crate) fn texts(figure: &Figure<'_>) -> Vec<(String, String)> {
     let titled = figure.provenance.iter().any(|(key, _)| key == "Title");
     let title = (!titled && !figure.title.is_empty()).then(|| ("Title".to_owned(), figure.title.text()));

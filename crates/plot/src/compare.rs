@@ -1,28 +1,28 @@
-//! Two runs over each other.
+//! Comparison of two runs.
 
 use crate::Label;
 use crate::figure::{Arrangement, Figure};
 use crate::panel::{Axis, Panel, Reference, Series};
 use crate::theme::{Dash, Ink, Style};
 
-/// A channel of two runs; every curve is a pair of times (s) and values.
+/// Channel of two runs. Each curve is a pair of times (s) and values.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ComparedChannel<'a> {
     /// Name of the channel.
     pub name: &'a str,
     /// Unit of its values.
     pub unit: &'a str,
-    /// The first run.
+    /// First run.
     pub a: (&'a [f64], &'a [f64]),
-    /// The second run.
+    /// Second run.
     pub b: (&'a [f64], &'a [f64]),
-    /// Whether the first run is an excerpt: some points, between which nothing is known.
+    /// Whether the first run is an excerpt; it is then drawn as points.
     pub is_excerpt: bool,
-    /// The second less the first, where both are known.
+    /// Difference second minus first at the common times.
     pub difference: (&'a [f64], &'a [f64]),
 }
 
-/// Two panels per channel: both runs (A, and B dashed over it) and below them the difference B − A.
+/// Draws two panels per channel: both runs (B dashed), and below the difference B − A.
 pub fn compare_figure<'a>(title: &str, names: (&str, &str), channels: &[ComparedChannel<'a>]) -> Figure<'a> {
     if channels.is_empty() {
         return Figure::without_data(title, "no channels to compare");
@@ -46,7 +46,7 @@ fn pair<'a>((a, b): (&str, &str), channel: &ComparedChannel<'a>) -> [Panel<'a>; 
     };
     let points = |mut curve: Series<'a>| {
         if channel.is_excerpt {
-            // Gaps keep lines from joining them.
+            // Gaps prevent connecting lines.
             let apart = |values: &[f64]| values.iter().flat_map(|value| [*value, f64::NAN]).collect();
             (curve.xs, curve.ys, curve.marked) = (apart(&curve.xs), apart(&curve.ys), true);
         }

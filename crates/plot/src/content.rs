@@ -1,4 +1,4 @@
-//! What a panel shows inside its frame.
+//! Drawing of the data inside a frame.
 
 use crate::PlotError;
 use crate::canvas::Anchor;
@@ -11,15 +11,15 @@ use crate::theme::{Dash, Stroke};
 use crate::thin::{Point, length, straightened, thinned, without_repeats, without_retraced};
 use plotters_backend::DrawingBackend;
 
-/// A curve longer than this many times the frame's sides fills areas, where dashes only cost time.
+/// Curves longer than this multiple of the frame's sides are drawn solid, as dashes would not be visible.
 const FILLS: f64 = 40.0;
-/// Least width of a mark in a lane, px of a figure 1600 px wide.
+/// Minimum width of a mark in a lane, px of a figure 1600 px wide.
 const MARK: f64 = 2.4;
-/// Free above and below the marks, as a share of the lane.
+/// Free height above and below the marks, as a fraction of the lane height.
 const LANE_GAP: f64 = 0.12;
 
 impl<B: DrawingBackend> Painter<'_, B> {
-    /// Everything over the mosaic, in the order in which [`crate::Panel`] names it.
+    /// Draws everything in front of the mosaic, in the order given in [`crate::Panel`].
     pub(crate) fn content(&mut self, place: &Placed<'_, '_>) -> Result<(), PlotError> {
         let panel = place.panel;
         if place.empty {
@@ -61,7 +61,7 @@ impl<B: DrawingBackend> Painter<'_, B> {
         let low = thinned(columns().map(|column| column.map(|(x, low, _)| place.pixel((x, low)))));
         let high = thinned(columns().map(|column| column.map(|(x, _, high)| place.pixel((x, high)))));
         let colour = self.theme.colour(band.ink);
-        // Both edges have their gaps at the same places.
+        // Both edges have the same gaps.
         for (low, mut edge) in low.iter().zip(high) {
             edge.extend(low.iter().rev());
             self.canvas.polygon(&edge, colour)?;
@@ -125,7 +125,7 @@ impl<B: DrawingBackend> Painter<'_, B> {
         let marks: Vec<Mark> = marks.filter(|mark| is_drawable(mark.from) && is_drawable(mark.to)).collect();
         let pixel = |x: f64| frame.left + frame.width * place.x.place(x);
         let top = |mark: &Mark| base - full * mark.height.clamp(0.0, 1.0);
-        // Marks that touch are one area: side by side they would show seams.
+        // Adjacent marks are merged into one area to avoid seams.
         for run in marks.chunk_by(|a, b| a.to == b.from) {
             let (left, right) = (pixel(run[0].from), pixel(run[run.len() - 1].to));
             let width = MARK * self.sizes.scale;
@@ -144,7 +144,7 @@ impl<B: DrawingBackend> Painter<'_, B> {
 }
 
 impl Placed<'_, '_> {
-    /// The place in the picture of a point as laid off along the axes.
+    /// Converts axis coordinates to px.
     pub(crate) fn pixel(&self, (x, y): Point) -> Point {
         let frame = self.frame;
         (frame.left + frame.width * self.x.place(x), frame.top + frame.height * (1.0 - self.y.place(y)))

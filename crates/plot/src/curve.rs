@@ -1,61 +1,61 @@
-//! The curves of a machine: what it does over something that is varied.
+//! Performance curves of a drive over a varied parameter.
 
 use crate::Label;
 use crate::figure::{Arrangement, Figure};
 use crate::panel::{Axis, Band, Lane, Mark, Panel, Reference, Series};
 use crate::theme::{Dash, Ink, Style};
 
-/// What a machine does over something that is varied.
+/// Performance of a drive over a parameter.
 #[derive(Debug, Clone, PartialEq)]
 pub struct MachineCurve<'a> {
-    /// What is varied, and its unit.
+    /// Name and unit of the parameter.
     pub axis: (&'a str, &'a str),
-    /// Whether its decades are as far apart everywhere.
+    /// Whether the parameter axis is logarithmic.
     pub logarithmic: bool,
-    /// Its values, ascending.
+    /// Values of the parameter, ascending.
     pub values: &'a [f64],
-    /// What it is in the scene that the curve is of.
+    /// Value of the parameter in the scenario; `None` draws no line.
     pub present: Option<f64>,
-    /// Values with a name.
+    /// Special values of the parameter and their names, drawn as vertical lines.
     pub landmarks: Vec<(String, f64)>,
-    /// What the machine does, a panel each.
+    /// Results over the parameter, one panel each.
     pub courses: Vec<MachineCourse<'a>>,
-    /// Values at which nothing is known, by the reason.
+    /// Values without a result, grouped by reason.
     pub faults: Vec<(String, Vec<f64>)>,
 }
 
-/// One thing that a machine does.
+/// Result over the parameter, such as the step length.
 #[derive(Debug, Clone, PartialEq)]
 pub struct MachineCourse<'a> {
-    /// What.
+    /// Name of the result.
     pub name: &'a str,
-    /// Its unit.
+    /// Unit of the result.
     pub unit: &'a str,
-    /// How much, a line for each way to do it.
+    /// Curves, for example one per direction.
     pub lines: Vec<MachineLine<'a>>,
 }
 
-/// One way to do it.
+/// Curve of a result.
 #[derive(Debug, Clone, PartialEq)]
 pub struct MachineLine<'a> {
-    /// Its name in the legend; none where empty.
+    /// Name in the legend; empty for none.
     pub name: &'a str,
-    /// How much, as many as there are values; not finite where it is not known.
+    /// Result at each value of the parameter; not finite if unknown.
     pub values: Vec<f64>,
-    /// How far it swings about that from period to period, as many; 0 where it does not.
+    /// Half-range over which the result varies from period to period, at each value; 0 if it is constant.
     pub spreads: Vec<f64>,
 }
 
-/// Height of a panel, and of a lane, px.
+/// Height of a panel and of a lane, px.
 const PANEL: u32 = 640;
 const LANE: u32 = 70;
 
-/// A panel for each thing that the machine does, one below the other: a line through its points, a band where it swings from period
-/// to period. Points without an answer are marks in lanes below them all, one for each reason.
+/// Draws one panel per result. A band shows the variation of a result from period to period. Lanes at the bottom mark
+/// the values without a result, one lane per reason.
 pub fn machine_figure<'a>(title: &str, curve: &MachineCurve<'a>) -> Figure<'a> {
     let is_known = |line: &MachineLine<'_>| line.values.iter().any(|value| value.is_finite());
     if !curve.courses.iter().flat_map(|course| &course.lines).any(is_known) {
-        return Figure::without_data(title, "no point of the curve has an answer");
+        return Figure::without_data(title, "no point of the curve has a result");
     }
     let panels = curve.courses.iter().enumerate().map(|(place, course)| panel(place, curve, course));
     let (wide, high) = Figure::size_for(360, PANEL, curve.courses.len());
@@ -70,7 +70,7 @@ pub fn machine_figure<'a>(title: &str, curve: &MachineCurve<'a>) -> Figure<'a> {
     .with_room_for_legends()
 }
 
-/// The points without an answer, by the reason, and how many they are; none where all have one.
+/// Panel of the values without a result, one lane per reason with its count. `None` if all have a result.
 fn without_answer<'a>(curve: &MachineCurve<'a>) -> Option<Panel<'a>> {
     let lane = |(kind, (reason, at)): (usize, &(String, Vec<f64>))| Lane {
         label: reason.clone(),
@@ -86,7 +86,7 @@ fn without_answer<'a>(curve: &MachineCurve<'a>) -> Option<Panel<'a>> {
     })
 }
 
-/// The axis of what is varied.
+/// Axis of the parameter.
 fn across(curve: &MachineCurve<'_>) -> Axis {
     let (name, unit) = curve.axis;
     Axis { logarithmic: curve.logarithmic, ..Axis::new(Label::plain(name), unit) }
@@ -94,7 +94,7 @@ fn across(curve: &MachineCurve<'_>) -> Axis {
 
 fn panel<'a>(place: usize, curve: &MachineCurve<'a>, course: &MachineCourse<'a>) -> Panel<'a> {
     let style = |ink, width| Style { ink: Some(ink), dash: Some(Dash::Solid), width };
-    // Lines of one name have one colour in all panels; a line alone has that of its panel.
+    // Curves of one name have the same colour in all panels. A single curve has the colour of its panel.
     let first = if course.lines.len() > 1 { 0 } else { place };
     let line = |(k, line): (usize, &MachineLine<'a>)| Series {
         marked: true,
@@ -102,7 +102,7 @@ fn panel<'a>(place: usize, curve: &MachineCurve<'a>, course: &MachineCourse<'a>)
         ..Series::new(line.name, curve.values, line.values.clone())
     };
     let present = curve.present.filter(|x| is_within(*x, curve.values));
-    let present = present.map(|x| Reference::Vertical { x, label: Label::plain("as in the scenario") });
+    let present = present.map(|x| Reference::Vertical { x, label: Label::plain("value in the scenario") });
     let landmarks =
         curve.landmarks.iter().map(|(name, x)| Reference::Vertical { x: *x, label: Label::plain(name) });
     Panel {
@@ -119,7 +119,7 @@ fn panel<'a>(place: usize, curve: &MachineCurve<'a>, course: &MachineCourse<'a>)
     }
 }
 
-/// Between which values lines swing, those that do; one name is enough for all.
+/// Bands of the curves whose result varies from period to period. Only the first has a legend entry.
 fn swings<'a>(xs: &'a [f64], lines: &[MachineLine<'a>]) -> Vec<Band<'a>> {
     let swinging = lines.iter().filter(|line| line.spreads.iter().any(|spread| *spread > 0.0));
     let band = |(place, line): (usize, &MachineLine<'a>)| {
@@ -127,7 +127,7 @@ fn swings<'a>(xs: &'a [f64], lines: &[MachineLine<'a>]) -> Vec<Band<'a>> {
             line.values.iter().zip(&line.spreads).map(|(value, spread)| value + sign * spread).collect()
         };
         Band {
-            label: Label::plain(if place == 0 { "swings from period to period" } else { "" }),
+            label: Label::plain(if place == 0 { "range of step lengths" } else { "" }),
             xs: xs.into(),
             low: edge(-1.0).into(),
             high: edge(1.0).into(),
@@ -170,14 +170,14 @@ mod tests {
         let [step, swing, without] = &figure.panels[..] else { panic!("{}", figure.panels.len()) };
         assert!(step.bands.is_empty() && swing.bands.len() == 1);
         assert_eq!(swing.bands[0].high[2], 4e-9);
-        // Nothing is drawn where a value would be told by it.
+        // Points without a result are gaps.
         assert!(step.series.len() == 1 && step.series[0].ys[1].is_nan());
         assert_eq!((without.lanes[0].label.as_str(), without.lanes[0].marks[0].from), ("refused", 0.2));
         assert_eq!(step.references.len(), 3);
         assert_eq!(crate::draw_svg(&figure).err(), None);
     }
 
-    /// Two ways to do one thing are told apart by their colours, the same in every panel; only one of their bands is named.
+    /// Two curves of a result differ in colour, equally in every panel; only one band has a legend entry.
     #[test]
     fn lines_of_one_panel_have_colours_and_names_of_their_own() {
         let values = [0.1, 0.2, 0.3];
@@ -191,11 +191,11 @@ mod tests {
         let wanted = [0, 1].map(|place| Some(Ink::Palette(place)));
         assert!(figure.panels[..2].iter().all(|panel| inks(panel) == wanted));
         let names: Vec<&Label> = figure.panels[0].bands.iter().map(|band| &band.label).collect();
-        assert_eq!(names, [&Label::plain("swings from period to period"), &Label::default()]);
+        assert_eq!(names, [&Label::plain("range of step lengths"), &Label::default()]);
         assert_eq!(figure.panels[0].series[1].label, Label::plain("backward"));
     }
 
-    /// On a logarithmic axis a point at 1 lies half way between points at 1/5 and 5, of which it is the geometric mean.
+    /// On a logarithmic axis the mark at 1 lies midway between those at 1/5 and 5.
     #[test]
     fn marks_lie_where_the_axis_lays_them() {
         let values = [0.1, 1.0, 10.0];
@@ -216,8 +216,7 @@ mod tests {
         assert!((low + high - 2.0 * middle).abs() <= f64::from(crate::canvas::UNITS), "{marks:?}");
     }
 
-    /// A band stands over the points of its line: its corners at the ends of a logarithmic axis are as far left and right as the marks
-    /// of the line are.
+    /// On a logarithmic axis the corners of a band lie at the points of its curve.
     #[test]
     fn a_band_lies_over_its_line_on_a_logarithmic_axis() {
         let values = [0.1, 1.0, 10.0];

@@ -1,9 +1,9 @@
-//! Cuts polylines into dashes, the same for every backend.
+//! Cuts polylines into dashes, equally for every backend.
 
 use crate::theme::Dash;
 use crate::thin::Point;
 
-/// Lengths drawn and left out by turns, px of a line 1 px wide with round ends.
+/// Alternating lengths of dashes and gaps, px for a line 1 px wide with round ends.
 fn pattern(dash: Dash) -> &'static [f64] {
     match dash {
         Dash::Solid => &[],
@@ -14,7 +14,7 @@ fn pattern(dash: Dash) -> &'static [f64] {
     }
 }
 
-/// The pieces of a polyline that are drawn, for a line `width` px wide.
+/// Returns the dashes of a polyline for a line `width` px wide.
 pub(crate) fn dashed(line: &[Point], dash: Dash, width: f64) -> Vec<Vec<Point>> {
     let pattern = pattern(dash);
     if pattern.is_empty() || line.len() < 2 {

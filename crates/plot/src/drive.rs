@@ -1,4 +1,4 @@
-//! Pictures of a drive: what is commanded, what the driver makes of it, and what moves.
+//! Time histories of a drive: voltage, current, positions and contact forces.
 
 use crate::Label;
 use crate::figure::{Arrangement, Figure};
@@ -6,46 +6,47 @@ use crate::panel::{Axis, Band, Panel, Reference, Series};
 use crate::theme::{Dash, Ink, Style, Theme};
 use crate::trajectory::Track;
 
-/// Height that each panel beyond two adds to the figure, px.
+/// Height of each panel after the second, px.
 const MORE: u32 = 280;
 
-/// The driver of a stack over the figure's time.
+/// Driver of a piezo stack, with its time histories.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Supply<'a> {
-    /// The stack's name.
+    /// Name of the stack.
     pub name: &'a str,
-    /// Commanded voltage, V; empty where it is not known.
+    /// Commanded voltage, V; empty if unknown.
     pub command: Vec<f64>,
     /// Voltage at the stack, V.
     pub voltage: &'a [f64],
-    /// Current into it, A.
+    /// Current into the stack, A.
     pub current: &'a [f64],
-    /// From when until when the command is cut at an end of the window, s.
+    /// Time ranges in which the command exceeds the voltage window, s.
     pub cut: Vec<(f64, f64)>,
-    /// From when until when the current is at its limit, s.
+    /// Time ranges in which the current is at its limit, s.
     pub limited: Vec<(f64, f64)>,
 }
 
-/// A drive over some of its periods.
+/// Time histories of a drive, usually over its last periods.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct DriveCourse<'a> {
     /// Time, s.
     pub time: &'a [f64],
-    /// Drivers; no panels of voltage and current without.
+    /// Drivers. Without drivers there are no panels of voltage and current.
     pub supplies: Vec<Supply<'a>>,
-    /// Free strokes and feet, m, muted behind the bodies.
+    /// Free strokes of actuators and positions of feet, m, drawn muted.
     pub feet: Vec<Track<'a>>,
-    /// What is driven, m.
+    /// Positions of the sliders, m.
     pub bodies: Vec<Track<'a>>,
     /// Tangential forces of the contacts, N.
     pub forces: Vec<Track<'a>>,
-    /// Limit of friction of the only contact, N, marked with both signs.
+    /// Friction limit μF_N of the only contact, N, drawn with both signs.
     pub limit: Option<f64>,
-    /// Whether the slide goes up by more than 45 degrees.
+    /// Whether the slide rises at more than 45 degrees.
     pub is_upright: bool,
 }
 
-/// Voltage, current, motion and forces, one below the other on one time axis; limits are shaded where they are active.
+/// Draws voltage, current, positions and contact forces below each other on one time axis. Active driver limits are
+/// shaded.
 pub fn drive_figure<'a>(title: &str, course: &DriveCourse<'a>) -> Figure<'a> {
     let mut panels = Vec::new();
     if !course.supplies.is_empty() {
@@ -86,7 +87,7 @@ pub fn drive_figure<'a>(title: &str, course: &DriveCourse<'a>) -> Figure<'a> {
         .with_room_for_legends()
 }
 
-/// Voltage and current of all drivers.
+/// Panels of voltage and current of all drivers.
 fn supplies<'a>(course: &DriveCourse<'a>) -> [Panel<'a>; 2] {
     let (mut voltage, mut current) = (panel("voltage", "V", 1.0), panel("current", "A", 1.0));
     for (place, supply) in course.supplies.iter().enumerate() {
@@ -98,7 +99,7 @@ fn supplies<'a>(course: &DriveCourse<'a>) -> [Panel<'a>; 2] {
         }
         voltage.series.push(curve(course, supply.name, supply.voltage, solid(place)));
         current.series.push(curve(course, supply.name, supply.current, solid(place)));
-        voltage.bands.extend(shade("window cuts", &supply.cut, supply.voltage));
+        voltage.bands.extend(shade("window limit", &supply.cut, supply.voltage));
         current.bands.extend(shade("current limit", &supply.limited, supply.current));
     }
     [voltage, current]
@@ -117,12 +118,12 @@ fn curve<'a>(course: &DriveCourse<'a>, name: &str, values: &'a [f64], style: Sty
     Series { style, ..Series::new(name, course.time, values) }
 }
 
-/// Solid as long as there are colours.
+/// Palette colour, solid until the colours repeat.
 fn solid(place: usize) -> Style {
     Style { ink: Some(Ink::Palette(place)), dash: Some(Dash::at(place / Theme::COLOURS)), width: 1.0 }
 }
 
-/// Spans shaded over the range of some values.
+/// Shades time ranges over the range of the values. `None` without ranges or values.
 fn shade<'a>(name: &str, spans: &[(f64, f64)], values: &[f64]) -> Option<Band<'a>> {
     let finite = values.iter().filter(|value| value.is_finite());
     let (low, high) = finite.fold((f64::MAX, f64::MIN), |(low, high), v| (low.min(*v), high.max(*v)));

@@ -1,16 +1,16 @@
-//! The energy book of a run: what went in and where it went.
+//! The energy balance of a run: input, losses and stored energies.
 
 use crate::figure::{Arrangement, Figure};
 use crate::panel::{Axis, Band, Panel, Reference, Series};
 use crate::theme::{Ink, Style};
 use crate::{Dash, Label};
 
-/// Energies over time. The book closes when input = friction + damping + changes of kinetic and elastic + error.
+/// Energies over time. The balance is input = friction + damping + changes of kinetic and elastic energy + error.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct EnergyBook<'a> {
     /// Time, s.
     pub time: &'a [f64],
-    /// Work of followers, loads and gravity since the start, J.
+    /// Work of prescribed motions, loads and gravity since the start, J.
     pub input: &'a [f64],
     /// Kinetic energy, J.
     pub kinetic: &'a [f64],
@@ -20,16 +20,18 @@ pub struct EnergyBook<'a> {
     pub friction: &'a [f64],
     /// Work of dampers since the start, J.
     pub damping: &'a [f64],
-    /// What the book does not account for, J.
+    /// Error of the balance, J.
     pub error: &'a [f64],
 }
 
-/// Part of the tallest area that is thinner than a line.
+/// Fraction of the tallest area below which an area is not drawn.
 const THIN: f64 = 1e-3;
+/// Fraction of the largest energy below which the error is not shown.
+const SMALL: f64 = 1e-6;
 
-/// Above, the input as a line over the areas of what it became: friction, damping, and what is stored since the
-/// start; where less is stored than at the start, what of that is used up lies over the losses that it paid for. Below, each on its own scale,
-/// the two stores, where they hold anything, and the error of the book.
+/// Draws the input as a curve over stacked areas of friction, damping and stored energy since the start. Where less
+/// energy is stored than at the start, the released part is drawn over the losses. Panels below show the kinetic
+/// energy, the elastic energy, and the error unless it is negligible.
 pub fn energy_figure<'a>(title: &str, book: &EnergyBook<'a>) -> Figure<'a> {
     let panel = |label: &str, values: &'a [f64], ink, share| Panel {
         x: Axis { tight: true, ..Axis::new(Label::plain("time t"), "s") },
@@ -44,22 +46,27 @@ pub fn energy_figure<'a>(title: &str, book: &EnergyBook<'a>) -> Figure<'a> {
     let mut balance = panel("energy", book.input, Ink::Foreground, 2.6);
     balance.series[0].label = Label::plain("input");
     balance.bands = areas(book);
-    let mut error = panel("error", book.error, Ink::Foreground, 0.7);
-    error.references = vec![Reference::Horizontal { y: 0.0, label: Label::default() }];
-    // What has no mass has none to show.
+    let largest = |values: &[f64]| values.iter().fold(0.0_f64, |most, value| most.max(value.abs()));
+    let scale = [book.input, book.kinetic, book.elastic, book.friction, book.damping].map(largest);
+    let is_seen = largest(book.error) > SMALL * scale.into_iter().fold(0.0, f64::max);
+    let error = is_seen.then(|| Panel {
+        references: vec![Reference::Horizontal { y: 0.0, label: Label::default() }],
+        ..panel("error", book.error, Ink::Foreground, 0.7)
+    });
+    // Models without masses have no kinetic energy.
     let moves = book.kinetic.iter().any(|kinetic| *kinetic != 0.0);
     let kinetic = moves.then(|| panel("kinetic", book.kinetic, Ink::Palette(1), 0.9));
     let elastic = panel("elastic", book.elastic, Ink::Palette(0), 0.9);
     Figure {
         title: Label::plain(title),
-        panels: [Some(balance), kinetic, Some(elastic), Some(error)].into_iter().flatten().collect(),
+        panels: [Some(balance), kinetic, Some(elastic), error].into_iter().flatten().collect(),
         arrangement: Arrangement::Column { share_x: true },
         size: Figure::size_for(1500, 0, 0),
         ..Figure::default()
     }
 }
 
-/// Friction, damping and the stored energy, one on the other.
+/// Stacked areas of friction, damping and stored energy.
 fn areas<'a>(book: &EnergyBook<'a>) -> Vec<Band<'a>> {
     let both = book.friction.iter().zip(book.damping);
     let lost: Vec<f64> = both.map(|(friction, damping)| friction + damping).collect();
@@ -78,12 +85,12 @@ fn areas<'a>(book: &EnergyBook<'a>) -> Vec<Band<'a>> {
     if book.damping.iter().any(|damping| *damping != 0.0) {
         bands.push(band("damping", book.friction.to_vec(), lost.clone(), Ink::Shade(3)));
     }
-    // Thinner than a line it is not seen.
+    // Released energy is drawn only if its area is visible.
     let tallest = gained.iter().copied().fold(0.0, f64::max);
     let is_used = used.iter().zip(&lost).any(|(used, lost)| lost - used > THIN * tallest);
-    bands.push(band("stored since the start", lost.clone(), gained, Ink::Shade(2)));
+    bands.push(band("stored", lost.clone(), gained, Ink::Shade(2)));
     if is_used {
-        bands.push(band("lost of what was stored at the start", used, lost, Ink::Pale(0)));
+        bands.push(band("released", used, lost, Ink::Pale(0)));
     }
     bands
 }

@@ -1,85 +1,85 @@
-//! What cannot be drawn, and why.
+//! Errors of drawing.
 
 use crate::Figure;
 use plotters_backend::DrawingErrorKind;
 use thiserror::Error;
 
-/// Why a figure cannot be drawn.
+/// Reason why a figure cannot be drawn.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum PlotError {
-    /// A figure without panels.
-    #[error("the figure has no panels")]
+    /// The figure has no panels.
+    #[error("the plot has no panels")]
     NoPanels,
-    /// A size out of range.
-    #[error("expected a figure of {least} to {most} px each way, got {width} x {height}", least = Figure::LEAST, most = Figure::MOST)]
+    /// The size is out of range.
+    #[error("expected a plot of {least} to {most} px in width and height, got {width} x {height}", least = Figure::LEAST, most = Figure::MOST)]
     Size {
         /// Width, px.
         width: u32,
         /// Height, px.
         height: u32,
     },
-    /// Coordinates of one series that do not pair up.
+    /// The x and y values of a series differ in number.
     #[error("panel {panel}, series {series}: {xs} x values and {ys} y values")]
     Lengths {
-        /// Place of the panel.
+        /// Index of the panel.
         panel: usize,
-        /// Place of the series.
+        /// Index of the series.
         series: usize,
         /// Number of x values.
         xs: usize,
         /// Number of y values.
         ys: usize,
     },
-    /// Edges of a band that do not pair up.
-    #[error("panel {panel}, band {band}: {xs} x values, {low} and {high} of its edges")]
+    /// The values and edges of a band differ in number.
+    #[error("panel {panel}, band {band}: {xs} x values, {low} and {high} values of the edges")]
     Edges {
-        /// Place of the panel.
+        /// Index of the panel.
         panel: usize,
-        /// Place of the band.
+        /// Index of the band.
         band: usize,
         /// Number of x values.
         xs: usize,
-        /// Numbers of values of the edges.
+        /// Number of values of the first edge.
         low: usize,
-        /// See `low`.
+        /// Number of values of the second edge.
         high: usize,
     },
-    /// A mosaic that does not fit together.
+    /// The cells, classes or positions of a mosaic are inconsistent.
     #[error(
-        "panel {panel}: expected one known class for every cell of the mosaic, and finite places in ascending order"
+        "panel {panel}: expected one known class for each cell of the mosaic, and finite positions in ascending order"
     )]
     Mosaic {
-        /// Place of the panel.
+        /// Index of the panel.
         panel: usize,
     },
-    /// Titles, legends and labels leave no room for the data.
+    /// Title, legends and labels leave too little room for the data.
     #[error(
-        "panel {panel} would be {width:.0} x {height:.0} px inside its labels; make the figure larger or the panels fewer"
+        "panel {panel} would have {width:.0} x {height:.0} px inside its labels; draw a larger plot or fewer panels"
     )]
     NoRoom {
-        /// Place of the panel.
+        /// Index of the panel.
         panel: usize,
-        /// Width that would be left, px.
+        /// Remaining width, px.
         width: f64,
-        /// Height that would be left, px.
+        /// Remaining height, px.
         height: f64,
     },
-    /// A key that a PNG text chunk cannot have.
+    /// The key is not allowed in a PNG text chunk.
     #[error("expected a key of 1 to 79 printable Latin-1 characters, got {0:?}")]
     Key(String),
     /// The built-in font cannot be read.
     #[error("the built-in font cannot be read")]
     Font,
-    /// The backend refused.
+    /// The plotters backend failed.
     #[error("drawing failed: {0}")]
     Draw(String),
-    /// The encoder or decoder of PNG refused.
+    /// PNG encoding or decoding failed.
     #[error("PNG: {0}")]
     Png(String),
-    /// The reader of SVG refused.
+    /// The SVG cannot be parsed.
     #[error("SVG: {0}")]
     Svg(String),
-    /// Bytes that are no drawn figure.
+    /// The bytes are neither PNG nor SVG.
     #[error("neither PNG nor SVG")]
     NoPicture,
 }
@@ -98,7 +98,7 @@ impl From<png::EncodingError> for PlotError {
 
 impl From<png::DecodingError> for PlotError {
     fn from(error: png::DecodingError) -> Self {
-        // What the decoder says of a part that is damaged shows its own structures.
+        // The decoder's format errors describe its internals.
         Self::Png(match &error {
             png::DecodingError::Format(_) => "damaged".to_owned(),
             _ => error.to_string(),

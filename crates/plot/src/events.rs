@@ -1,31 +1,30 @@
-//! Events over time.
+//! Event times of contacts and waveforms.
 
 use crate::figure::Figure;
 use crate::panel::{Axis, Lane, Mark, Panel};
 use crate::scale::quantity;
 use crate::{Ink, Label};
 
-/// The events of one kind from one source.
+/// Events of one kind from one source.
 #[derive(Debug, Clone, PartialEq)]
 pub struct EventTrack<'a> {
     /// Name of the source, such as a contact.
     pub source: &'a str,
-    /// What happened.
+    /// Kind of event.
     pub kind: &'a str,
-    /// Moments, s, in any order.
+    /// Times, s, in any order.
     pub times: Vec<f64>,
 }
 
-/// Bins of the span in which events are counted.
+/// Number of bins in which events are counted.
 const BINS: usize = 400;
-/// A lane with more events than this in a bin shows their density; marks would run into each other.
+/// If a bin has more events than this, the lane shows their rate instead of marks.
 const MOST_MARKS: usize = 4;
-/// Least height of a bin that is not empty, as a share of the fullest.
+/// Minimum height of a bin with events, as a fraction of the fullest bin.
 const LEAST: f64 = 0.12;
 
-/// One lane per track, in their order, over a span of time (s); right of it the number of its events. Where events
-/// lie closer than can be told apart, the lane shows how many there are per time, full height for the rate that
-/// stands beside the number.
+/// Draws one lane per track over a time range in s, with the number of events on its right. If events are too dense
+/// to be distinguished, the lane shows their rate. Its full height is the rate given next to the number.
 pub fn events_figure<'a>(title: &str, span: (f64, f64), tracks: &[EventTrack<'a>]) -> Figure<'a> {
     let mut sources: Vec<&str> = tracks.iter().map(|track| track.source).collect();
     sources.dedup();
@@ -56,7 +55,7 @@ fn lane(track: &EventTrack<'_>, (from, to): (f64, f64), ink: Ink) -> Lane {
     let width = (to - from) / BINS as f64;
     let is_sparse = counts(&times, from, width).iter().all(|count| *count <= MOST_MARKS);
     if is_sparse || width <= 0.0 {
-        // A number would say that nothing of the kind happens.
+        // A count of 0 would suggest that the event never happens.
         let is_later = times.is_empty() && track.times.iter().any(|t| *t > to);
         let note = if is_later { "later".to_owned() } else { grouped(times.len()) };
         times.dedup();
@@ -73,15 +72,15 @@ fn lane(track: &EventTrack<'_>, (from, to): (f64, f64), ink: Ink) -> Lane {
     Lane { label, note, marks: marks.map(mark).collect(), ink }
 }
 
-/// Number of events in every bin.
+/// Number of events in each bin.
 fn counts(times: &[f64], from: f64, width: f64) -> [usize; BINS] {
     let mut counts = [0; BINS];
     times.iter().for_each(|t| counts[(((t - from) / width) as usize).min(BINS - 1)] += 1);
     counts
 }
 
-/// The same, with every event shared by the two bins whose middles it lies between: counted whole, a regular train
-/// of events would beat against the bins and show bursts that are not there.
+/// Number of events in each bin, with each event distributed over the two nearest bins. This avoids aliasing of
+/// regular events.
 fn density(times: &[f64], from: f64, width: f64) -> [f64; BINS] {
     let mut density = [0.0; BINS];
     for t in times {
@@ -93,7 +92,7 @@ fn density(times: &[f64], from: f64, width: f64) -> [f64; BINS] {
     density
 }
 
-/// A number with thin spaces between its thousands.
+/// Formats a number with thin spaces between thousands.
 fn grouped(number: usize) -> String {
     let digits = number.to_string();
     let group = |(i, digit): (usize, char)| {
@@ -118,7 +117,7 @@ mod tests {
 
     #[test]
     fn a_regular_train_has_no_bursts() {
-        // 19.2 events in a bin: counted whole, 19 and 20 would beat.
+        // At 19.2 events per bin, counting whole events would give 19 or 20.
         let times: Vec<f64> = (0..7680).map(|i| (f64::from(i) + 0.5) / 7680.0).collect();
         let density = density(&times, 0.0, 1.0 / BINS as f64);
         assert!(density.iter().all(|count| (count - 19.2).abs() < 0.1), "{density:?}");
@@ -133,14 +132,14 @@ mod tests {
         let sparse = lane_of(vec![1.5, 0.25, f64::NAN, 7.0, 0.0, 2.0]);
         assert_eq!(sparse.marks.iter().map(|mark| mark.from).collect::<Vec<_>>(), [0.0, 0.25, 1.5, 2.0]);
         assert_eq!((sparse.note.as_str(), sparse.label.as_str()), ("4", "ball: touch"));
-        // A hundred thousand in one bin and one alone, which is not lost beside them.
+        // A hundred thousand events in one bin and a single one, which must stay visible.
         let mut times = vec![0.5; 100_000];
         times.push(1.7);
         let dense = lane_of(times);
         assert!(dense.marks.len() <= 4 && dense.note.starts_with("100\u{2009}001, ≤ "), "{dense:?}");
         let alone = dense.marks.iter().find(|mark| mark.from <= 1.7 && mark.to >= 1.7).unwrap();
         assert!(alone.height >= LEAST);
-        // At one and the same moment there is nothing to count by.
+        // All events at the same time: the range has no width.
         let still = EventTrack { source: "", kind: "", times: vec![1.0; 9] };
         assert_eq!(lane(&still, (1.0, 1.0), Ink::Foreground).marks.len(), 1);
     }

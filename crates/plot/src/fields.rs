@@ -1,53 +1,54 @@
-//! Stress and displacement under a contact, as small multiples: p, τ and u over the radius at some moments.
+//! Stresses and displacements in a contact over the radius, at several times.
 
 use crate::figure::{Arrangement, Figure};
 use crate::panel::{Axis, Band, Panel, Series};
 use crate::theme::{Dash, Ink, Style};
 use crate::{Label, SpringCondition};
 
-/// The fields of a contact at a moment, over the distance from its axis.
+/// Stresses and displacements of a contact at one time, over the distance from its axis.
 #[derive(Debug, Clone, PartialEq)]
 pub struct FieldsMoment<'a> {
-    /// What stands above it, such as a time.
+    /// Heading of the panels, such as the time.
     pub heading: &'a str,
-    /// Distances r, m, ascending from 0.
+    /// Distances r from the axis, m, ascending from 0.
     pub r: &'a [f64],
-    /// Pressure p, Pa, as many; where it is not finite there is a gap.
+    /// Pressure p at each distance, Pa; not finite for a gap.
     pub pressure: &'a [f64],
-    /// Shear stress τ, Pa.
+    /// Shear stress τ at each distance, Pa.
     pub shear: &'a [f64],
-    /// Displacement of the surface u, m.
+    /// Surface displacement u at each distance, m.
     pub displacement: &'a [f64],
-    /// Local slip beyond that of the centre, m.
+    /// Local slip relative to the centre at each distance, m.
     pub slip: &'a [f64],
     /// Coefficient of friction μ.
     pub friction: f64,
-    /// Rings from the centre to the edge.
+    /// Rings with their states, from the centre to the edge.
     pub zones: &'a [FieldsZone],
 }
 
-/// A ring of a contact.
+/// Ring of a contact.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FieldsZone {
     /// Inner and outer radius, m.
     pub radii: [f64; 2],
-    /// What it does.
+    /// State of the ring.
     pub condition: SpringCondition,
-    /// Whether it sticks as an earlier slip has left it.
+    /// Whether the ring sticks with the stretch distribution of an earlier slip.
     pub frozen: bool,
 }
 
-/// Pressures beyond so many times the median of those under the contact are gaps: tips and edges have no bound.
+/// Stresses above this multiple of the median pressure are gaps: pressure is unbounded at tips and edges.
 const TALL: f64 = 3.5;
 
-/// Two panels per moment, side by side, over both sides of the axis: p with τ and its limit ±μp; displacement of the surface
-/// and slip. Rings are shaded by what they do. All moments have the same scales.
+/// Draws two panels per time, side by side, over both sides of the axis. The left one shows p, τ and the friction
+/// limit ±μp; the right one shows displacement and slip. The state of each ring is shaded. All times have the same
+/// scales.
 pub fn fields_figure<'a>(title: &str, moments: &[FieldsMoment<'a>]) -> Figure<'a> {
     if moments.iter().all(|moment| moment.r.is_empty()) {
         let words = if moments.is_empty() {
-            "no fields: the run did not come to any of the moments that were asked for"
+            "no fields: the run did not reach any of the requested times"
         } else {
-            "no fields: nothing touches, or the contact is a list of springs"
+            "no fields: the contact is open, or it is a list of springs"
         };
         return Figure::without_data(title, words);
     }
@@ -77,7 +78,7 @@ pub fn fields_figure<'a>(title: &str, moments: &[FieldsMoment<'a>]) -> Figure<'a
     .with_room_for_legends()
 }
 
-/// Has the first panel name all that any of them shows, so that one legend serves all.
+/// Adds the legend entries of all panels to the first panel, so that one legend serves all.
 fn name_all(panels: &mut [Panel<'_>]) {
     let (mut curves, mut areas) = (Vec::<Series<'static>>::new(), Vec::<Band<'static>>::new());
     for panel in panels.iter() {
@@ -101,7 +102,7 @@ fn name_all(panels: &mut [Panel<'_>]) {
     }
 }
 
-/// Median of the finite pressures under all contacts, Pa.
+/// Median of the positive, finite pressures of all times, Pa.
 fn median(moments: &[FieldsMoment<'_>]) -> f64 {
     let pressures = moments.iter().flat_map(|moment| moment.pressure);
     let mut pressures: Vec<f64> = pressures.copied().filter(|p| *p > 0.0 && p.is_finite()).collect();
@@ -109,19 +110,19 @@ fn median(moments: &[FieldsMoment<'_>]) -> f64 {
     pressures.get(pressures.len() / 2).copied().unwrap_or(f64::INFINITY)
 }
 
-/// Lowest and highest of values, with 0.
+/// Range of the finite values, including 0.
 fn reach(values: impl Iterator<Item = f64>) -> (f64, f64) {
     values.filter(|value| value.is_finite()).fold((0.0, 0.0), |(low, high), v| (low.min(v), high.max(v)))
 }
 
-/// An even function of r on both sides of the axis.
+/// Extends an even function of r to both sides of the axis.
 fn both_sides(r: &[f64], values: impl Iterator<Item = f64>) -> (Vec<f64>, Vec<f64>) {
     let right: Vec<(f64, f64)> = r.iter().copied().zip(values).collect();
     let left = right.iter().rev().filter(|(r, _)| *r > 0.0).map(|(r, value)| (-r, *value));
     left.chain(right.iter().copied()).unzip()
 }
 
-/// The rings on both sides, as high as the panel.
+/// Bands of the rings on both sides of the axis, over the full height of the panel.
 fn shades(zones: &[FieldsZone], (low, high): (f64, f64)) -> Vec<Band<'static>> {
     let band = |zone: &FieldsZone, side: f64| {
         let (label, ink) = look(zone);
@@ -138,11 +139,11 @@ fn shades(zones: &[FieldsZone], (low, high): (f64, f64)) -> Vec<Band<'static>> {
     zones.iter().flat_map(|zone| [band(zone, -1.0), band(zone, 1.0)]).collect()
 }
 
-/// Name and colour of a ring.
+/// Legend entry and colour of a ring.
 fn look(zone: &FieldsZone) -> (&'static str, Ink) {
     match zone.condition {
         SpringCondition::Open => ("open", Ink::Shade(0)),
-        SpringCondition::Stick if zone.frozen => ("sticks, earlier slip frozen in", Ink::Shade(1)),
+        SpringCondition::Stick if zone.frozen => ("sticks, with locked-in earlier slip", Ink::Shade(1)),
         SpringCondition::Stick => ("sticks", Ink::Shade(0)),
         SpringCondition::SlipForward => ("slips +", Ink::Pale(4)),
         SpringCondition::SlipBackward => ("slips −", Ink::Pale(5)),
@@ -193,7 +194,7 @@ fn displacements<'a>(moment: &FieldsMoment<'a>, (low, high): (f64, f64)) -> Pane
     Panel {
         heading: Label::plain(moment.heading),
         x: Axis { tight: true, ..Axis::new(Label::plain("r"), "m") },
-        y: Axis { covers: Some((low, high)), ..Axis::new(Label::plain("way"), "m") },
+        y: Axis { covers: Some((low, high)), ..Axis::new(Label::plain("displacement, slip"), "m") },
         bands: shades(moment.zones, (low, high)),
         series: vec![
             curve(
@@ -202,7 +203,7 @@ fn displacements<'a>(moment: &FieldsMoment<'a>, (low, high): (f64, f64)) -> Pane
                 (Ink::Palette(0), Dash::Solid, 1.2),
             ),
             curve(
-                "slip beyond the centre's",
+                "slip relative to the centre",
                 (moment.r, moment.slip.iter().copied()),
                 (Ink::Palette(2), Dash::LongDash, 0.9),
             ),

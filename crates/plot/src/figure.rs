@@ -3,53 +3,55 @@
 use crate::layout::{Layout, Placed};
 use crate::{Label, Panel, PlotError, Theme};
 
-/// Least height of a frame in print, em of its numbers, and of one alone as a share of its width.
+/// Minimum frame height in print: in em of the tick labels, and for a single panel as a fraction of the frame width.
 const LEAST_FRAME: f64 = 6.0;
 const LEAST_ALONE: f64 = 0.6;
-/// Least width of a column in print, em of its numbers, and of one with texts inside its frames.
+/// Minimum column width in print, em of the tick labels: without and with notes inside the frames.
 const LEAST_COLUMN: f64 = 12.0;
 const LEAST_NOTED_COLUMN: f64 = 18.0;
-/// How many times as high a figure may become in print for texts that would be left out.
+/// Maximum factor by which the height increases in print for notes, lane names and legends.
 const GROWTH: f64 = 2.0;
+/// Maximum fraction of the height for legends in print.
+const LEGEND_SHARE: f64 = 0.15;
 
-/// A figure: what it shows, not yet how many pixels apart.
+/// Figure: panels and their arrangement, independent of the output format.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Figure<'a> {
-    /// Title above the panels; none where empty.
+    /// Title above the panels; empty for none.
     pub title: Label,
     /// Panels in order.
     pub panels: Vec<Panel<'a>>,
-    /// How the panels are arranged.
+    /// Arrangement of the panels.
     pub arrangement: Arrangement,
-    /// Width and height, px. The texts keep their share of the width, unless it has a size in print.
+    /// Width and height, px. Text sizes are proportional to the width unless `print_width` is set.
     pub size: (u32, u32),
-    /// Width in print, mm, in which letters and lines are as large and thick as in one of 16 cm; none: 1600 px are meant for
-    /// 16 cm, whatever they become.
+    /// Width in print, mm. Letters and lines then have the same size in points as in a figure 160 mm wide. `None`:
+    /// the width stands for 160 mm.
     pub print_width: Option<f64>,
     /// Colours and sizes.
     pub theme: Theme,
-    /// Keys and values that the file carries unseen: PNG text chunks, the description of an SVG.
+    /// Metadata of the file as keys and values: PNG text chunks, or `<desc>` and `<metadata>` of an SVG.
     pub provenance: Vec<(String, String)>,
 }
 
-/// How panels are arranged.
+/// Arrangement of panels.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Arrangement {
     /// Side by side.
     Row,
     /// One above the other.
     Column {
-        /// One x axis for all, with numbers below the last panel only.
+        /// Whether all panels share one x axis, with numbers below the last panel only.
         share_x: bool,
     },
     /// Row by row.
     Grid {
         /// Panels in a row, at least 1.
         columns: usize,
-        /// The same axes for all, with numbers left of the first column and below the last row only.
+        /// Whether all panels share both axes, with numbers left of the first column and below the last row only.
         share: bool,
     },
-    /// Row by row, one x axis for the panels of each column, with numbers below the last row only.
+    /// Row by row. The panels of a column share one x axis, with numbers below the last row only.
     Columns {
         /// Panels in a row, at least 1.
         columns: usize,
@@ -57,23 +59,26 @@ pub enum Arrangement {
 }
 
 impl Figure<'_> {
-    /// Least width and height, px.
+    /// Minimum width and height, px.
     pub const LEAST: u32 = 200;
-    /// Most width and height, px.
+    /// Maximum width and height, px.
     pub const MOST: u32 = 8000;
     /// Default size, px.
     pub const DEFAULT_SIZE: (u32, u32) = (1600, 1000);
 
-    /// Width in print for which the sizes of the theme are made, mm.
+    /// Print width for which the theme's sizes are defined, mm.
     pub const PRINT_WIDTH: f64 = 160.0;
-    /// Pixels to the inch of a figure with a size in print, and at least of one that would have too many.
+    /// Resolution of figures with a print width, px per inch. It is halved if the figure would exceed
+    /// [`Figure::MOST`].
     pub const PRINT_DENSITY: f64 = 600.0;
     const LEAST_DENSITY: f64 = 300.0;
     const INCH: f64 = 25.4;
 
-    /// The figure for print in a width, mm: letters and lines keep their size in points, the frames become smaller. It is as much
-    /// lower as it is narrower, unless legends take more rows, frames would be lower than letters leave to see, or texts in them would be
-    /// left out; fewer panels stand side by side where letters ask for it.
+    /// Returns the figure for a print width in mm.
+    ///
+    /// Letters and lines keep their size in points, so the frames become smaller. Fewer panels stand side by side
+    /// where columns would be too narrow for their labels. The height increases where legends, tick labels, lane
+    /// names or notes need it.
     #[must_use]
     pub fn printed(mut self, width: f64) -> Self {
         let (lost, names) = (lost_notes(&self), least_names(&self));
@@ -90,11 +95,14 @@ impl Figure<'_> {
         let across = width / Self::INCH * density;
         self.size = (across.round() as u32, (across * shape).round().min(f64::from(Self::MOST)) as u32);
         self = self.with_room_for_legends();
+        let most = GROWTH * self.legend_share();
+        while self.legend_share() > LEGEND_SHARE.max(most / GROWTH.powi(2)) && self.grow(&mut density) {}
         while has_low_frames(&self) && self.grow(&mut density) {}
         self.with_room_for_names(names, &mut density).with_room_for_notes(lost, density)
     }
 
-    /// Taller by what names of lanes need to be as large beside the letters of axes as this share; as it is where nothing helps.
+    /// Increases the height until lane names are at least `share` times as large as tick labels. Keeps the height
+    /// with the largest names, at most [`GROWTH`] times the original height.
     fn with_room_for_names(mut self, share: f64, density: &mut f64) -> Self {
         let shape = |size: (u32, u32)| f64::from(size.1) / f64::from(size.0);
         let most = GROWTH * shape(self.size);
@@ -109,7 +117,8 @@ impl Figure<'_> {
         self
     }
 
-    /// Taller by a tenth, with fewer pixels to the inch where there would be too many; tells whether it is.
+    /// Increases the height by 10 %. Halves the resolution if the maximum size is reached. Returns false if neither
+    /// is possible.
     fn grow(&mut self, density: &mut f64) -> bool {
         if self.size.1 >= Self::MOST {
             if *density <= Self::LEAST_DENSITY {
@@ -122,7 +131,8 @@ impl Figure<'_> {
         true
     }
 
-    /// Taller by what the texts inside frames need, so that no more than so many are left out; as it is where nothing helps.
+    /// Increases the height until at most `lost` notes are left out. Keeps the height with the fewest notes left out,
+    /// at most [`GROWTH`] times the original height.
     fn with_room_for_notes(mut self, lost: usize, mut density: f64) -> Self {
         let shape = |size: (u32, u32)| f64::from(size.1) / f64::from(size.0);
         let most = GROWTH * shape(self.size);
@@ -136,7 +146,7 @@ impl Figure<'_> {
         Self { size: best, ..self }
     }
 
-    /// The figure as high as its panels need to be drawn at all.
+    /// Increases the height until every frame is high enough to be drawn.
     #[must_use]
     pub fn roomy(mut self) -> Self {
         let is_low = |figure: &Self| matches!(Layout::framed(figure), Err(PlotError::NoRoom { height, width, .. }) if height <= width);
@@ -146,7 +156,7 @@ impl Figure<'_> {
         self
     }
 
-    /// How many panels stand side by side in print: no more than leave each its letters.
+    /// Number of columns in print for which every panel is at least as wide as the minimum column width.
     fn columns_in_print(&self, width: f64) -> usize {
         let columns = self.arrangement.columns(self.panels.len());
         let ems = f64::from(Self::DEFAULT_SIZE.0) * width / Self::PRINT_WIDTH / self.theme.tick;
@@ -155,19 +165,19 @@ impl Figure<'_> {
         columns.min((ems / least) as usize).max(1)
     }
 
-    /// Px of this figure per px of one 1600 px wide for 16 cm.
+    /// Scale of lengths: px of this figure per px of a figure 1600 px wide, which stands for 160 mm.
     pub(crate) fn scale(&self) -> f64 {
         let share = self.print_width.map_or(1.0, |width| Self::PRINT_WIDTH / width);
         f64::from(self.size.0) / f64::from(Self::DEFAULT_SIZE.0) * share
     }
 
-    /// The default width, and a height for a heading and a number of things below each other, px.
+    /// Returns the default width and a height of `head` plus `count` times `each`, px, at most [`Figure::MOST`].
     pub(crate) fn size_for(head: u32, each: u32, count: usize) -> (u32, u32) {
         let most = u32::try_from(count).unwrap_or(u32::MAX).saturating_mul(each).saturating_add(head);
         (Self::DEFAULT_SIZE.0, most.min(Self::MOST))
     }
 
-    /// A figure that says that there is nothing to show.
+    /// Figure with a message instead of data.
     pub(crate) fn without_data(title: &str, words: &str) -> Self {
         let panel = Panel { absence: Label::plain(words), ..Panel::default() };
         Self {
@@ -178,7 +188,7 @@ impl Figure<'_> {
         }
     }
 
-    /// The columns' shares of the width and the rows' shares of the height; either sum to 1.
+    /// Returns the relative column widths and row heights; each sums to 1.
     pub(crate) fn shares(&self) -> (Vec<f64>, Vec<f64>) {
         let usable = |share: f64| if share > 0.0 && share.is_finite() { share.clamp(1e-3, 1e3) } else { 1.0 };
         let columns = self.arrangement.columns(self.panels.len());
@@ -195,7 +205,7 @@ impl Figure<'_> {
         (whole(wide), whole(high))
     }
 
-    /// Checks what the types do not.
+    /// Checks the size and the panels.
     pub(crate) fn check(&self) -> Result<(), PlotError> {
         let (width, height) = self.size;
         if [width, height].iter().any(|side| !(Self::LEAST..=Self::MOST).contains(side)) {
@@ -208,7 +218,7 @@ impl Figure<'_> {
     }
 }
 
-/// How many texts inside frames found no place.
+/// Number of notes that are left out, summed over all panels.
 fn lost_notes(figure: &Figure<'_>) -> usize {
     if figure.panels.iter().all(|panel| panel.notes.is_empty()) {
         return 0;
@@ -216,7 +226,7 @@ fn lost_notes(figure: &Figure<'_>) -> usize {
     Layout::new(figure).map_or(usize::MAX, |layout| layout.panels.iter().map(|place| place.lost).sum())
 }
 
-/// How large the smallest names of lanes are beside the letters of axes; 1 without any.
+/// Smallest ratio of lane name size to tick label size; 1 without lanes.
 fn least_names(figure: &Figure<'_>) -> f64 {
     if figure.panels.iter().all(|panel| panel.lanes.is_empty()) {
         return 1.0;
@@ -227,7 +237,7 @@ fn least_names(figure: &Figure<'_>) -> f64 {
     })
 }
 
-/// Whether a frame is too low for its letters; one of an aspect of its own is as high as it is.
+/// Whether a frame is too low for its labels. Frames with lanes or a fixed aspect ratio are not checked.
 fn has_low_frames(figure: &Figure<'_>) -> bool {
     match Layout::framed(figure) {
         Err(PlotError::NoRoom { height, width, .. }) => height <= width,
@@ -244,7 +254,7 @@ fn has_low_frames(figure: &Figure<'_>) -> bool {
 }
 
 impl Arrangement {
-    /// The same with fewer columns.
+    /// Same arrangement with another number of columns.
     fn in_columns(self, columns: usize) -> Self {
         match self {
             Self::Column { .. } => self,
@@ -254,7 +264,7 @@ impl Arrangement {
         }
     }
 
-    /// Panels side by side, of a number of panels.
+    /// Number of columns for a number of panels.
     pub(crate) fn columns(self, panels: usize) -> usize {
         match self {
             Self::Row => panels.max(1),

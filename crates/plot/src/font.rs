@@ -1,14 +1,14 @@
-//! The built-in font: advances and outlines of `DejaVu` Sans.
+//! Built-in font `DejaVu` Sans: advance widths and outlines.
 
 use crate::PlotError;
 use std::sync::OnceLock;
 use tiny_skia::PathBuilder;
 use ttf_parser::{Face, GlyphId, OutlineBuilder};
 
-/// Font family as an SVG names it; the fallbacks have the same widths or nearly so.
+/// Font family in SVG files; the fallbacks have nearly the same widths.
 pub(crate) const FAMILY: &str = "DejaVu Sans, Bitstream Vera Sans, Verdana, sans-serif";
 
-/// Parsed once.
+/// Returns the font, which is parsed once.
 fn face() -> Result<&'static Face<'static>, PlotError> {
     static FACE: OnceLock<Option<Face<'static>>> = OnceLock::new();
     FACE.get_or_init(|| Face::parse(dejavu::sans::regular(), 0).ok()).as_ref().ok_or(PlotError::Font)
@@ -21,21 +21,22 @@ pub(crate) fn advance(text: &str) -> Result<f64, PlotError> {
     Ok(units / f64::from(face.units_per_em()))
 }
 
-/// Adds the outlines of a text to a path: baseline from the origin to the right, y downwards, `em` per em.
+/// Adds the outlines of a text to a path. The baseline runs from the origin to the right, y points downwards, and 1
+/// em is `em` px.
 pub(crate) fn outline(text: &str, em: f64, path: &mut PathBuilder) -> Result<(), PlotError> {
     let face = face()?;
     let scale = em / f64::from(face.units_per_em());
     let mut at = 0.0;
     for c in text.chars() {
         let id = glyph(face, c);
-        // None for a blank.
+        // Blanks have no outline.
         let _ = face.outline_glyph(id, &mut Outline { path, scale: scale as f32, left: (at * scale) as f32 });
         at += advance_units(face, id);
     }
     Ok(())
 }
 
-/// The glyph of a character; the empty box where the font has none.
+/// Glyph of a character, or the placeholder box if the font does not have it.
 fn glyph(face: &Face<'_>, c: char) -> GlyphId {
     face.glyph_index(c).unwrap_or(GlyphId(0))
 }

@@ -1,36 +1,38 @@
-//! Where friction does its work: over the radius, along the way.
+//! Friction work per area over the radius and time.
 
 use crate::figure::{Arrangement, Figure};
 use crate::panel::{Axis, Mosaic, Panel, Reference, Series};
 use crate::theme::{Dash, Ink, RAMP, Style};
 use crate::{Label, scale::quantity};
 
-/// Friction work per area by place, so far, at some moments.
+/// Friction work per area since the start, by radius and time.
 #[derive(Debug, Clone, PartialEq)]
 pub struct FrictionWork<'a> {
-    /// What the moments are counted by, such as "time t", and its unit.
+    /// Name and unit of the axis of the moments, such as "time t".
     pub axis: (&'a str, &'a str),
-    /// Moments, ascending.
+    /// Moments in the unit of the axis, ascending.
     pub moments: &'a [f64],
-    /// Distances from the axis, m, ascending.
+    /// Distances r from the axis of the contact, m, ascending.
     pub r: &'a [f64],
-    /// Work per area so far, J/m², moment by moment.
+    /// Friction work per area since the start, J/m², moment by moment.
     pub work: &'a [f64],
-    /// Moments to be marked, with their names.
+    /// Moments whose radial distribution is drawn, with their names.
     pub marks: &'a [(f64, String)],
 }
 
-/// Classes of the map.
+/// Number of classes of the map.
 const CLASSES: usize = RAMP.len();
-/// Curves over r at most.
+/// Maximum number of curves over r.
 const MOST_CURVES: usize = 6;
 
-/// Above, work per area over place and moment as a map; below, over place at the moments that are marked, the last darkest.
+/// Draws a map of the friction work per area over radius and time, and below its radial distribution at the named
+/// moments.
 pub fn friction_figure<'a>(title: &str, work: &FrictionWork<'a>) -> Figure<'a> {
     friction_figures(title, &[("", work)])
 }
 
-/// The same of several contacts by their names, one below the other; those that never slip are left out.
+/// Draws the figure of [`friction_figure`] for several contacts, one below the other. Contacts without friction work
+/// are left out.
 pub fn friction_figures<'a>(title: &str, works: &[(&str, &FrictionWork<'a>)]) -> Figure<'a> {
     let mut panels = Vec::new();
     for (name, work) in works {
@@ -45,16 +47,15 @@ pub fn friction_figures<'a>(title: &str, works: &[(&str, &FrictionWork<'a>)]) ->
     if panels.is_empty() {
         let last = works.iter().filter_map(|(_, work)| work.moments.last()).copied().fold(f64::NAN, f64::max);
         let words = if works.is_empty() {
-            "no map of friction work: the run did not come to any of the moments that were asked for"
-                .to_owned()
+            "no friction work per area: the run did not reach any of the requested times".to_owned()
         } else if works.iter().all(|(_, work)| work.r.is_empty()) {
-            "no map of friction work: a list of springs or a normal law has no shape in three dimensions"
+            "no friction work per area: a list of springs or a normal law has no shape in three dimensions"
                 .to_owned()
         } else {
             let unit = works[0].1.axis.1;
             let until =
                 if unit.is_empty() { String::new() } else { format!(" until {}", quantity(last, unit, 4)) };
-            format!("no friction work{until}: nothing has slipped")
+            format!("no friction work{until}: no slip")
         };
         return Figure::without_data(title, &words);
     }
@@ -71,7 +72,7 @@ pub fn friction_figures<'a>(title: &str, works: &[(&str, &FrictionWork<'a>)]) ->
 fn map<'a>(work: &FrictionWork<'a>, most: f64) -> Panel<'a> {
     let class = |value: &f64| {
         let share = if value.is_finite() { (value / most).clamp(0.0, 1.0) } else { 1.0 };
-        // Nothing is a class of its own, so that what has never slipped is seen.
+        // Zero has a class of its own, so that areas without slip are visible.
         (share * (CLASSES - 1) as f64).ceil() as u8
     };
     let label = |place: usize| match place {
@@ -101,7 +102,7 @@ fn profiles<'a>(work: &FrictionWork<'a>) -> Panel<'a> {
         (0..work.moments.len()).min_by(|a, b| off(a).total_cmp(&off(b)))
     };
     let stride = work.marks.len().div_ceil(MOST_CURVES).max(1);
-    // The last is always among them.
+    // The last moment is always included.
     let marks = work.marks.iter().rev().step_by(stride).rev();
     let curves = marks.enumerate().filter_map(|(place, (at, name))| {
         let moment = nearest(*at)?;

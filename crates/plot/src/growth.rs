@@ -1,32 +1,32 @@
-//! What more of something costs.
+//! Computing cost over problem size.
 
 use crate::Label;
 use crate::figure::{Arrangement, Figure};
 use crate::panel::{Axis, Panel, Series};
 use crate::theme::{Dash, Ink, Style};
 
-/// Cost over the size of something.
+/// Cost over the size of one part of the problem.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct GrowthCurve<'a> {
-    /// What grows.
+    /// Name of the part, such as the number of contacts.
     pub name: &'a str,
-    /// Its unit; empty for a number.
+    /// Unit of the size; empty for a number.
     pub unit: &'a str,
     /// Sizes, ascending, above 0.
     pub sizes: &'a [f64],
-    /// Costs, as many, s.
+    /// Cost at each size, s.
     pub costs: &'a [f64],
-    /// Whether a cost is one per size already: in proportion, it stays the same.
+    /// Whether the costs are per size; they are constant if the cost is proportional to the size.
     pub per_size: bool,
 }
 
-/// Panels in a row of the grid.
+/// Number of columns of the grid.
 const COLUMNS: usize = 3;
-/// A panel shows at least a decade of costs, so that what does not grow looks flat.
+/// Minimum range of the cost axis as a ratio, so that constant costs look flat.
 const LEAST: f64 = 10.0;
 
-/// A panel for each thing that grows, both axes logarithmic: the cost, and behind it what would be in proportion to that of the
-/// smallest. What rises above the line costs more than its share, what stays below it less.
+/// Draws one double-logarithmic panel per part: the measured cost, and a dashed line of proportional cost through the
+/// first point.
 pub fn growth_figure<'a>(title: &str, cost: &str, curves: &[GrowthCurve<'a>]) -> Figure<'a> {
     if curves.iter().all(|curve| curve.sizes.is_empty()) {
         return Figure::without_data(title, "nothing grows");
@@ -65,7 +65,7 @@ fn panel<'a>(curve: &GrowthCurve<'a>, cost: &str) -> Panel<'a> {
     }
 }
 
-/// The straight line through the first point, no higher than what is shown anyway.
+/// End points of the line of proportional cost, cut at the largest measured cost.
 fn proportional(curve: &GrowthCurve<'_>, largest: f64) -> Option<(Vec<f64>, Vec<f64>)> {
     let (from, to, cost) = (*curve.sizes.first()?, *curve.sizes.last()?, *curve.costs.first()?);
     if curve.per_size {

@@ -5,7 +5,7 @@ use crate::figure::{Arrangement, Figure};
 use crate::panel::{Axis, Note, Panel, Reference, Rescaled, Series};
 use crate::theme::{Dash, Ink, Style};
 
-/// One loop, of a contact or of a cycle.
+/// Hysteresis loop of a contact or of a cycle.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct HysteresisLoop<'a> {
     /// Name in the legend.
@@ -14,15 +14,16 @@ pub struct HysteresisLoop<'a> {
     pub u: &'a [f64],
     /// Tangential force `F_x`, N.
     pub force: &'a [f64],
-    /// Displacement `u_c` at which gross slip starts, m; none where it is unknown or changes.
+    /// Gross slip displacement `u_c`, m; `None` if unknown or not constant.
     pub gross_slip: Option<f64>,
-    /// Limit force `μF_N`, N; none where it is unknown or changes.
+    /// Friction limit `μF_N`, N; `None` if unknown or not constant.
     pub limit: Option<f64>,
 }
 
-/// Force over displacement. Where all loops have the same `u_c` and `μF_N`, axes above and on the right count in these; where
-/// some have others, a panel on the right has those that have any divided by theirs, with the limits ±1. The first panel shows
-/// the limit `μF_N` where all loops have the same.
+/// Draws the tangential force over displacement, with the friction limit ±`μF_N` if all loops have the same.
+///
+/// If all loops have the same `u_c` and `μF_N`, second axes show the values divided by them. Otherwise a second panel
+/// shows the normalised loops of which both are known.
 pub fn loop_figure<'a>(title: &str, loops: &[HysteresisLoop<'a>]) -> Figure<'a> {
     if loops.is_empty() {
         return Figure::without_data(title, "no contacts");
@@ -40,7 +41,7 @@ pub fn loop_figure<'a>(title: &str, loops: &[HysteresisLoop<'a>]) -> Figure<'a> 
         let panels = vec![Panel { top, right, ..plain }];
         return Figure { title: Label::plain(title), panels, ..Figure::default() }.with_room_for_legends();
     }
-    // Places in the palette go with the left panel, so that one legend serves both.
+    // Palette indices follow the left panel, so that one legend serves both.
     let scaled: Vec<Series<'a>> =
         loops.iter().enumerate().filter_map(|(place, l)| normalised(place, l)).collect();
     let mut panels = vec![plain];
@@ -57,7 +58,7 @@ pub fn loop_figure<'a>(title: &str, loops: &[HysteresisLoop<'a>]) -> Figure<'a> 
         .with_room_for_legends()
 }
 
-/// The same of one loop with places of it marked: displacement (m), force (N), name.
+/// Draws one loop as [`loop_figure`] does, with named points: displacement (m), force (N), name.
 pub fn marked_loop_figure<'a>(
     title: &str,
     of: HysteresisLoop<'a>,
@@ -81,13 +82,13 @@ pub fn marked_loop_figure<'a>(
     figure
 }
 
-/// The limit force of all loops; none where they differ or one has none.
+/// Friction limit of all loops; `None` if it differs or is unknown.
 fn common_limit(loops: &[HysteresisLoop<'_>]) -> Option<f64> {
     let first = usable(loops.first()?.limit)?;
     loops.iter().all(|l| l.limit == Some(first)).then_some(first)
 }
 
-/// `u_c` and `μF_N` of all loops; none where they differ or one has none.
+/// `u_c` and `μF_N` of all loops; `None` if they differ or are unknown.
 fn common_scale(loops: &[HysteresisLoop<'_>]) -> Option<(f64, f64)> {
     let gross_slip = usable(loops.first()?.gross_slip)?;
     let limit = common_limit(loops)?;

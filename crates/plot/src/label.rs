@@ -3,13 +3,13 @@
 use crate::PlotError;
 use crate::font;
 
-/// A line of text. Line breaks and control characters count as blanks.
+/// Line of text. Line breaks and control characters count as blanks.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct Label {
     runs: Vec<Run>,
 }
 
-/// A stretch of text of one size.
+/// Part of a text with one font size.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct Run {
     pub(crate) text: String,
@@ -18,16 +18,16 @@ pub(crate) struct Run {
 
 /// Size of a subscript relative to its line.
 pub(crate) const SUBSCRIPT: f64 = 0.72;
-/// How far a subscript's baseline lies below its line's, em of the line.
+/// Distance of a subscript's baseline below that of its line, em of the line.
 pub(crate) const SUBSCRIPT_DROP: f64 = 0.20;
-/// A long axis label shrinks by this factor at the most: eight points in print.
+/// Minimum shrink factor of a long axis label; it keeps 8 pt in print.
 const LEAST_SHRINK: f64 = 0.9;
 const ELLIPSIS: &str = "…";
-/// Where a word that is too long may part: key paths, names, files.
+/// Characters after which a word that is too long may be broken, as in key paths and file names.
 const JOINTS: [char; 4] = ['.', '_', '-', '/'];
 
 impl Label {
-    /// Text as it is; names of users are plain.
+    /// Creates a label from plain text, without markup; for names given by users.
     pub fn plain(text: &str) -> Self {
         let text = clean(text);
         let text = text.trim();
@@ -37,7 +37,8 @@ impl Label {
         Self { runs: vec![Run { text: text.to_owned(), subscript: false }] }
     }
 
-    /// Text in which `_x` is a subscript of one character and `_{text}` one of several; `\_` is an underscore.
+    /// Creates a label from markup: `_x` is a subscript of one character, `_{text}` one of several, `\_` an
+    /// underscore.
     pub fn markup(text: &str) -> Self {
         let mut label = Self::default();
         let text = clean(text);
@@ -56,23 +57,23 @@ impl Label {
         label
     }
 
-    /// Whether there is nothing to draw.
+    /// Whether the label has no text.
     pub fn is_empty(&self) -> bool {
         self.runs.is_empty()
     }
 
-    /// The text without its sizes.
+    /// Text without formatting.
     pub fn text(&self) -> String {
         self.runs.iter().map(|run| run.text.as_str()).collect()
     }
 
-    /// The label with plain text after it.
+    /// Appends plain text.
     pub fn followed_by(mut self, text: &str) -> Self {
         clean(text).chars().for_each(|c| self.push(c, false));
         self
     }
 
-    /// The label with another after it.
+    /// Appends another label.
     pub(crate) fn joined(mut self, other: &Self) -> Self {
         for run in &other.runs {
             run.text.chars().for_each(|c| self.push(c, run.subscript));
@@ -84,13 +85,13 @@ impl Label {
         &self.runs
     }
 
-    /// Width at a size in px per em.
+    /// Width in px at a font size in px per em.
     pub(crate) fn width(&self, em: f64) -> Result<f64, PlotError> {
         self.runs.iter().map(|run| Ok(font::advance(&run.text)? * run.scale() * em)).sum()
     }
 
-    /// The label with its unit, and the size at which both are no wider than `most`: a little smaller at first, then
-    /// the label is cut with an ellipsis; the unit stays.
+    /// Returns the label with its unit and the font size at which both are at most `most` wide. The size shrinks
+    /// slightly first. Then the label is cut with an ellipsis; the unit stays.
     pub(crate) fn fitted(&self, unit: &Self, em: f64, most: f64) -> Result<(Self, f64), PlotError> {
         let whole = self.clone().joined(unit);
         let width = whole.width(em)?;
@@ -100,15 +101,15 @@ impl Label {
         let small = em * (most / width).max(LEAST_SHRINK);
         let room = most - unit.width(small)?;
         if room < small {
-            // Not even an ellipsis fits beside the unit.
+            // Not even an ellipsis fits next to the unit.
             return Ok((whole.cut(small, most)?, small));
         }
         Ok((self.cut(small, room)?.joined(unit), small))
     }
 
-    /// The label, cut with an ellipsis where it is wider than `most`.
+    /// Returns the label, cut with an ellipsis if it is wider than `most`.
     pub(crate) fn cut(&self, em: f64, most: f64) -> Result<Self, PlotError> {
-        // A hair of slack: the size may just have been chosen to fit.
+        // Tolerance for sizes that were chosen to fit exactly.
         if self.width(em)? <= most * (1.0 + 1e-9) {
             return Ok(self.clone());
         }
@@ -134,8 +135,8 @@ impl Label {
         Ok(kept.followed_by(ELLIPSIS))
     }
 
-    /// The label in lines no wider than `most`, broken between words, and inside those that are wider; the last of
-    /// `lines` is cut.
+    /// Breaks the label into at most `lines` lines no wider than `most`, between words, and inside words that are
+    /// wider. The last line is cut.
     pub(crate) fn wrapped(&self, em: f64, most: f64, lines: usize) -> Result<Vec<Self>, PlotError> {
         let mut done: Vec<Self> = Vec::new();
         let mut line = Self::default();
@@ -154,8 +155,8 @@ impl Label {
         done.iter().map(|line| line.cut(em, most)).collect()
     }
 
-    /// Words, in pieces where they are wider than `most`, each with what stands between it and the one before. A key path and the like
-    /// part at the last of their joints that fits.
+    /// Words with the separator before each. Words wider than `most` are broken, if possible after the last fitting
+    /// character of [`JOINTS`].
     fn pieces(&self, em: f64, most: f64) -> Result<Vec<(Self, &'static str)>, PlotError> {
         let mut pieces = Vec::new();
         for word in self.words() {
@@ -178,7 +179,7 @@ impl Label {
         Ok(pieces)
     }
 
-    /// What stands up to the last joint of a word, and after it; all of a word without one.
+    /// Splits a word after its last joint; without a joint the first part is the whole word.
     fn parted(&self) -> (Self, Self) {
         let characters: Vec<(char, bool)> = self.characters().collect();
         let joint = characters.iter().rposition(|(c, subscript)| JOINTS.contains(c) && !subscript);
@@ -203,7 +204,7 @@ impl Label {
         words
     }
 
-    /// Every character, and whether it is a subscript.
+    /// Characters, each with whether it is a subscript.
     fn characters(&self) -> impl Iterator<Item = (char, bool)> + '_ {
         self.runs.iter().flat_map(|run| run.text.chars().map(|c| (c, run.subscript)))
     }
@@ -217,7 +218,7 @@ impl Label {
 }
 
 impl Run {
-    /// Size relative to the line's.
+    /// Font size relative to that of the line.
     pub(crate) fn scale(&self) -> f64 {
         if self.subscript { SUBSCRIPT } else { 1.0 }
     }
@@ -287,13 +288,13 @@ mod tests {
         let most = Label::plain("one two three").width(30.0).unwrap() + 1.0;
         let lines = label.wrapped(30.0, most, 3).unwrap();
         assert_eq!(lines.iter().map(Label::text).collect::<Vec<_>>(), ["one two three", "four five six"]);
-        // A word wider than the line goes on in the next.
+        // A word wider than the line continues in the next.
         let word = Label::plain("abcdefghijklmnopqrstuvwxyz").wrapped(30.0, 100.0, 9).unwrap();
         assert!(word.len() > 2 && word.iter().all(|line| line.width(30.0).unwrap() <= 100.0), "{word:?}");
         assert_eq!(word.iter().map(Label::text).collect::<String>(), "abcdefghijklmnopqrstuvwxyz");
         let lines = label.wrapped(30.0, most, 1).unwrap();
         assert!(lines.len() == 1 && lines[0].text().ends_with(ELLIPSIS));
-        // A key path parts at its dots.
+        // A key path is broken at its dots.
         let path = Label::plain("contacts.front.profile.paraboloid.radius");
         let lines = path.wrapped(30.0, 0.97 * path.width(30.0).unwrap(), 2).unwrap();
         assert_eq!(

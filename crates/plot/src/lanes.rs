@@ -1,25 +1,25 @@
-//! Names of lanes: whole, in as many lines as a lane is high, smaller where that does not suffice.
+//! Names of lanes, wrapped into as many lines as fit the lane height, and shrunk where necessary.
 
 use crate::label::Label;
 use crate::panel::Lane;
 use crate::{PlotError, thin::Point};
 
-/// Names of lanes, ready to be drawn.
+/// Wrapped names of lanes.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub(crate) struct Names {
-    /// Size, px per em; that of the notes too.
+    /// Font size of names and notes, px per em.
     pub(crate) em: f64,
-    /// Lines of every name.
+    /// Lines of each name.
     pub(crate) lines: Vec<Vec<Label>>,
 }
 
 /// Height of a line, em.
 pub(crate) const LINE: f64 = 1.2;
-/// Sizes tried, as shares of the size wished for.
+/// Font sizes that are tried, relative to the requested one.
 const SIZES: [f64; 7] = [1.0, 0.9, 0.8, 0.7, 0.6, 0.5, 0.4];
 
 impl Names {
-    /// The names of lanes of a height and a width left of them, px, at a size of `em` px at the most.
+    /// Wraps the names to a width and the height of a lane, px, at a font size of at most `em` px.
     pub(crate) fn new(lanes: &[Lane], (width, height): Point, em: f64) -> Result<Self, PlotError> {
         let mut smallest = Self::default();
         for em in SIZES.map(|share| share * em) {
@@ -43,7 +43,7 @@ impl Names {
     }
 }
 
-/// Whether lines have all characters of a name.
+/// Whether the lines contain all characters of a name.
 fn is_whole(name: &str, lines: &[Label]) -> bool {
     let solid =
         |text: &str| text.chars().filter(|c| !c.is_whitespace() && !c.is_control()).collect::<String>();

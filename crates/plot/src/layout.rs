@@ -1,4 +1,4 @@
-//! Where everything goes: title, legends, panels.
+//! Layout of a figure: title, legends and panels.
 
 use crate::PlotError;
 use crate::beside::Beside;
@@ -12,7 +12,7 @@ use crate::place::{self, Request};
 use crate::scale::Scale;
 use crate::thin::Point;
 
-/// A rectangle of the picture, px.
+/// Rectangle in the picture, px.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(crate) struct Area {
     pub(crate) left: f64,
@@ -21,41 +21,41 @@ pub(crate) struct Area {
     pub(crate) height: f64,
 }
 
-/// A panel with its place.
+/// Panel with its position.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Placed<'f, 'a> {
     pub(crate) panel: &'f Panel<'a>,
-    /// The frame around the data.
+    /// Frame around the data.
     pub(crate) frame: Area,
-    /// All that belongs to the panel: legend, frame, numbers, labels.
+    /// Area of the whole panel: heading, legend, frame, numbers and labels.
     pub(crate) cell: Area,
     pub(crate) x: Scale,
     pub(crate) y: Scale,
-    /// Both axes in other units.
+    /// Second axes in other units.
     pub(crate) beside: Beside,
-    /// Names of the lanes, in place of the y axis.
+    /// Names of the lanes, which replace the y axis.
     pub(crate) names: Names,
-    /// Left edge of the numbers of the y axis; its label stands further left, px.
+    /// Left edge of the numbers of the y axis, px. The axis label is further left.
     pub(crate) numbers_left: f64,
-    /// Lines of the heading above the frame; its top left corner.
+    /// Lines of the heading above the frame, and its top left corner.
     pub(crate) heading: (Vec<Label>, Point),
-    /// Legend between heading and frame; its top left corner.
+    /// Legend between heading and frame, and its top left corner.
     pub(crate) legend: (Legend, Point),
-    /// Whether the x and the y axis carry numbers and a label.
+    /// Whether the x axis and the y axis have numbers and a label.
     pub(crate) numbered: (bool, bool),
-    /// Texts inside the frame, and how many have found no place.
+    /// Notes inside the frame, and the number of those left out.
     pub(crate) notes: Vec<PlacedNote>,
     pub(crate) lost: usize,
-    /// Whether there is nothing to show.
+    /// Whether the panel has no data.
     pub(crate) empty: bool,
 }
 
-/// The whole figure with its places.
+/// Figure with the positions of its parts.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Layout<'f, 'a> {
-    /// Lines of the title, centred, with their baselines.
+    /// Lines of the centred title, and their baselines.
     pub(crate) title: Vec<(Label, f64)>,
-    /// Legend of all panels; its top left corner.
+    /// Common legend of all panels, and its top left corner.
     pub(crate) legend: (Legend, Point),
     pub(crate) panels: Vec<Placed<'f, 'a>>,
     pub(crate) sizes: Sizes,
@@ -64,7 +64,7 @@ pub(crate) struct Layout<'f, 'a> {
 /// Lengths in px, scaled to the figure's width.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Sizes {
-    /// Px of this figure per px of one 1600 px wide.
+    /// Px per px of a figure 1600 px wide.
     pub(crate) scale: f64,
     /// Px per em of the title.
     pub(crate) title: f64,
@@ -74,18 +74,18 @@ pub(crate) struct Sizes {
     pub(crate) tick: f64,
     /// Length of a tick.
     pub(crate) mark: f64,
-    /// Around the figure.
+    /// Margin around the figure.
     pub(crate) margin: f64,
 }
 
-/// Share of the figure's height that a legend may take before entries are only counted, and the rows that it may
-/// have in any case.
+/// Maximum fraction of the figure's height for a legend, and the number of rows that is always allowed. Further
+/// entries are only counted.
 const LEGEND_SHARE: f64 = 0.4;
 const LEGEND_ROWS: usize = 4;
-/// Lines of a title and of a panel's heading before they are cut.
+/// Maximum number of lines of the title and of a panel heading.
 const TITLE_LINES: usize = 3;
 const HEADING_LINES: usize = 2;
-/// What numbers and label of an axis take beside a frame in print, em of the numbers.
+/// Width of the numbers and label of an axis in print, em of the tick labels.
 const NUMBERS: f64 = 5.5;
 
 impl Sizes {
@@ -112,7 +112,7 @@ impl<'f, 'a> Layout<'f, 'a> {
         Ok(layout)
     }
 
-    /// The same without texts inside the frames, which take the most time.
+    /// Layout without notes, which take most of the time.
     pub(crate) fn framed(figure: &'f Figure<'a>) -> Result<Self, PlotError> {
         figure.check()?;
         let sizes = Sizes::of(figure);
@@ -143,22 +143,32 @@ impl<'f, 'a> Layout<'f, 'a> {
 }
 
 impl Figure<'_> {
-    /// Taller by what the legends need beyond a row each, so that many names do not press the panels.
+    /// Increases the height by the rows of the legends beyond one each, so that long legends do not shrink the
+    /// panels.
     pub(crate) fn with_room_for_legends(mut self) -> Self {
-        let sizes = Sizes::of(&self);
-        let Ok((common, own)) = legends(&self, sizes, usize::MAX) else { return self };
-        let columns = self.arrangement.columns(self.panels.len());
-        let rows =
-            own.chunks(columns).map(|row| row.iter().map(|legend| legend.rows.len()).max().unwrap_or(0));
-        let more = |rows: usize| rows.saturating_sub(1);
-        let more = more(common.rows.len()) + rows.map(more).sum::<usize>();
-        let height = f64::from(self.size.1) + more as f64 * ROW * sizes.tick;
+        let more: usize = self.legend_rows().into_iter().map(|rows| rows.saturating_sub(1)).sum();
+        let height = f64::from(self.size.1) + more as f64 * ROW * Sizes::of(&self).tick;
         self.size.1 = (height.ceil() as u32).min(Self::MOST);
         self
     }
+
+    /// Number of rows of the common legend, then of the tallest legend in each row of panels.
+    fn legend_rows(&self) -> Vec<usize> {
+        let Ok((common, own)) = legends(self, Sizes::of(self), usize::MAX) else { return Vec::new() };
+        let columns = self.arrangement.columns(self.panels.len());
+        let tallest =
+            own.chunks(columns).map(|row| row.iter().map(|legend| legend.rows.len()).max().unwrap_or(0));
+        std::iter::once(common.rows.len()).chain(tallest).collect()
+    }
+
+    /// Fraction of the height that all legends take.
+    pub(crate) fn legend_share(&self) -> f64 {
+        let rows: usize = self.legend_rows().into_iter().sum();
+        rows as f64 * ROW * Sizes::of(self).tick / f64::from(self.size.1)
+    }
 }
 
-/// One legend for all panels and the panels' own, in rows of the width there is.
+/// Common legend and the legends of the panels, wrapped to the available width.
 fn legends(figure: &Figure<'_>, sizes: Sizes, most: usize) -> Result<(Legend, Vec<Legend>), PlotError> {
     let mut lists: Vec<_> = figure.panels.iter().map(|panel| entries(panel, &figure.theme)).collect();
     let width = f64::from(figure.size.0) - 2.0 * sizes.margin;
@@ -168,17 +178,17 @@ fn legends(figure: &Figure<'_>, sizes: Sizes, most: usize) -> Result<(Legend, Ve
     Ok((common, own.collect::<Result<_, _>>()?))
 }
 
-/// Width for heading and legend of a panel, px: its share of the figure, less the numbers of its axis.
+/// Width for heading and legend of a panel, px.
 fn width_above(figure: &Figure<'_>, sizes: Sizes, panel: usize) -> f64 {
     let (wide, _) = figure.shares();
     let cell = (f64::from(figure.size.0) - 2.0 * sizes.margin) * wide[panel % wide.len()];
-    // In a narrow column the numbers take more of it.
+    // In a narrow column the numbers take a larger fraction of the width.
     let beside = if figure.print_width.is_some() { NUMBERS * sizes.tick } else { 0.0 };
     (cell - beside).min(0.75 * cell)
 }
 
-/// The longest list, where it names everything that the other panels name: one legend then serves all, and the
-/// panels' own are emptied. Nothing for a single panel or panels that show different things.
+/// Returns the longest list if it contains all entries of the other panels, as a common legend, and empties all
+/// lists. Returns nothing if fewer than two panels have entries, or if one has other entries.
 fn common(lists: &mut [Vec<Entry>]) -> Vec<Entry> {
     let longest = lists.iter().max_by_key(|list| list.len()).cloned().unwrap_or_default();
     let serves_all = lists.iter().all(|list| list.iter().all(|entry| longest.contains(entry)));

@@ -1,45 +1,45 @@
-//! Legends: beside the data, never over it.
+//! Legends, which are always outside the frame.
 
 use crate::panel::{Panel, Series, is_drawable};
 use crate::theme::{Colour, Stroke};
 use crate::{Label, PlotError, Theme};
 
-/// One line of a legend's list.
+/// Entry of a legend.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Entry {
     pub(crate) label: Label,
     pub(crate) sample: Sample,
 }
 
-/// What stands before a name.
+/// Symbol before a name.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Sample {
-    /// Nothing, before the note that entries were left out.
+    /// No symbol, for the note that entries were left out.
     None,
-    /// A piece of a curve.
+    /// Piece of a curve.
     Line(Stroke),
-    /// A point.
+    /// Point.
     Dot(Stroke),
-    /// A piece of an area.
+    /// Piece of an area.
     Swatch(Colour),
 }
 
 /// Entries in rows.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub(crate) struct Legend {
-    /// Entries with their left edges, px from the legend's.
+    /// Entries with their left edges, px from the left edge of the legend.
     pub(crate) rows: Vec<Vec<(f64, Entry)>>,
 }
 
-/// Between sample and text, em.
+/// Gap between symbol and text, em.
 const SAMPLE_GAP: f64 = 0.4;
 /// Height of a row, em.
 pub(crate) const ROW: f64 = 1.4;
-/// Between two entries, em.
+/// Gap between two entries, em.
 const ENTRY_GAP: f64 = 1.3;
 
-/// What a panel's legend has to name: labelled series in order, then labelled areas and reference lines, each name
-/// and look once.
+/// Legend entries of a panel: named series in order, then mosaic classes, bands, shapes and reference lines. Equal
+/// entries are listed once.
 pub(crate) fn entries(panel: &Panel<'_>, theme: &Theme) -> Vec<Entry> {
     let curves = panel.series.iter().enumerate().map(|(place, series)| {
         let stroke = theme.stroke(series.style, place);
@@ -65,7 +65,7 @@ pub(crate) fn entries(panel: &Panel<'_>, theme: &Theme) -> Vec<Entry> {
 }
 
 impl Series<'_> {
-    /// Whether it is points that no line joins: one, or several with a gap between any two.
+    /// Whether the series has only isolated points: a single one, or several with gaps between them.
     pub(crate) fn is_scattered(&self) -> bool {
         let drawn = |(x, y): (&f64, &f64)| is_drawable(*x) && is_drawable(*y);
         let drawn: Vec<bool> = self.xs.iter().zip(self.ys.iter()).map(drawn).collect();
@@ -86,7 +86,7 @@ impl Sample {
 }
 
 impl Entry {
-    /// Where the text begins, px from the left edge.
+    /// Left edge of the text, px from that of the entry.
     pub(crate) fn text_at(&self, em: f64) -> f64 {
         if self.sample == Sample::None { 0.0 } else { self.sample.width(em) + SAMPLE_GAP * em }
     }
@@ -97,13 +97,13 @@ impl Entry {
 }
 
 impl Legend {
-    /// Entries in as few rows of a width as hold them; what needs more than `most` rows is only counted.
+    /// Wraps the entries into as few rows as possible. Entries that need more than `most` rows are only counted.
     pub(crate) fn new(entries: &[Entry], width: f64, em: f64, most: usize) -> Result<Self, PlotError> {
         let all = Self::flow(entries, width, em)?;
         if all.rows.len() <= most {
             return Ok(all);
         }
-        // Leave out from the end until the rest and the note fit.
+        // Entries are left out from the end until the rest and the note fit.
         for kept in (0..entries.len()).rev() {
             let mut shorter = entries[..kept].to_vec();
             shorter.push(Entry {
@@ -132,7 +132,7 @@ impl Legend {
         self.rows.len() as f64 * ROW * em
     }
 
-    /// Entries one after the other; several rows in columns, where that takes one more at the most.
+    /// Arranges the entries in rows; several rows are aligned in columns if that takes at most one more row.
     fn flow(entries: &[Entry], width: f64, em: f64) -> Result<Self, PlotError> {
         let mut widths = Vec::new();
         let mut cut = Vec::new();
@@ -155,7 +155,7 @@ impl Legend {
     }
 }
 
-/// Row and left edge of entries of some widths.
+/// Row and left edge of entries of given widths.
 fn rows(widths: &[f64], most: f64, gap: f64) -> Vec<(usize, f64)> {
     let (mut row, mut at) = (0, 0.0);
     let mut places = Vec::new();
@@ -205,7 +205,7 @@ mod tests {
         let line = |y| Reference::Horizontal { y, label: Label::plain("limit") };
         let panel = Panel { references: vec![line(1.0), line(-1.0)], ..panel(0) };
         assert_eq!(entries(&panel, &theme).len(), 1);
-        // Stall and best power were two lines that nobody could tell apart.
+        // Two reference lines with different names must differ in their dashes.
         let names =
             ["stall", "best", "stall"].map(|name| Reference::Vertical { x: 1.0, label: Label::plain(name) });
         let panel = Panel { references: names.to_vec(), ..panel };

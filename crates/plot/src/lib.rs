@@ -1,28 +1,35 @@
-//! Figures from plain series.
+//! Plots of simulation results as PNG and SVG.
 //!
-//! A [`Figure`] is data: panels, axes, series, areas, mosaics, lanes, reference lines. [`draw_png`] and [`draw_svg`]
-//! turn it into bytes or text for the caller to write. Builders arrange the figures of a drive from plain series.
+//! A [`Figure`] is data: panels with axes, series, bands, mosaics, lanes and reference lines. [`draw_png`] and
+//! [`draw_svg`] convert it to a file's content. The builders make figures from plain series.
 //!
-//! In reading order:
+//! Modules in reading order:
 //!
-//! * [`figure`], [`panel`] – the data model; [`error`] – what cannot be drawn;
-//! * [`theme`] – colours, line styles, sizes;
-//! * [`label`] – texts, plain or with subscripts;
-//! * the builders: [`hysteresis`] (force over displacement), [`trajectory`] (motion over time), [`phase`] (velocity
-//!   over displacement), [`energy`] (the energy book), [`drive`] (what is commanded and what moves), [`events`] (what happened when), [`state`] (springs over time),
-//!   [`memory`] (the curve a contact remembers by), [`anchors`] (the same over the springs' places), [`fields`] (stress and
-//!   displacement under a contact), [`substitute`] (its springs), [`profile`] (f and g), [`friction`] (where it does its work), [`scene`] (what there is, to scale), [`compare`] (two runs and their
-//!   difference), [`zoom`] (a part enlarged beside the whole), [`over`] (several results in one), [`work_precision`] (what an error costs), [`growth`] (what more of something costs), [`orbit`] (a motion that repeats itself),
-//!   [`curve`] (what a machine does over something that is varied), [`branch`] (steady motions over such a thing), [`map`] (a result over two numbers), [`tornado`] (what matters most);
-//! * `range`, `scale` – what an axis shows: range, prefix, offset, ticks;
-//! * `legend`, `lanes`, `layout`, `place`, `notes` – where everything goes;
-//! * `thin`, `dash`, `mosaic` – what is drawn of much data, and in what pieces;
-//! * `paint`, `beside`, `content`, `arrow` – the figure in strokes, areas and texts, which `canvas` hands to any backend of
-//!   plotters;
-//! * `font`, `stroke`, `raster` – the backend for pictures: glyphs, and strokes by coverage; `palette` – their few colours;
-//! * [`png`], [`svg`] – the two outputs; [`carried`] – what they carry unseen.
+//! * [`figure`], [`panel`]: data model; [`error`]: errors;
+//! * [`theme`]: colours, line styles and sizes;
+//! * [`label`]: texts, plain or with subscripts;
+//! * builders for quantities over time: [`trajectory`] (positions), [`drive`] (voltage, current, positions and
+//!   forces), [`energy`] (energy balance), [`events`] (event times), [`waveform`] (waveforms and their rates);
+//! * builders for the model and its motion: [`scene`] (the model, to scale), [`hysteresis`] (force over
+//!   displacement), [`phase`] (velocity over displacement);
+//! * builders for contacts: [`state`] (stick and slip of the springs), [`memory`] and [`anchors`] (slip memory),
+//!   [`friction`] (friction work per area);
+//! * builders for contact mechanics: [`fields`] (stresses and displacements), [`substitute`] (row of springs),
+//!   [`profile`] (profiles f and g);
+//! * builders for studies: [`curve`] (performance curves), [`orbit`] (periodic orbit), [`branch`] (branch of periodic
+//!   orbits), [`map`] (result over two parameters), [`tornado`] (sensitivities);
+//! * builders for benchmarks: [`work_precision`] (error over cost), [`growth`] (cost over problem size), [`realtime`]
+//!   (execution times);
+//! * combinations of figures: [`compare`] (two runs and their difference), [`zoom`] (enlarged time range), [`over`]
+//!   (several results in one figure);
+//! * `range`, `scale`: axis ranges, unit prefixes, offsets and ticks;
+//! * `legend`, `lanes`, `layout`, `place`, `notes`: layout;
+//! * `thin`, `dash`, `mosaic`: reduction of large data sets, dashes, cells;
+//! * `paint`, `beside`, `content`, `arrow`: drawing, through `canvas` on any plotters backend;
+//! * `font`, `stroke`, `raster`: bitmap backend; `palette`: palette of a bitmap;
+//! * [`png`], [`svg`]: output formats; [`carried`]: metadata in the files.
 //!
-//! Same figure, same bytes: nothing is read but the figure, the font is built in.
+//! The same figure gives the same bytes: the font is built in, and nothing else is read.
 
 pub mod anchors;
 mod arrow;

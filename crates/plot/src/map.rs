@@ -1,63 +1,63 @@
-//! A result over two numbers: a heat map with contours, or areas of a few classes with their borders.
+//! Result over two parameters: a heat map with contours, or areas of classes with borders.
 
 use crate::figure::{Arrangement, Figure};
 use crate::panel::{Axis, Mosaic, Note, Panel, Series};
 use crate::theme::{Dash, Ink, Style};
 use crate::{Label, scale::quantity};
 
-/// A result over two numbers.
+/// Result over two parameters.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ResultMap<'a> {
     /// Horizontal and vertical axis: name, unit, and whether it is logarithmic.
     pub axes: [(&'a str, &'a str, bool); 2],
-    /// Places of the columns and rows of cells, ascending.
+    /// Positions of the columns and rows of cells, ascending.
     pub places: [Vec<f64>; 2],
-    /// What the cells show.
+    /// Content of the cells.
     pub content: MapContent<'a>,
-    /// Measured points by the names of their classes.
+    /// Measured points, grouped by the names of their classes.
     pub points: &'a [(String, Vec<[f64; 2]>)],
 }
 
-/// Lines through the frame.
+/// Polylines in the frame.
 type Lines = Vec<Vec<[f64; 2]>>;
 
-/// What the cells of a map show.
+/// Content of the cells of a map.
 #[derive(Debug, Clone, PartialEq)]
 pub enum MapContent<'a> {
-    /// Numbers.
+    /// A numerical result.
     Numbers {
-        /// What they are, and their unit.
+        /// Name and unit of the result.
         name: (&'a str, &'a str),
-        /// Column by column; NaN where there is none.
+        /// Values, column by column; NaN without a result.
         values: Vec<f64>,
-        /// Levels with their contours.
+        /// Contour levels and their polylines.
         contours: &'a [(f64, Lines)],
     },
-    /// Words.
+    /// A result with a few classes, such as the sliding regimes.
     Words {
-        /// The word of each class.
+        /// Name of each class.
         words: &'a [String],
-        /// The class of every cell, column by column; that after the last word where there is none.
+        /// Class of each cell, column by column. Cells without a result have the index after the last class.
         classes: Vec<u8>,
-        /// Borders between areas.
+        /// Borders between the areas.
         borders: Lines,
-        /// Places in the middles of areas, with the class of each, where its word stands.
+        /// Positions inside the areas for the class names, with the class index.
         names: Vec<([f64; 2], usize)>,
     },
 }
 
-/// Places in the palette of the first four classes: of regimes from open to gross slip.
+/// Palette indices of the first four classes, chosen for regimes from open to gross slip.
 const INKS: [usize; 4] = [5, 0, 2, 1];
-/// Shades of a heat map.
+/// Number of shades of a heat map.
 const SHADES: usize = 255;
-/// Width of the colour bar as a share of the map's.
+/// Width of the colour bar relative to the map.
 const BAR: f64 = 0.09;
-/// Widths of borders, contours and points, in widths of a curve.
+/// Line widths of borders and contours and size of points, as multiples of a curve's width.
 const BORDER: f64 = 1.3;
 const CONTOUR: f64 = 0.5;
 const POINT: f64 = 1.6;
 
-/// The map and, of numbers, a colour bar beside it.
+/// Draws the map, with a colour bar for numbers.
 pub fn map_figure<'a>(title: &str, map: ResultMap<'a>) -> Figure<'a> {
     let [x, y] = map.axes.map(|(name, unit, logarithmic)| Axis {
         tight: true,
@@ -84,10 +84,10 @@ pub fn map_figure<'a>(title: &str, map: ResultMap<'a>) -> Figure<'a> {
     }
 }
 
-/// Cells, classes, lines, texts and a panel beside them.
+/// Cells, classes, polylines, notes and the colour bar of a map.
 type Parts<'a> = (Vec<u8>, Vec<(Label, Ink)>, Vec<Series<'a>>, Vec<Note>, Option<Panel<'a>>);
 
-/// Of a heat map: shades of a ramp, contours with their levels, the colour bar.
+/// Parts of a heat map: shades, contours with level labels, colour bar.
 fn numbers<'a>((name, unit): (&str, &str), values: &[f64], contours: &[(f64, Lines)]) -> Parts<'a> {
     let finite = || values.iter().copied().filter(|value| value.is_finite());
     let (low, high) = (finite().fold(f64::INFINITY, f64::min), finite().fold(f64::NEG_INFINITY, f64::max));
@@ -105,7 +105,7 @@ fn numbers<'a>((name, unit): (&str, &str), values: &[f64], contours: &[(f64, Lin
         let text = quantity(*level, unit, 6);
         Some(Note { lines: vec![Label::plain(&text)], about: [(at[0], at[1]); 2], on: None, ink: None })
     });
-    // Of a range of a few roundings there are no shades.
+    // A range within rounding has no shades.
     let has_shades = (high - low).is_finite() && high - low > 1e-12 * high.abs().max(low.abs());
     let bar = has_shades.then(|| Panel {
         x: Axis { unnumbered: true, tight: true, ..Axis::default() },
@@ -125,7 +125,7 @@ fn numbers<'a>((name, unit): (&str, &str), values: &[f64], contours: &[(f64, Lin
     (values.iter().map(shade).collect(), ramp().chain(none).collect(), series, levels.collect(), bar)
 }
 
-/// Of areas: a pale colour for each word, which stands in it; the legend names those that have no room for it, and none.
+/// Colours and names of areas. Classes without a name in the map have a legend entry.
 fn areas(words: &[String], classes: &[u8], names: &[([f64; 2], usize)]) -> (Vec<(Label, Ink)>, Vec<Note>) {
     let is_shown = |class: usize| classes.contains(&(class as u8));
     let is_named = |class: usize| names.iter().any(|(_, named)| *named == class);
@@ -144,12 +144,12 @@ fn areas(words: &[String], classes: &[u8], names: &[([f64; 2], usize)]) -> (Vec<
     (inks, names.iter().map(note).collect())
 }
 
-/// Place in the palette of a class.
+/// Palette index of a class.
 fn ink(class: usize) -> usize {
     INKS.get(class).copied().unwrap_or(class)
 }
 
-/// Lines in the ink of texts.
+/// Polylines in the text colour.
 fn curves<'a>(lines: &[Vec<[f64; 2]>], width: f64) -> Vec<Series<'a>> {
     let style = Style { ink: Some(Ink::Foreground), dash: Some(Dash::Solid), width };
     let curve = |line: &Vec<[f64; 2]>| {
@@ -159,10 +159,10 @@ fn curves<'a>(lines: &[Vec<[f64; 2]>], width: f64) -> Vec<Series<'a>> {
     lines.iter().map(curve).collect()
 }
 
-/// Points as discs with a rim; those whose class is one of the words of the map in its colour.
+/// Measured points as discs with a rim. A point whose class is a class of the map has the colour of that class.
 fn dots<'a>(classes: &[(String, Vec<[f64; 2]>)], words: &[String]) -> Vec<Series<'a>> {
     let dot = |(place, (name, points)): (usize, &(String, Vec<[f64; 2]>))| {
-        // A gap after each point: no line joins them.
+        // Gaps prevent connecting lines.
         let along = |axis: usize| points.iter().flat_map(|point| [point[axis], f64::NAN]).collect::<Vec<_>>();
         let disc = |label: &str, ink, width| Series {
             style: Style { ink: Some(ink), dash: None, width },

@@ -1,16 +1,16 @@
-//! The memory of a contact: the curve p(h) and its wedge.
+//! The slip memory of a contact: reversal displacements over depth, in the wedge of full slip.
 
 use crate::Label;
 use crate::figure::{Arrangement, Figure};
-use crate::panel::{Axis, Band, Panel, Series, is_drawable};
+use crate::panel::{Axis, Band, Panel, Series};
 use crate::theme::{Dash, Ink, Style};
 
-/// The memory curve of a contact at a moment: at which displacement the springs of every height are anchored.
+/// The memory curve of a contact at one time: the displacement p(h) at which the springs of each depth are unstretched.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct MemoryMoment<'a> {
     /// Name of the contact.
     pub contact: &'a str,
-    /// Time, as it is told.
+    /// Time with its unit.
     pub time: &'a str,
     /// Indentation depth, m: the apex lies at h = d.
     pub d: f64,
@@ -18,45 +18,30 @@ pub struct MemoryMoment<'a> {
     pub u: f64,
     /// Slope κ = μE\*/G\* of the wedge |p - u| ≤ κ(d - h).
     pub slope: f64,
-    /// Heights of the curve's corners, m, from 0 to d.
+    /// Depths of the corners of the curve, m, from 0 to d.
     pub h: &'a [f64],
-    /// Anchors p(h), m, as many.
+    /// Displacements p(h), m, one per depth.
     pub p: &'a [f64],
 }
 
-/// Panels share their axes where their union is no more than this many times the largest of them.
-const NEAR: f64 = 2.0;
-
-/// One panel per moment: p upwards over h, inside the wedge that the apex (d, u) opens to the left. All panels have
-/// the same scales; where the moments lie too far apart in p for one axis, every panel has its own part of it.
+/// One panel per time: p - u over h, inside the wedge of full slip |p - u| ≤ κ(d - h). All panels have the same axes.
 pub fn memory_figure<'a>(title: &str, moments: &[MemoryMoment<'a>]) -> Figure<'a> {
     let first = moments.first().map(|moment| moment.contact);
     let is_named = moments.iter().any(|moment| Some(moment.contact) != first);
     if moments.is_empty() {
         return Figure::without_data(
             title,
-            "no memory recorded: the run did not come to any of the moments that were asked for",
+            "no memory recorded: the run did not reach any of the requested times",
         );
     }
-    let mut panels: Vec<Panel<'a>> = moments.iter().map(|moment| panel(moment, is_named)).collect();
-    let ranges: Vec<(f64, f64)> = moments.iter().map(reach).collect();
-    let (low, high) =
-        ranges.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |all, r| (all.0.min(r.0), all.1.max(r.1)));
-    let span = ranges.iter().map(|(low, high)| high - low).fold(0.0, f64::max);
-    let share = high - low <= NEAR * span;
-    let deepest = moments.iter().map(|moment| moment.d).fold(0.0, f64::max);
-    for (panel, (low, high)) in panels.iter_mut().zip(ranges) {
-        let middle = low / 2.0 + high / 2.0;
-        panel.x.covers = Some((0.0, deepest));
-        panel.y.covers = Some((middle - span / 2.0, middle + span / 2.0)).filter(|_| !share);
-    }
+    let panels: Vec<Panel<'a>> = moments.iter().map(|moment| panel(moment, is_named)).collect();
     let columns = columns(panels.len());
     let rows = panels.len().div_ceil(columns);
     Figure {
         title: Label::plain(title),
         size: Figure::size_for(240, if rows == 1 { 760 } else { 420 }, rows),
         panels,
-        arrangement: Arrangement::Grid { columns, share },
+        arrangement: Arrangement::Grid { columns, share: true },
         ..Figure::default()
     }
 }
@@ -69,32 +54,26 @@ fn columns(panels: usize) -> usize {
     }
 }
 
-/// Lowest and highest p of curve and wedge.
-fn reach(moment: &MemoryMoment<'_>) -> (f64, f64) {
-    let wedge = moment.slope * moment.d.max(0.0);
-    let ends = [moment.u - wedge, moment.u + wedge].into_iter();
-    let values = ends.chain(moment.p.iter().copied()).filter(|p| is_drawable(*p));
-    values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), p| (low.min(p), high.max(p)))
-}
-
 fn panel<'a>(moment: &MemoryMoment<'a>, is_named: bool) -> Panel<'a> {
     let MemoryMoment { d, u, slope, .. } = *moment;
     let time = format!("t = {}", moment.time);
     let wedge = Band {
-        label: Label::markup("wedge |p − u| ≤ κ(d − h)"),
+        label: Label::markup("|p − u| ≤ κ(d − h)"),
         xs: vec![0.0, d].into(),
-        low: vec![u - slope * d, u].into(),
-        high: vec![u + slope * d, u].into(),
+        low: vec![-slope * d, 0.0].into(),
+        high: vec![slope * d, 0.0].into(),
         ink: Ink::Shade(1),
     };
     let style = |ink, width| Style { ink: Some(ink), dash: Some(Dash::Solid), width };
+    let from_apex: Vec<f64> = moment.p.iter().map(|p| p - u).collect();
     let curve =
-        Series { style: style(Ink::Palette(0), 1.2), ..Series::new("memory p(h)", moment.h, moment.p) };
-    let apex = Series { style: style(Ink::Palette(1), 1.6), ..Series::new("apex (d, u)", vec![d], vec![u]) };
+        Series { style: style(Ink::Palette(0), 1.2), ..Series::new("memory p(h)", moment.h, from_apex) };
+    let apex =
+        Series { style: style(Ink::Palette(1), 1.6), ..Series::new("indentation d", vec![d], vec![0.0]) };
     Panel {
         heading: Label::plain(&if is_named { format!("{}, {time}", moment.contact) } else { time }),
-        x: Axis::new(Label::plain("height h"), "m"),
-        y: Axis::new(Label::plain("anchor p"), "m"),
+        x: Axis::new(Label::plain("depth h"), "m"),
+        y: Axis::new(Label::plain("p − u"), "m"),
         bands: if d > 0.0 { vec![wedge] } else { Vec::new() },
         series: vec![curve, apex],
         ..Panel::default()

@@ -1,42 +1,42 @@
-//! Mosaics in pixels: cells of few classes, mixed by area where a pixel holds several.
+//! Mosaics as images: cells of a few classes, mixed by area where a pixel contains several.
 
 use crate::palette::{Word, word};
 use crate::panel::{Axis, Mosaic};
 use crate::scale::Scale;
 use crate::theme::{Colour, Theme};
 
-/// Pixels, row by row.
+/// RGB image, row by row.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Image {
     pub(crate) width: usize,
     pub(crate) height: usize,
-    /// Red, green, blue of every pixel.
+    /// Red, green and blue of each pixel.
     pub(crate) rgb: Vec<u8>,
 }
 
 impl Image {
-    /// The colour of every pixel, row by row.
+    /// Colour of each pixel, row by row.
     pub(crate) fn colours(&self) -> impl Iterator<Item = Word> + Clone + '_ {
         self.rgb.chunks_exact(3).map(|c| word([c[0], c[1], c[2]]))
     }
 }
 
-/// Light of a colour (linear in what the eye adds up) and the area it covers.
+/// Linear-light red, green and blue, and the covered area.
 type Light = [f64; 4];
 
 impl Mosaic<'_> {
-    /// Ends of the columns as laid off along their axis, one more than columns.
+    /// Edges of the columns in axis coordinates, one more than columns.
     pub(crate) fn column_edges(&self, axis: &Axis) -> Vec<f64> {
         edges(&laid_off(&self.xs, axis), 0.0)
     }
 
-    /// Ends of the rows as laid off along their axis, one more than rows.
+    /// Edges of the rows in axis coordinates, one more than rows.
     pub(crate) fn row_edges(&self, axis: &Axis) -> Vec<f64> {
         edges(&laid_off(&self.ys, axis), 0.5)
     }
 
-    /// The mosaic as it shows through a frame. Of a pixel that several cells share, each colours its part of the
-    /// area: neither a majority that hides a short slip nor a sample that falls in step with the motion.
+    /// Renders the mosaic for a frame. A pixel that several cells share mixes their colours in linear light by area,
+    /// which avoids aliasing.
     pub(crate) fn image(
         &self,
         [(across, x), (upwards, y)]: [(&Axis, &Scale); 2],
@@ -72,12 +72,13 @@ impl Mosaic<'_> {
     }
 }
 
-/// Places as laid off along an axis.
+/// Positions in axis coordinates.
 fn laid_off(places: &[f64], axis: &Axis) -> Vec<f64> {
     places.iter().map(|place| axis.measure(*place)).collect()
 }
 
-/// Middles between places, and beyond the first and the last a share of the way to their neighbours.
+/// Midpoints between positions. The outer edges are `beyond` times the adjacent distance away from the first and the
+/// last position.
 fn edges(places: &[f64], beyond: f64) -> Vec<f64> {
     let [first, second, ..] = places else { return [places, places].concat() };
     let [.., before, last] = places else { return Vec::new() };
@@ -86,7 +87,7 @@ fn edges(places: &[f64], beyond: f64) -> Vec<f64> {
     std::iter::once(start).chain(middles).chain([last + beyond * (last - before)]).collect()
 }
 
-/// Edges in pixels; a single cell without width fills the frame.
+/// Edges in pixels. A single cell without width fills the frame.
 fn pixels(edges: &[f64], place: impl Fn(f64) -> f64, size: f64) -> Vec<f64> {
     match edges {
         [start, .., end] if start == end => {
@@ -96,7 +97,7 @@ fn pixels(edges: &[f64], place: impl Fn(f64) -> f64, size: f64) -> Vec<f64> {
     }
 }
 
-/// For every pixel of a line the cells that share it, and their shares.
+/// For each pixel of a line, the cells that cover it with their fractions.
 fn parts(edges: &[f64], pixels: usize) -> Vec<Vec<(usize, f64)>> {
     let mut parts = vec![Vec::new(); pixels];
     for (cell, pair) in edges.windows(2).enumerate() {
@@ -121,12 +122,12 @@ fn light(Colour(r, g, b): Colour) -> Light {
     [linear(f64::from(r) / 255.0), linear(f64::from(g) / 255.0), linear(f64::from(b) / 255.0), 1.0]
 }
 
-/// The curve of sRGB (IEC 61966-2-1), value 0 to 1.
+/// Transfer function of sRGB (IEC 61966-2-1) from a value in 0 to 1 to linear light.
 fn linear(value: f64) -> f64 {
     if value <= 0.040_45 { value / 12.92 } else { math::powf((value + 0.055) / 1.055, 2.4) }
 }
 
-/// The way back from light to the nearest of 256 values.
+/// Inverse of the transfer function, to the nearest of 256 values.
 struct Code([f64; 255]);
 
 impl Code {
@@ -151,7 +152,7 @@ mod tests {
         Mosaic { xs: places(columns), ys: places(rows), cells: cells.into(), classes }
     }
 
-    /// Through a frame that just holds it.
+    /// Renders a mosaic that exactly fills the frame.
     fn image(mosaic: &Mosaic<'_>, size: (usize, usize)) -> Image {
         let scale = |edges: Vec<f64>| {
             let ends = edges.first().copied().zip(edges.last().copied());
@@ -169,7 +170,7 @@ mod tests {
 
     #[test]
     fn cells_of_whole_pixels_are_counted_in_pixels() {
-        // Five moments over four spans: the inner columns are 30 px wide, the outer ones 15. Three rows of 20 px.
+        // Five positions span four distances: inner columns are 30 px wide, outer ones 15 px. Three rows of 20 px.
         let cells = [[0, 1, 2], [1, 1, 2], [3, 3, 3], [0, 0, 2], [2, 0, 1]].concat();
         let image = image(&mosaic(5, 3, cells), (120, 60));
         let counted = [0, 1, 2, 3].map(|shade| pixels(&image, shade));
@@ -181,7 +182,8 @@ mod tests {
 
     #[test]
     fn a_train_finer_than_pixels_shows_neither_beats_nor_gaps() {
-        // Stick and slip by turns, 7.3 times in every pixel: the same mixture everywhere, and nothing of the legend.
+        // Stick and slip alternate 7.3 times per pixel: all pixels have the same mixture, and none has a pure class
+        // colour.
         let columns = 7300;
         let cells = (0..columns).map(|i| 1 + u8::from(i % 2 == 0)).collect();
         let image = image(&mosaic(columns, 1, cells), (1000, 1));
@@ -200,7 +202,7 @@ mod tests {
     }
 
     proptest! {
-        /// The light of the picture is that of the cells by their areas, whatever the grid of pixels.
+        /// The total light equals that of the cells by area, for any pixel grid.
         #[test]
         fn light_is_kept(
             (columns, rows, cells) in (2..60_usize, 2..20_usize)
@@ -215,7 +217,7 @@ mod tests {
                 let area = |column: usize| if column == 0 || column == columns - 1 { 0.5 } else { 1.0 };
                 let lit = cells.iter().enumerate().map(|(i, &class)| area(i / rows) * shades[usize::from(class)][channel]);
                 let expected = lit.sum::<f64>() / (rows * (columns - 1)) as f64;
-                // A step of the code is 0.009 of full light at the most, half of it is lost in rounding.
+                // One code step is at most 0.009 of full light; rounding errors are half of that.
                 prop_assert!((sum / (size.0 * size.1) as f64 - expected).abs() < 0.0045);
             }
         }

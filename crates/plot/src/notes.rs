@@ -1,4 +1,4 @@
-//! Texts inside a frame, where they cover nothing.
+//! Positions of notes inside a frame, without overlap.
 
 use crate::PlotError;
 use crate::label::Label;
@@ -7,44 +7,45 @@ use crate::panel::Note;
 use crate::theme::Ink;
 use crate::thin::Point;
 
-/// A note with its place.
+/// Note with its position.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct PlacedNote {
-    /// Size of the text, px per em.
+    /// Font size, px per em.
     pub(crate) em: f64,
-    /// Lines with the middles of their baselines.
+    /// Lines, each with the midpoint of its baseline.
     pub(crate) lines: Vec<(Label, Point)>,
-    /// A line from the text to what it names, where that is far.
+    /// Pointer from the text to the named part, if that is distant.
     pub(crate) pointer: Option<[Point; 2]>,
-    /// Ink of what it names, where the text has it.
+    /// Ink of the named part, if the text takes its colour.
     pub(crate) ink: Option<Ink>,
 }
 
-/// Cells of the board per em: places are tried one cell apart.
+/// Grid cells per em; candidate positions are one cell apart.
 const FINENESS: f64 = 10.0;
 /// Height of a line, em.
 const LINE: f64 = 1.25;
-/// Free around a text, em.
+/// Free margin around a text, em.
 const CLEAR: f64 = 0.32;
-/// From this distance on a note points to what it names, em.
+/// Distance beyond which a note has a pointer, em.
 const FAR: f64 = 0.9;
-/// Distance that lying on a foreign shape and having to point are worth, em.
+/// Penalty for lying completely on a foreign shape, and for needing a pointer, as a distance in em.
 const FOREIGN: f64 = 3.0;
 const POINTING: f64 = 1.5;
-/// What a pointer costs for each line that it crosses, as a distance, em.
+/// Penalty for each line that a pointer crosses, as a distance in em.
 const CROSSING: f64 = 1.0;
-/// Of places as near to the rim of a thing, the one nearer to its middle: share of that distance.
+/// Weight of the distance between the centres of note and named part; it decides between equal distances.
 const CENTRED: f64 = 0.1;
-/// Widest line as a share of the frame, and lines that a longer one is broken into.
+/// Maximum line width as a fraction of the frame, and the maximum number of lines that a longer one is broken into.
 const WIDEST: f64 = 0.3;
 const BROKEN: usize = 3;
-/// More notes than this are only counted: each is tried all over the frame.
+/// Maximum number of notes that are placed; the others are only counted.
 const MOST: usize = 200;
-/// Places from which a note would have to point that are tried, the nearest first: one that finds none there is only counted. Where
-/// everything near is crowded the whole frame took seconds for each note, and what points from afar is read by nobody.
+/// Maximum number of candidate positions that are checked for pointers, in order of cost. This bounds the time in
+/// crowded frames.
 const TRIED: usize = 10_000;
 
-/// Gives the notes of a panel their places; how many have found none is told inside the frame or, where even that has no room, below it.
+/// Finds positions for the notes of a panel. The number of notes left out appears inside the frame, or in the label
+/// of the x axis if there is no room.
 pub(crate) fn place(panel: &mut Placed<'_, '_>, sizes: Sizes) -> Result<(), PlotError> {
     let notes = &panel.panel.notes;
     if notes.is_empty() || panel.empty {
@@ -61,7 +62,7 @@ pub(crate) fn place(panel: &mut Placed<'_, '_>, sizes: Sizes) -> Result<(), Plot
         let corner = (panel.x.end(), panel.y.end());
         let note = Note { lines: vec![Label::plain(&words)], about: [corner; 2], on: None, ink: None };
         match board.set(panel, &note)? {
-            // It names nothing that is there.
+            // The note names no part of the drawing.
             Some(note) => placed.push(PlacedNote { pointer: None, ..note }),
             None => panel.x.label = panel.x.label.clone().followed_by(&format!("; {} left out", panel.lost)),
         }
@@ -70,25 +71,25 @@ pub(crate) fn place(panel: &mut Placed<'_, '_>, sizes: Sizes) -> Result<(), Plot
     Ok(())
 }
 
-/// The frame in cells, and what lies on them.
+/// Grid of cells over the frame, with what covers them.
 struct Board {
     frame: Area,
     em: f64,
     columns: usize,
     rows: usize,
-    /// Whether a line or a text lies on a cell.
+    /// Whether a line or a text covers the cell.
     taken: Vec<bool>,
-    /// Whether a text does.
+    /// Whether a text covers the cell.
     texts: Vec<bool>,
-    /// The topmost shape on a cell, counted from 1; 0: none.
+    /// Topmost shape on the cell, counted from 1; 0 for none.
     shapes: Vec<usize>,
 }
 
-/// A text on its way to a place, cells.
+/// Text to be placed; its size in cells.
 struct Text {
     width: usize,
     height: usize,
-    /// What it names, px.
+    /// Rectangle of the named part, px.
     about: Area,
 }
 
@@ -119,7 +120,7 @@ impl Board {
         board
     }
 
-    /// Finds the best place of a note and takes it; none where there is none.
+    /// Places a note at the best position and marks its cells; `None` if there is no free position.
     fn set(&mut self, panel: &Placed<'_, '_>, note: &Note) -> Result<Option<PlacedNote>, PlotError> {
         let em = self.em;
         let mut lines = Vec::new();
@@ -152,7 +153,7 @@ impl Board {
         Ok(Some(PlacedNote { em, lines: lines.collect(), pointer, ink: note.ink }))
     }
 
-    /// The cheapest place at which nothing is covered: column and row of the top left cell.
+    /// Free position with the lowest cost, as column and row of the top left cell.
     fn search(&self, text: &Text, on: Option<usize>) -> Option<(usize, usize)> {
         let own = on.map_or(0, |place| place + 1);
         let taken = Sums::new(self, |cell| self.taken[cell]);
@@ -184,7 +185,7 @@ impl Board {
         best.map(|(_, at)| at)
     }
 
-    /// What a place costs for its distance, em.
+    /// Cost of a position for its distance from the named part, em.
     fn cost(&self, text: &Text, at: (usize, usize)) -> f64 {
         let area = self.area(text, at);
         let away = distance(area, text.about) / self.em;
@@ -193,14 +194,14 @@ impl Board {
         away + CENTRED * off + if away > FAR { POINTING } else { 0.0 }
     }
 
-    /// The rectangle of a text, px.
+    /// Rectangle of a text at a position, px.
     fn area(&self, text: &Text, (column, row): (usize, usize)) -> Area {
         let cell = self.em / FINENESS;
         let (left, top) = (self.frame.left + column as f64 * cell, self.frame.top + row as f64 * cell);
         Area { left, top, width: text.width as f64 * cell, height: text.height as f64 * cell }
     }
 
-    /// From a text to what it names, where that is far.
+    /// Pointer from a text to the named part; `None` if they are close.
     fn pointer(&self, text: Area, about: Area) -> Option<[Point; 2]> {
         let end = nearest(about, centre(text));
         let inner = CLEAR * self.em;
@@ -209,7 +210,7 @@ impl Board {
         (distance(text, about) > FAR * self.em).then(|| [nearest(text_alone, end), end])
     }
 
-    /// How many lines a pointer crosses or meets; none if it crosses a text.
+    /// Number of lines that a pointer crosses; `None` if it crosses a text.
     fn crossed(&self, pointer: [Point; 2]) -> Option<usize> {
         let (mut crossed, mut was_taken) = (0, false);
         for cell in self.cells(pointer) {
@@ -227,10 +228,10 @@ impl Board {
         cells.into_iter().for_each(|cell| self.taken[cell] = true);
     }
 
-    /// The cells along a line, inside the frame.
+    /// Cells along a line, inside the frame.
     fn cells(&self, [from, to]: [Point; 2]) -> impl Iterator<Item = usize> + '_ {
         let cell = self.em / FINENESS;
-        // No line that can be seen is longer than both sides of the frame together.
+        // No visible line is longer than both sides of the frame together.
         let most = 4.0 * (self.columns + self.rows) as f64;
         let steps = (2.0 * math::hypot(to.0 - from.0, to.1 - from.1) / cell).ceil().clamp(1.0, most) as usize;
         (0..=steps).filter_map(move |k| {
@@ -242,7 +243,7 @@ impl Board {
         })
     }
 
-    /// Marks the cells whose middles lie inside a polygon, by the even-odd rule.
+    /// Marks the cells whose centres are inside a polygon, by the even-odd rule.
     fn pave(&mut self, corners: &[Point], mark: usize) {
         let cell = self.em / FINENESS;
         for row in 0..self.rows {
@@ -262,7 +263,7 @@ impl Board {
     }
 }
 
-/// Numbers of marked cells in all rectangles that begin at the first cell.
+/// Summed-area table: numbers of marked cells in all rectangles that begin at the first cell.
 struct Sums {
     width: usize,
     sums: Vec<u32>,
@@ -293,12 +294,12 @@ fn centre(area: Area) -> Point {
     (area.left + area.width / 2.0, area.top + area.height / 2.0)
 }
 
-/// The point of a rectangle nearest to another point.
+/// Point of a rectangle that is nearest to a given point.
 fn nearest(area: Area, (x, y): Point) -> Point {
     (x.max(area.left).min(area.left + area.width), y.max(area.top).min(area.top + area.height))
 }
 
-/// How far two rectangles are apart.
+/// Distance between two rectangles.
 fn distance(a: Area, b: Area) -> f64 {
     let gap = |a: (f64, f64), b: (f64, f64)| (a.0 - b.0 - b.1).max(b.0 - a.0 - a.1).max(0.0);
     math::hypot(gap((a.left, a.width), (b.left, b.width)), gap((a.top, a.height), (b.top, b.height)))

@@ -1,4 +1,4 @@
-//! A motion that repeats itself, and how it comes back when it is disturbed.
+//! Periodic orbit and its Floquet multipliers.
 
 use crate::Label;
 use crate::figure::{Arrangement, Figure};
@@ -6,32 +6,32 @@ use crate::panel::{Axis, Panel, Series};
 use crate::theme::{Dash, Ink, Style};
 use crate::trajectory::Track;
 
-/// Points of the unit circle.
+/// Number of points of the unit circle.
 const POINTS: u32 = 181;
-/// What the circle's panel shows of the plane at least.
+/// Minimum half-range of the axes of the unit circle.
 const REACH: f64 = 1.05;
-/// So near to the circle a multiplier is on it.
+/// Tolerance of |λ| - 1 within which a multiplier is on the unit circle.
 const NEUTRAL: f64 = 1e-6;
 
-/// One period of a motion that repeats itself.
+/// One period of a periodic orbit.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct OrbitCourse<'a> {
-    /// Time since the period began, s.
+    /// Time since the start of the period, s.
     pub time: &'a [f64],
-    /// What leads, m.
+    /// Positions of the feet, m.
     pub feet: Vec<Track<'a>>,
-    /// What follows, without the way that it goes on in a period, m.
+    /// Positions of the sliders without the drift of one step length per period, m.
     pub sliders: Vec<Track<'a>>,
-    /// Their velocities, m/s.
+    /// Velocities of the sliders, m/s.
     pub speeds: Vec<Track<'a>>,
-    /// Forces of the contacts, N.
+    /// Tangential forces of the contacts, N.
     pub forces: Vec<Track<'a>>,
-    /// Floquet multipliers, both of each pair.
+    /// Floquet multipliers (real, imaginary part); complex pairs as two entries.
     pub multipliers: Vec<(f64, f64)>,
 }
 
-/// Places, velocities and forces over one period, and the multipliers in the unit circle: what lies within fades, what lies outside
-/// grows.
+/// Draws positions, velocities and forces over one period, and the Floquet multipliers in the complex plane with the
+/// unit circle. Multipliers outside the circle have another colour: their disturbances grow.
 pub fn orbit_figure<'a>(title: &str, course: &OrbitCourse<'a>) -> Figure<'a> {
     let time = Axis { tight: true, ..Axis::new(Label::plain("time t"), "s") };
     let track = |track: &Track<'a>, ink, dash, width| Series {
@@ -63,7 +63,7 @@ pub fn orbit_figure<'a>(title: &str, course: &OrbitCourse<'a>) -> Figure<'a> {
         .with_room_for_legends()
 }
 
-/// Multipliers by what becomes of a disturbance.
+/// Panel of the multipliers, grouped by stability.
 fn circle(multipliers: &[(f64, f64)]) -> Panel<'static> {
     let angles = (0..POINTS).map(|k| std::f64::consts::TAU * f64::from(k) / f64::from(POINTS - 1));
     let (x, y): (Vec<f64>, Vec<f64>) = angles.map(|angle| (math::cos(angle), math::sin(angle))).unzip();
@@ -72,9 +72,9 @@ fn circle(multipliers: &[(f64, f64)]) -> Panel<'static> {
         ..Series::new("", x, y)
     }];
     let grows = |(re, im): &(f64, f64)| math::hypot(*re, *im) > 1.0 + NEUTRAL;
-    for (place, (name, outside)) in [("fades or stays", false), ("grows", true)].into_iter().enumerate() {
+    for (place, (name, outside)) in [("decays or neutral", false), ("grows", true)].into_iter().enumerate() {
         let points = multipliers.iter().filter(|multiplier| grows(multiplier) == outside);
-        // Gaps between: they are points, and no line.
+        // Gaps prevent connecting lines.
         let (x, y): (Vec<f64>, Vec<f64>) = points.flat_map(|it| [*it, (f64::NAN, f64::NAN)]).unzip();
         if !x.is_empty() {
             let style = Style { ink: Some(Ink::Palette(place)), dash: Some(Dash::Solid), width: 1.6 };

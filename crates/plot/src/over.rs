@@ -1,4 +1,4 @@
-//! Figures of several results over each other.
+//! Overlays of several results in one figure.
 
 use crate::Label;
 use crate::figure::Figure;
@@ -6,13 +6,15 @@ use crate::panel::{Band, Mosaic, Panel, Reference, Series};
 use crate::theme::{Dash, Ink, Style};
 use std::borrow::Cow;
 
-/// Width of a curve among many.
+/// Width of a curve in an overlay, as a multiple of the usual width.
 const FINE: f64 = 0.75;
 
-/// The curves of figures of one kind in one: each figure has a colour, named in the legend, its curves told apart by
-/// dashes. What is pale in a figure, for it came before, is left out, and so is what stands behind in all but the first. Lines of
-/// one name that lie elsewhere in another figure are named after theirs. Panels that not all figures have are left out. None where these are
-/// all, or none of them has curves.
+/// Overlays the curves of figures of the same kind. Each figure has a colour and a legend entry; its curves differ in
+/// dashes.
+///
+/// Pale curves are left out, and muted ones are taken from the first figure only. Reference lines that differ between
+/// figures are named after their figure. Panels that not all figures have are left out. Returns `None` if no panel
+/// with curves remains.
 pub fn overlaid<'a>(title: &str, figures: &[(String, Figure<'a>)]) -> Option<Figure<'a>> {
     let (_, first) = figures.first()?;
     let of_all = |place: usize| -> Option<Vec<(&str, Panel<'a>)>> {
@@ -22,17 +24,18 @@ pub fn overlaid<'a>(title: &str, figures: &[(String, Figure<'a>)]) -> Option<Fig
     if panels.iter().all(|panel| panel.series.is_empty()) {
         return None;
     }
-    // They stand as in a figure that has no others.
+    // The arrangement is that of a figure with just these panels.
     let mut all = figures.iter().map(|(_, figure)| figure);
     let stands = all.find(|figure| figure.panels.len() == panels.len()).unwrap_or(first).clone();
     Some(Figure { title: Label::plain(title), panels, provenance: Vec::new(), ..stands })
 }
 
-/// The panel of a figure that shows what one of the first figure does: of several the one in the same place among them.
+/// Panel of a figure that shows the same quantities as panel `place` of the first figure. Among several it is the one
+/// at the same rank.
 fn like<'a>(figure: &Figure<'a>, first: &Figure<'a>, place: usize) -> Option<Panel<'a>> {
     let shown = |panel: &Panel<'_>| {
         let [x, y] = [&panel.x, &panel.y].map(|axis| (axis.label.text(), axis.unit.clone()));
-        // A stretch is enlarged beside the whole.
+        // An enlarged time range is a panel of its own kind.
         (x, y, panel.x.covers.is_some())
     };
     let own = shown(&first.panels[place]);
@@ -40,7 +43,7 @@ fn like<'a>(figure: &Figure<'a>, first: &Figure<'a>, place: usize) -> Option<Pan
     figure.panels.iter().filter(|panel| shown(panel) == own).nth(before).cloned()
 }
 
-/// Panels that show the same, each under the name of its figure, in one.
+/// Overlays panels of the same quantities, each with the name of its figure.
 fn panel<'a>(panels: Vec<(&str, Panel<'a>)>) -> Panel<'a> {
     let mut all: Panel<'a> = panels.first().map(|(_, panel)| panel.clone()).unwrap_or_default();
     (all.series, all.bands, all.references) = (Vec::new(), Vec::new(), Vec::new());
@@ -48,7 +51,7 @@ fn panel<'a>(panels: Vec<(&str, Panel<'a>)>) -> Panel<'a> {
     let differ = differing(&panels);
     let others = panels.iter().skip(1).map(|(_, panel)| panel.series.clone()).collect::<Vec<_>>();
     for (result, (name, panel)) in panels.into_iter().enumerate() {
-        // Another scale is another axis.
+        // Second axes are kept only if all panels have the same.
         all.top = all.top.filter(|top| panel.top.as_ref() == Some(top));
         all.right = all.right.filter(|right| panel.right.as_ref() == Some(right));
         for reference in panel.references {
@@ -61,7 +64,7 @@ fn panel<'a>(panels: Vec<(&str, Panel<'a>)>) -> Panel<'a> {
         let (behind, shown): (Vec<_>, Vec<_>) =
             panel.series.into_iter().partition(|series| series.style.ink == Some(Ink::Muted));
         if result == 0 {
-            // What is not the same in all is that of the first.
+            // Muted curves that differ between the results carry the name of the first.
             let own = |series: Series<'a>| {
                 let is_of_all = others.iter().all(|other| other.contains(&series));
                 if is_of_all { series } else { Series { label: named(name, &series), ..series } }
@@ -80,7 +83,7 @@ fn panel<'a>(panels: Vec<(&str, Panel<'a>)>) -> Panel<'a> {
     all
 }
 
-/// The name of a curve among those of other figures.
+/// Legend entry of a curve: name of the figure, and of the curve if it has one.
 fn named(name: &str, series: &Series<'_>) -> Label {
     match series.label.text() {
         label if label.is_empty() => Label::plain(name),
@@ -88,7 +91,7 @@ fn named(name: &str, series: &Series<'_>) -> Label {
     }
 }
 
-/// Names of lines that lie elsewhere in some panels than in the first.
+/// Names of reference lines that are not the same in all panels.
 fn differing(panels: &[(&str, Panel<'_>)]) -> Vec<String> {
     let first = panels.first().map(|(_, panel)| &panel.references[..]).unwrap_or_default();
     let others = panels.iter().skip(1).flat_map(|(_, panel)| &panel.references);
@@ -97,7 +100,7 @@ fn differing(panels: &[(&str, Panel<'_>)]) -> Vec<String> {
 }
 
 impl Reference {
-    /// The line of a result among those of others.
+    /// Adds the name of a result to that of a reference line.
     fn of(self, name: &str) -> Self {
         let named = |label: Label| label.followed_by(&format!(" of {name}"));
         match self {
@@ -108,7 +111,7 @@ impl Reference {
 }
 
 impl Figure<'_> {
-    /// The figure with numbers of its own.
+    /// Converts borrowed data to owned data.
     pub fn into_owned(self) -> Figure<'static> {
         let panels = self.panels.into_iter().map(owned).collect();
         Figure {

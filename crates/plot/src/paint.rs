@@ -1,4 +1,4 @@
-//! The figure around its data: title, legends, axes, frames.
+//! Drawing of title, legends, axes and frames.
 
 use crate::PlotError;
 use crate::canvas::{Anchor, Canvas};
@@ -14,7 +14,7 @@ use crate::theme::{Dash, Stroke, Theme};
 use crate::thin::Point;
 use plotters_backend::DrawingBackend;
 
-/// Draws the figure in its layout, over its background and the images of its mosaics.
+/// Draws a figure with its layout, on top of the background and the mosaic images.
 pub(crate) fn paint<B: DrawingBackend>(
     backend: &mut B,
     figure: &Figure<'_>,
@@ -38,7 +38,7 @@ pub(crate) fn paint<B: DrawingBackend>(
     Ok(painter.canvas.backend.present()?)
 }
 
-/// The images of the figure's mosaics and where they lie, `density` pixels of the image per pixel of the figure.
+/// Images of the mosaics with their frames, at `density` image pixels per px of the figure.
 pub(crate) fn mosaics<'l>(
     layout: &'l Layout<'_, '_>,
     theme: &'l Theme,
@@ -54,7 +54,7 @@ pub(crate) fn mosaics<'l>(
     })
 }
 
-/// A canvas with the figure's colours and sizes.
+/// Canvas with the colours and sizes of a figure.
 pub(crate) struct Painter<'c, B> {
     pub(crate) canvas: Canvas<'c, B>,
     pub(crate) theme: &'c Theme,
@@ -71,7 +71,7 @@ impl<B: DrawingBackend> Painter<'_, B> {
         Ok(())
     }
 
-    /// Grid, ticks, numbers and labels.
+    /// Draws grid, ticks, numbers and labels.
     fn axes(&mut self, place: &Placed<'_, '_>) -> Result<(), PlotError> {
         self.x_axis(place)?;
         self.beside(place)?;
@@ -95,7 +95,7 @@ impl<B: DrawingBackend> Painter<'_, B> {
         if !place.numbered.0 {
             return Ok(());
         }
-        // Right of the upright label, which may reach down here.
+        // The label starts right of the label of the y axis, which may extend down to here.
         let (start, end) = (place.numbers_left, place.cell.left + place.cell.width);
         let (label, em) = place.x.label.fitted(&place.x.unit, sizes.label, end - start)?;
         let baseline = bottom + sizes.mark + 1.45 * sizes.tick + 0.85 * sizes.label;
@@ -120,7 +120,7 @@ impl<B: DrawingBackend> Painter<'_, B> {
         if !place.numbered.1 {
             return Ok(());
         }
-        // Beside heading and legend too, unless the legend stands this far left.
+        // The label may extend along heading and legend, unless the legend is as far left as the label.
         let beside_legend = place.legend.1.0 >= place.numbers_left;
         let start = if beside_legend { place.cell.top } else { frame.top };
         let end = place.cell.top + place.cell.height;
@@ -129,7 +129,7 @@ impl<B: DrawingBackend> Painter<'_, B> {
         self.canvas.upright(&label, em, (place.numbers_left - 0.45 * sizes.label, centre))
     }
 
-    /// Names and notes of lanes.
+    /// Draws names and notes of the lanes.
     fn names(&mut self, place: &Placed<'_, '_>) -> Result<(), PlotError> {
         let (sizes, frame, em) = (self.sizes, place.frame, place.names.em);
         let (end, start) =
@@ -167,7 +167,7 @@ impl<B: DrawingBackend> Painter<'_, B> {
         Ok(())
     }
 
-    /// What stands before a name; the point is the middle of its left edge.
+    /// Draws the symbol of a legend entry; the point is the middle of its left edge.
     fn sample(&mut self, sample: Sample, (left, middle): Point) -> Result<(), PlotError> {
         let em = self.sizes.tick;
         let width = sample.width(em);
@@ -197,15 +197,15 @@ impl<B: DrawingBackend> Painter<'_, B> {
     }
 }
 
-/// Cells hide a grid, and texts are read better without.
+/// Whether a panel has a grid: not with a mosaic, which would hide it, and not with notes.
 fn has_grid(panel: &Panel<'_>) -> bool {
     panel.mosaic.is_none() && panel.notes.is_empty()
 }
 
-/// Radius of a point that is a series of its own, in widths of its line.
+/// Radius of an isolated point, in line widths.
 pub(crate) const DOT: f64 = 1.6;
 
-/// Centre of a label of some length: the middle of its frame, moved as little as keeps it between two ends.
+/// Centre of a label: the middle of its frame, shifted as little as necessary to lie between two ends.
 fn centred(middle: f64, (start, end): (f64, f64), length: f64) -> f64 {
     let half = (length / 2.0).min((end - start) / 2.0).max(0.0);
     middle.min(end - half).max(start + half)

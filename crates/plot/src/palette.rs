@@ -1,46 +1,47 @@
-//! Pictures of few colours: a byte for every pixel instead of three.
+//! Indexed images: one byte per pixel instead of three.
 //!
-//! Line art has few colours: inks, and what smoothing leaves between two of them. A third of the bytes is compressed in a
-//! tenth of the work.
+//! Line art has few colours, mainly inks and their mixtures from anti-aliasing. Indexed images compress faster and
+//! smaller.
 
 /// Red, green, blue.
 pub(crate) type Rgb = [u8; 3];
 
-/// A colour in one word, red lowest; the highest byte is the same for all pixels of a picture.
+/// Colour as an integer with red in the lowest byte. The highest byte is the same for all pixels of an image.
 pub(crate) type Word = u32;
 
-/// Most colours of a palette.
+/// Maximum number of palette colours.
 const MOST: usize = 256;
-/// How far a colour may be from what stands for it, per channel: where several smoothed lines cross, a few pixels have
-/// mixtures of their own, which nobody tells from their neighbours.
+/// Maximum difference of a colour from its palette colour per channel, in increasing steps. Mixed colours of crossing
+/// lines are merged within this difference.
 const NEAR: [u8; 4] = [1, 2, 4, 6];
 
-/// A picture with a table of its colours.
+/// Image with a colour palette.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Indexed {
-    /// The colours, at most 256.
+    /// Palette of at most 256 colours.
     pub(crate) palette: Vec<Rgb>,
-    /// The place of every pixel's colour in the palette, row by row.
+    /// Palette index of each pixel, row by row.
     pub(crate) pixels: Vec<u8>,
 }
 
-/// Slots of the table of colours, a power of two; more than half as many colours are too many for a palette.
+/// Number of slots of the hash table, a power of two. A picture with more than half as many colours has no palette.
 const SLOTS: usize = 1 << 14;
-/// An odd number near 2³² over the golden ratio (Knuth, The Art of Computer Programming 3, 6.4): spreads colours over the slots.
+/// Multiplier of the hash function, an odd number near 2³² divided by the golden ratio (Knuth, The Art of Computer
+/// Programming 3, 6.4).
 const SPREAD: u32 = 0x9E37_79B1;
 
-/// Counts and numbers the colours of a picture. The table is our own: the library's, safe against made-up keys, took as long as
-/// all painting.
+/// Hash table that counts and numbers the colours of a picture. It is faster than that of the standard library, which
+/// resists collision attacks.
 struct Colours {
-    /// The number of the colour in each slot, from 1; 0 where there is none.
+    /// Number of the colour in each slot, from 1; 0 for an empty slot.
     slots: Vec<u16>,
-    /// Every colour with the number of runs of pixels that it has.
+    /// Colours, each with the number of its runs of pixels.
     found: Vec<(Word, u32)>,
 }
 
 impl Indexed {
-    /// Of so many pixels of a picture. Up to 256 colours are kept as they are; of more, near ones become one, most frequent
-    /// first. None where that does not do.
+    /// Creates an indexed image from `count` pixels. Up to 256 colours are kept exactly; otherwise similar ones are
+    /// merged, the most frequent first. Returns `None` if too many colours remain.
     pub(crate) fn new(count: usize, pixels: impl Iterator<Item = Word> + Clone) -> Option<Self> {
         if let Some((colours, pixels)) = Colours::number::<u8>(count, pixels.clone()) {
             let palette = colours.found.iter().map(|(colour, _)| rgb(*colour)).collect();
@@ -54,7 +55,8 @@ impl Indexed {
 }
 
 impl Colours {
-    /// The number of every pixel's colour, in order of appearance; none of more colours than the numbers tell apart.
+    /// Numbers the colours in order of appearance. Returns `None` if there are more than the table or the number type
+    /// allows.
     fn number<N: Copy + Default + TryFrom<u16>>(
         count: usize,
         pixels: impl Iterator<Item = Word>,
@@ -63,7 +65,7 @@ impl Colours {
         let mut numbered = vec![N::default(); count];
         let (mut last, mut number) = (None, N::default());
         for (pixel, colour) in numbered.iter_mut().zip(pixels) {
-            // Most pixels are like the one before.
+            // Most pixels equal the previous one.
             if last != Some(colour) {
                 (last, number) = (Some(colour), N::try_from(colours.take(colour)?).ok()?);
             }
@@ -90,14 +92,15 @@ impl Colours {
         Some(number)
     }
 
-    /// A palette, and for every colour its place there.
+    /// Palette, and the palette index of each colour.
     fn palette(&self) -> Option<(Vec<Rgb>, Vec<u8>)> {
         let mut order: Vec<usize> = (0..self.found.len()).collect();
         order.sort_by_key(|&number| (std::cmp::Reverse(self.found[number].1), self.found[number].0));
         NEAR.into_iter().find_map(|near| self.merged(&order, near))
     }
 
-    /// The same with colours no farther than `near` from one before them in its place.
+    /// Palette in which each colour is merged with the nearest earlier one if they differ by at most `near`. `None`
+    /// if more than 256 colours remain.
     fn merged(&self, order: &[usize], near: u8) -> Option<(Vec<Rgb>, Vec<u8>)> {
         let mut palette: Vec<Rgb> = Vec::new();
         let mut places = vec![0; self.found.len()];
@@ -119,7 +122,7 @@ impl Colours {
     }
 }
 
-/// A colour as one word.
+/// Converts a colour to an integer.
 pub(crate) fn word([r, g, b]: Rgb) -> Word {
     u32::from_le_bytes([r, g, b, 255])
 }
@@ -144,7 +147,7 @@ mod tests {
 
     #[test]
     fn as_many_colours_as_a_palette_has_stay_as_they_are() {
-        // Neighbours in grey, which would be merged if there were one more.
+        // 256 similar greys, which are merged only if there is one more colour.
         let greys: Vec<Rgb> = (0..=255).map(|grey| [grey; 3]).collect();
         let drawn = indexed(&greys).unwrap();
         assert_eq!((drawn.palette.len(), colours(&drawn)), (256, greys.clone()));
@@ -160,7 +163,7 @@ mod tests {
     }
 
     proptest! {
-        /// No pixel is farther from its colour than the last of the steps.
+        /// No pixel differs from its colour by more than the largest step.
         #[test]
         fn colours_stay_near(
             pixels in proptest::collection::vec((0..40_u8, 100..160_u8, 0..2_u8), 1..3000)

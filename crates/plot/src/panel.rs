@@ -1,102 +1,101 @@
-//! A panel: axes and what is drawn between them.
+//! Panel: axes and the data between them.
 
 use crate::{Ink, Label, PlotError, Style};
 use std::borrow::Cow;
 
-/// One pair of axes and what lies between them, from the bottom up: mosaic, grid, bands, shapes, reference lines,
-/// series, notes.
+/// One pair of axes with its data. Drawn from back to front: mosaic, grid, bands, shapes, reference lines, series,
+/// notes.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Panel<'a> {
-    /// Heading above the frame; none where empty.
+    /// Heading above the frame; empty for none.
     pub heading: Label,
     /// Horizontal axis.
     pub x: Axis,
     /// Vertical axis.
     pub y: Axis,
-    /// Cells that pave the frame.
+    /// Coloured cells that fill the frame.
     pub mosaic: Option<Mosaic<'a>>,
-    /// Filled areas, the later over the earlier.
+    /// Filled areas between curves; later ones are drawn on top.
     pub bands: Vec<Band<'a>>,
-    /// Filled polygons, the later over the earlier.
+    /// Filled polygons; later ones are drawn on top.
     pub shapes: Vec<Shape>,
-    /// Series, the later over the earlier.
+    /// Curves; later ones are drawn on top.
     pub series: Vec<Series<'a>>,
-    /// Reference lines, below the series and always inside the range.
+    /// Reference lines, drawn behind the series. The axis range includes them.
     pub references: Vec<Reference>,
-    /// Texts inside the frame, the more important first. Where there are any there is no grid, and the later of two
-    /// notes gives way.
+    /// Texts inside the frame, in order of decreasing importance. A panel with notes has no grid.
     pub notes: Vec<Note>,
-    /// Lanes of marks, from the top down. Where there are any, their labels take the place of the y axis, and
-    /// nothing else is drawn but vertical reference lines.
+    /// Rows of marks, from top to bottom. Their names replace the y axis. A panel with lanes shows no other data
+    /// except vertical reference lines.
     pub lanes: Vec<Lane>,
-    /// What is said where there is nothing to show; "no data" where empty.
+    /// Message if there is no data; "no data" if empty.
     pub absence: Label,
-    /// The horizontal axis in other units, above the frame.
+    /// Second horizontal axis in other units, above the frame.
     pub top: Option<Rescaled>,
-    /// The vertical axis in other units, right of the frame.
+    /// Second vertical axis in other units, right of the frame.
     pub right: Option<Rescaled>,
-    /// A stretch of the horizontal axis that another panel shows enlarged: shaded.
+    /// Range of the horizontal axis that another panel enlarges; drawn as a shaded stretch.
     pub enlarged: Option<(f64, f64)>,
-    /// Width over height of the frame; fills its place by default.
+    /// Ratio of width to height of the frame. `None`: the frame fills the available area.
     pub aspect: Option<f64>,
-    /// Share of the figure, relative to the other panels' shares; 1 where not above 0.
+    /// Relative size among the panels; values not above 0 count as 1.
     pub share: f64,
 }
 
-/// An axis. Its range is that of the data and the reference lines.
+/// Axis. Its range covers the data and the reference lines.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Axis {
-    /// What it measures, without unit.
+    /// Name of the quantity, without unit.
     pub label: Label,
-    /// Unit of the numbers in the series, such as "m"; the prefix is chosen by range. Empty: dimensionless.
+    /// Unit of the data, such as "m"; empty if dimensionless. The prefix follows from the range.
     pub unit: String,
-    /// No margin between the data and the ends of the axis.
+    /// Whether the axis ends at the data, without margin.
     pub tight: bool,
-    /// Two values that are shown whatever the data are.
+    /// Two values that the axis range always includes.
     pub covers: Option<(f64, f64)>,
-    /// Neither ticks nor numbers, for what is not to scale.
+    /// Whether ticks and numbers are omitted, for drawings that are not to scale.
     pub unnumbered: bool,
-    /// Decades are as far apart everywhere; values not above 0 are gaps. Series, bands, lanes and reference lines
-    /// alone may stand on such an axis, and mosaics at places above 0.
+    /// Whether the axis is logarithmic. Values not above 0 are then gaps. Allowed for series, bands, lanes, reference
+    /// lines, and mosaics at positions above 0.
     pub logarithmic: bool,
 }
 
-/// A dimensionless axis beside another: the same values as shares of something.
+/// Second, dimensionless axis that shows the same values divided by a constant.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Rescaled {
-    /// What it measures.
+    /// Name of the dimensionless quantity.
     pub label: Label,
-    /// Of what they are shares, in the axis' unit; nothing is shown where it is not above 0.
+    /// Divisor, in the unit of the axis. The second axis is omitted if it is not above 0.
     pub by: f64,
 }
 
 /// One curve.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Series<'a> {
-    /// Name in the legend; none where empty.
+    /// Name in the legend; empty for none.
     pub label: Label,
-    /// Horizontal values, in the axis' unit.
+    /// Horizontal values, in the unit of the axis.
     pub xs: Cow<'a, [f64]>,
-    /// Vertical values, as many. Where either is not finite or beyond ±1e150, the curve has a gap.
+    /// Vertical values, one per horizontal value. Points that are not finite or beyond ±1e150 are gaps.
     pub ys: Cow<'a, [f64]>,
-    /// Colour, dashes and width.
+    /// Colour, dashes and line width.
     pub style: Style,
-    /// Whether every point is marked, where few points were measured.
+    /// Whether every point has a marker.
     pub marked: bool,
-    /// Whether heads of arrows say which way it is run through.
+    /// Whether arrowheads show the direction in which the points follow each other.
     pub directed: bool,
 }
 
-/// The area between two curves over one axis.
+/// Area between two curves over the same horizontal values.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Band<'a> {
-    /// Name in the legend; none where empty.
+    /// Name in the legend; empty for none.
     pub label: Label,
-    /// Horizontal values, in the axis' unit, ascending.
+    /// Horizontal values, in the unit of the axis, ascending.
     pub xs: Cow<'a, [f64]>,
-    /// One edge, as many values; a gap where one of the three is not finite or beyond ±1e150.
+    /// Values of the first edge, one per horizontal value. Points that are not finite or beyond ±1e150 are gaps.
     pub low: Cow<'a, [f64]>,
-    /// The other edge, as many values. It may cross the first.
+    /// Values of the second edge, one per horizontal value. The edges may cross.
     pub high: Cow<'a, [f64]>,
     /// Colour.
     pub ink: Ink,
@@ -105,101 +104,101 @@ pub struct Band<'a> {
 /// A filled polygon.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Shape {
-    /// Name in the legend; none where empty.
+    /// Name in the legend; empty for none.
     pub label: Label,
-    /// Corners in the axes' units; those that are not finite or beyond ±1e150 are left out.
+    /// Corners, in the units of the axes. Corners that are not finite or beyond ±1e150 are left out.
     pub corners: Vec<(f64, f64)>,
     /// Colour.
     pub ink: Ink,
 }
 
-/// A text beside or on what it names: it takes the nearest place at which it covers no line and no other text and
-/// lies on no foreign shape if it can, and points to the thing from further away. Where there is none it is left out,
-/// and counted.
+/// Text inside the frame that names a point or a part of the drawing. It takes the nearest position without overlap
+/// with lines and other notes, if possible also off foreign shapes. A pointer connects distant notes to what they
+/// name. A note without a free position is left out and counted.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Note {
     /// Lines of the text.
     pub lines: Vec<Label>,
-    /// Two opposite corners of what it names, in the axes' units.
+    /// Two opposite corners of the named part, in the units of the axes.
     pub about: [(f64, f64); 2],
-    /// Place in the panel's list of a shape that it may well lie on.
+    /// Index of the shape in [`Panel::shapes`] that the note may cover.
     pub on: Option<usize>,
-    /// Ink of what it names, which the text has, a little nearer to that of other texts; theirs by default.
+    /// Ink of the named part, which the text takes, mixed with the usual text colour. `None`: the usual text colour.
     pub ink: Option<Ink>,
 }
 
-/// Cells of few classes, such as the states of springs over time. A cell reaches half way to its neighbours; the
-/// first and the last column end at their own places, the outer rows reach as far out as in. Where cells are
-/// smaller than a pixel, the pixel shows their colours mixed by area.
+/// Cells of a few classes, such as the states of springs over time. Cell borders lie midway between neighbouring
+/// positions. The first and the last column end at their positions; the outer rows extend equally to both sides of
+/// their positions. A pixel that contains several cells shows their colours mixed by area.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Mosaic<'a> {
-    /// Places of the columns, in the x axis' unit, ascending.
+    /// Positions of the columns, in the unit of the x axis, ascending.
     pub xs: Cow<'a, [f64]>,
-    /// Places of the rows, in the y axis' unit, ascending.
+    /// Positions of the rows, in the unit of the y axis, ascending.
     pub ys: Cow<'a, [f64]>,
-    /// The class of every cell, column by column.
+    /// Class of each cell, column by column.
     pub cells: Cow<'a, [u8]>,
-    /// Name in the legend and colour of every class, at most 256.
+    /// Name in the legend and colour of each class; at most 256 classes.
     pub classes: Vec<(Label, Ink)>,
 }
 
-/// Marks side by side under one name.
+/// Row of marks with a name.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Lane {
-    /// Name, left of the lane; never cut.
+    /// Name, left of the lane. It is wrapped and shrunk where necessary.
     pub label: String,
-    /// What stands right of the lane, such as a count.
+    /// Text right of the lane, such as a count.
     pub note: String,
-    /// The marks.
+    /// Marks of the lane.
     pub marks: Vec<Mark>,
     /// Colour.
     pub ink: Ink,
 }
 
-/// A mark in a lane.
+/// Mark in a lane.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Mark {
-    /// Where it begins, in the axis' unit.
+    /// Start, in the unit of the axis.
     pub from: f64,
-    /// Where it ends; a mark narrower than a line is drawn as one.
+    /// End, in the unit of the axis. A mark narrower than a line is drawn as a line.
     pub to: f64,
-    /// Height as a share of the lane's, 0 to 1.
+    /// Height as a fraction of the lane height, 0 to 1.
     pub height: f64,
 }
 
-/// A straight line across a panel.
+/// Straight reference line across a panel.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Reference {
-    /// At a vertical value.
+    /// Horizontal line.
     Horizontal {
-        /// Value, in the axis' unit.
+        /// Vertical value, in the unit of the axis.
         y: f64,
-        /// Name in the legend; none where empty. Lines of one name share an entry.
+        /// Name in the legend; empty for none. Lines with the same name share an entry.
         label: Label,
     },
-    /// At a horizontal value.
+    /// Vertical line.
     Vertical {
-        /// Value, in the axis' unit.
+        /// Horizontal value, in the unit of the axis.
         x: f64,
-        /// Name in the legend; none where empty. Lines of one name share an entry.
+        /// Name in the legend; empty for none. Lines with the same name share an entry.
         label: Label,
     },
 }
 
 impl Axis {
-    /// An axis with a margin at both ends.
+    /// Creates a linear axis with margins.
     pub fn new(label: Label, unit: &str) -> Self {
         Self { label, unit: unit.to_owned(), ..Self::default() }
     }
 
-    /// What is laid off along the axis for a value: the value, or its power of ten.
+    /// Returns the coordinate along the axis: the value, or its decimal logarithm.
     pub(crate) fn measure(&self, value: f64) -> f64 {
         if self.logarithmic { math::log10(value) } else { value }
     }
 }
 
 impl Reference {
-    /// Its name.
+    /// Name of the line in the legend.
     pub(crate) fn label(&self) -> &Label {
         match self {
             Self::Horizontal { label, .. } | Self::Vertical { label, .. } => label,
@@ -208,7 +207,8 @@ impl Reference {
 }
 
 impl Panel<'_> {
-    /// The place of a reference line's name among those of the panel: lines of one name look alike, and those without like the first.
+    /// Index of a reference line's name among the names in the panel; it selects the line style. 0 for lines without
+    /// a name.
     pub(crate) fn place_of(&self, reference: &Reference) -> usize {
         let mut names: Vec<&Label> = Vec::new();
         for label in self.references.iter().map(Reference::label).filter(|label| !label.is_empty()) {
@@ -219,7 +219,7 @@ impl Panel<'_> {
         names.iter().position(|label| *label == reference.label()).unwrap_or(0)
     }
 
-    /// Whether there is nothing to show.
+    /// Whether the panel has no data.
     pub(crate) fn is_empty(&self) -> bool {
         let series = self.series.iter().all(|series| self.points(series).flatten().next().is_none());
         let bands = self.bands.iter().all(|band| self.columns(band).flatten().next().is_none());
@@ -227,7 +227,7 @@ impl Panel<'_> {
         series && bands && mosaic && self.shapes.is_empty() && self.lanes.is_empty()
     }
 
-    /// The points of one of its series as laid off along the axes, with a gap (none) where one cannot be drawn.
+    /// Points of a series in axis coordinates; `None` for a gap.
     pub(crate) fn points<'p>(
         &'p self,
         series: &'p Series<'_>,
@@ -238,7 +238,7 @@ impl Panel<'_> {
         })
     }
 
-    /// Places and both edges of one of its bands as laid off along the axes, with a gap (none) where one cannot be drawn.
+    /// Horizontal coordinate and both edges of a band in axis coordinates; `None` for a gap.
     pub(crate) fn columns<'p>(
         &'p self,
         band: &'p Band<'_>,
@@ -249,7 +249,7 @@ impl Panel<'_> {
         })
     }
 
-    /// Checks what the types do not; `panel` is the place of this one.
+    /// Checks array lengths and the mosaic; `panel` is the index of this panel for the error.
     pub(crate) fn check(&self, panel: usize) -> Result<(), PlotError> {
         for (series, curve) in self.series.iter().enumerate() {
             let (xs, ys) = (curve.xs.len(), curve.ys.len());
@@ -271,14 +271,14 @@ impl Panel<'_> {
 }
 
 impl Shape {
-    /// The corners that can be drawn.
+    /// Corners with drawable coordinates.
     pub(crate) fn drawable(&self) -> impl Iterator<Item = (f64, f64)> + '_ {
         self.corners.iter().copied().filter(|(x, y)| is_drawable(*x) && is_drawable(*y))
     }
 }
 
 impl Mosaic<'_> {
-    /// Whether there is one class for every cell, known, and the places are in order.
+    /// Whether every cell has a known class and the positions are ascending.
     pub(crate) fn is_sound(&self) -> bool {
         let ordered = |places: &[f64]| {
             places.iter().copied().all(is_drawable) && places.windows(2).all(|pair| pair[0] <= pair[1])
@@ -291,13 +291,13 @@ impl Mosaic<'_> {
     }
 }
 
-/// Whether a value is finite, and differences and squares of such values too.
+/// Whether a value is at most 1e150 in magnitude, so that differences and squares stay finite.
 pub(crate) fn is_drawable(value: f64) -> bool {
     value.abs() <= crate::range::LARGEST
 }
 
 impl<'a> Series<'a> {
-    /// A series in the style of its place in the panel.
+    /// Creates a series in the style of its index in the panel.
     pub fn new(
         label: impl Into<Label>,
         xs: impl Into<Cow<'a, [f64]>>,

@@ -1,4 +1,4 @@
-//! Phase pictures: velocity over displacement.
+//! Phase portraits: velocity over displacement.
 
 use crate::figure::{Arrangement, Figure};
 use crate::panel::{Axis, Panel, Series};
@@ -6,31 +6,31 @@ use crate::theme::{Dash, Ink, Style};
 use crate::{Coordinate, Label};
 use std::ops::Range;
 
-/// The path of a body in one of its coordinates.
+/// Motion of a body in one coordinate.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PhasePath<'a> {
     /// Name of the body.
     pub name: &'a str,
-    /// Which coordinate; none: along the slide.
+    /// Coordinate; `None` along the slide.
     pub coordinate: Option<Coordinate>,
     /// Displacement, m or rad.
     pub displacement: &'a [f64],
-    /// Velocity, m/s or rad/s, as many.
+    /// Velocity, m/s or rad/s, one per displacement.
     pub velocity: &'a [f64],
 }
 
-/// Bodies whose displacements and velocities differ by less than this factor share a panel.
+/// Maximum ratio of displacement and velocity ranges of bodies that share a panel.
 const COMPARABLE: f64 = 8.0;
-/// Cycles from which on the earlier ones may be pale.
+/// Minimum number of full cycles for which earlier cycles are pale.
 const MANY: usize = 3;
-/// A cycle counts when the velocity has been in the lower and in the upper share of its range.
+/// Hysteresis of the cycle count: the velocity must pass the lower and the upper quarter of its range.
 const SWING: f64 = 0.25;
 
 const NOTHING: &str = "nothing moves";
 
-/// Velocity over displacement, one curve per body and coordinate; coordinates and bodies of different reach have panels
-/// of their own. A body has its colour in all of them. Where it goes round and round in one place, all but its last
-/// cycle is pale and lies behind.
+/// Draws velocity over displacement, one curve per body and coordinate. Coordinates and bodies with much larger
+/// ranges have panels of their own. A body has the same colour in all panels. For an oscillation about a fixed
+/// position the cycles before the last full one are pale.
 pub fn phase_figure<'a>(title: &str, paths: &[PhasePath<'a>]) -> Figure<'a> {
     let mut names: Vec<&str> = Vec::new();
     for path in paths {
@@ -72,7 +72,8 @@ fn panel<'a>(group: &[(usize, &PhasePath<'a>)]) -> Panel<'a> {
         series.push(curve(path.name, path, from..path.velocity.len(), Ink::Palette(*place)));
     }
     if let Some(((place, path), _)) = group.iter().zip(&last).find(|(_, from)| **from > 0) {
-        // No points: a name at the end of the legend for what is drawn first.
+        // A series without points at the end of the list: its legend entry comes last, while the pale curves are
+        // drawn first.
         series.push(curve("earlier cycles", path, 0..0, Ink::Pale(*place)));
     }
     let [x, y] = match group.first().and_then(|(_, path)| path.coordinate) {
@@ -105,8 +106,8 @@ fn range(values: &[f64]) -> (f64, f64) {
     finite.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), v| (low.min(v), high.max(v)))
 }
 
-/// Where the last full cycle begins, if most of what came before lies under it; else 0. Cycles are counted where the
-/// velocity, after it was low, becomes high.
+/// Index at which the last full cycle begins if most earlier points are within its displacement range; otherwise 0. A
+/// cycle starts where the velocity becomes high after it was low.
 fn last_cycle(path: &PhasePath<'_>) -> usize {
     let (low, high) = range(path.velocity);
     let (fall, rise) = (low + SWING * (high - low), high - SWING * (high - low));
@@ -133,7 +134,7 @@ mod tests {
 
     #[test]
     fn the_last_cycle_of_a_round_trip_is_found_and_a_journey_has_none() {
-        // Ten rounds of 100 points: high velocity is reached 17 points (60 degrees) after zero, rising.
+        // Ten rounds of 100 points. The velocity becomes high 17 points (60 degrees) after its zero.
         let angle = |i: usize| std::f64::consts::TAU * i as f64 / 100.0;
         let (x, v): (Vec<f64>, Vec<f64>) = (0..1000).map(|i| (-angle(i).cos(), angle(i).sin())).unzip();
         let start = last_cycle(&PhasePath { name: "", coordinate: None, displacement: &x, velocity: &v });

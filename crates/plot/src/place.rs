@@ -1,4 +1,4 @@
-//! Frames and scales of the panels: frames of one figure are aligned and share what the labels leave.
+//! Positions and scales of panels. Frames are aligned and share the area that the labels leave.
 
 use crate::PlotError;
 use crate::beside::Beside;
@@ -11,7 +11,7 @@ use crate::panel::{Axis, Panel};
 use crate::range::{Extent, extents};
 use crate::scale::{Along, Scale};
 
-/// A panel to be placed.
+/// Panel to be placed.
 pub(crate) struct Request<'f, 'a> {
     pub(crate) panel: &'f Panel<'a>,
     /// Lines of its heading.
@@ -19,20 +19,20 @@ pub(crate) struct Request<'f, 'a> {
     pub(crate) legend: Legend,
 }
 
-/// Share of the data range left free at both ends of an axis.
+/// Margin at both ends of an axis, as a fraction of the data range.
 const MARGIN: f64 = 0.04;
-/// A frame smaller than this, em of the tick labels, shows nothing.
+/// Minimum size of a frame and minimum height of a lane, em of the tick labels.
 const LEAST_FRAME: f64 = 3.0;
 const LEAST_LANE: f64 = 1.5;
 /// Heights of a line of tick labels and of an axis label, em.
 pub(crate) const TICK_LINE: f64 = 1.45;
 pub(crate) const LABEL_LINE: f64 = 1.4;
-/// Height of a line of a heading, em of the tick labels.
+/// Height of a heading line, em of the tick labels.
 pub(crate) const HEADING_LINE: f64 = 1.35;
-/// Between two panels, and between a lane and its note, em of the tick labels.
+/// Gap between two panels, and between a lane and its note, em of the tick labels.
 const GAP: f64 = 0.8;
 pub(crate) const NOTE_GAP: f64 = 0.5;
-/// Most that the names of lanes take of the figure's width.
+/// Maximum width of lane names, as a fraction of the figure's width.
 const LANE_NAMES: f64 = 0.3;
 
 /// Places panels in rows and columns of the body.
@@ -51,7 +51,7 @@ pub(crate) fn panels<'f, 'a>(
     let placed = placer.placed;
     for (panel, place) in placed.iter().enumerate() {
         let Area { width, height, .. } = place.frame;
-        // A lane is as high as its name needs.
+        // The height of a lane must fit its name.
         let lanes = placed[panel].panel.lanes.len();
         let least = if lanes > 0 { (lanes as f64 * LEAST_LANE).min(LEAST_FRAME) } else { LEAST_FRAME };
         if width < LEAST_FRAME * sizes.tick || height < least * sizes.tick {
@@ -69,7 +69,7 @@ fn with_scales<'f, 'a>(requests: Vec<Request<'f, 'a>>, arrangement: Arrangement)
         Arrangement::Columns { .. } => (true, false),
     };
     let columns = arrangement.columns(requests.len());
-    // Panels that have an x axis in common: of every so manieth place.
+    // Panels with a common x axis: every `group`-th one.
     let group = if matches!(arrangement, Arrangement::Columns { .. }) { columns } else { 1 };
     let last_row = requests.len().saturating_sub(columns);
     let extents: Vec<(Extent, Extent)> = requests.iter().map(|request| extents(request.panel)).collect();
@@ -108,19 +108,19 @@ fn with_scales<'f, 'a>(requests: Vec<Request<'f, 'a>>, arrangement: Arrangement)
     requests.into_iter().zip(extents.clone()).enumerate().map(place).collect()
 }
 
-/// The panels on their way to their places.
+/// Panels during placement.
 struct Placer<'f, 'a> {
     placed: Vec<Placed<'f, 'a>>,
-    /// The columns' shares of the width, as many as columns.
+    /// Fraction of the width of each column.
     wide: Vec<f64>,
-    /// The rows' shares of the height, as many as rows.
+    /// Fraction of the height of each row.
     high: Vec<f64>,
     sizes: Sizes,
     body: Area,
 }
 
 impl Placer<'_, '_> {
-    /// Tops and heights of frames and cells, ticks of the y axes.
+    /// Sets tops and heights of frames and cells, and the ticks of the y axes.
     fn set_heights(&mut self) -> Result<(), PlotError> {
         let (sizes, body, columns) = (self.sizes, self.body, self.wide.len());
         let row = |i: usize| i / columns;
@@ -141,7 +141,7 @@ impl Placer<'_, '_> {
         Ok(())
     }
 
-    /// Left edges and widths of frames and cells, ticks of the x axes.
+    /// Sets left edges and widths of frames and cells, and the ticks of the x axes.
     fn set_widths(&mut self) -> Result<(), PlotError> {
         let (sizes, columns) = (self.sizes, self.wide.len());
         let column = |i: usize| i % columns;
@@ -151,8 +151,8 @@ impl Placer<'_, '_> {
         let mut left: Vec<f64> = numbers.iter().zip(labels).map(|(numbers, label)| numbers + label).collect();
         let notes = self.placed.iter().map(|place| notes(place, sizes)).collect::<Result<Vec<_>, _>>()?;
         let mut right = most(columns, column, notes.into_iter());
-        // Numbers that stand out beyond the ends of an axis need room, which narrows the frames and moves the
-        // ticks: the second round settles it but for a fraction of a digit.
+        // Numbers beyond the ends of an axis need room, which narrows the frames and changes the ticks. The iteration
+        // converges quickly.
         for _ in 0..3 {
             self.assign_widths(&left, &right);
             for (i, place) in self.placed.iter_mut().enumerate() {
@@ -184,7 +184,8 @@ impl Placer<'_, '_> {
         }
     }
 
-    /// Headings and legends above their frames, legends moved left where they are wider than that.
+    /// Sets the positions of headings and legends above the frames. Legends wider than their frame start further
+    /// left.
     fn set_legends(&mut self) -> Result<(), PlotError> {
         for place in &mut self.placed {
             let (frame, cell) = (place.frame, place.cell);
@@ -198,7 +199,7 @@ impl Placer<'_, '_> {
     }
 }
 
-/// Ticks of the y axis, or names of the lanes.
+/// Sets the ticks of the y axis, or the names of the lanes.
 fn set_y_ticks(place: &mut Placed<'_, '_>, sizes: Sizes, width: f64) -> Result<(), PlotError> {
     if place.panel.lanes.is_empty() {
         place.beside.set_right_ticks(place.frame.height, sizes.tick)?;
@@ -209,7 +210,7 @@ fn set_y_ticks(place: &mut Placed<'_, '_>, sizes: Sizes, width: f64) -> Result<(
     Ok(())
 }
 
-/// Shrinks the frame to its aspect, centred in its place.
+/// Shrinks the frame to its aspect ratio, centred in the available area.
 fn fit_aspect(place: &mut Placed<'_, '_>, sizes: Sizes) -> Result<(), PlotError> {
     let Some(aspect) = place.panel.aspect.filter(|aspect| *aspect > 0.0 && aspect.is_finite()) else {
         return Ok(());
@@ -223,7 +224,7 @@ fn fit_aspect(place: &mut Placed<'_, '_>, sizes: Sizes) -> Result<(), PlotError>
     set_y_ticks(place, sizes, place.cell.width)
 }
 
-/// Width of the numbers and ticks left of a frame, px.
+/// Width of numbers and ticks left of a frame, px.
 fn numbers(place: &Placed<'_, '_>, sizes: Sizes) -> Result<f64, PlotError> {
     if !place.numbered.1 {
         return Ok(sizes.mark);
@@ -232,13 +233,13 @@ fn numbers(place: &Placed<'_, '_>, sizes: Sizes) -> Result<f64, PlotError> {
     Ok(sizes.mark + 0.4 * sizes.tick + width)
 }
 
-/// Width of the upright label, px.
+/// Width of the label of the y axis, px.
 fn label_width(place: &Placed<'_, '_>, sizes: Sizes) -> f64 {
     let bare = place.y.label.is_empty() && place.y.unit.is_empty();
     if bare || !place.numbered.1 { 0.0 } else { LABEL_LINE * sizes.label }
 }
 
-/// Width of the notes or the other axis right of a frame, px; a little where there are none.
+/// Width of the notes or the second axis right of a frame, px, with a small minimum.
 fn notes(place: &Placed<'_, '_>, sizes: Sizes) -> Result<f64, PlotError> {
     let least = place.beside.width(sizes)?.max(0.2 * sizes.tick);
     place.panel.lanes.iter().try_fold(least, |most: f64, lane| {
@@ -247,17 +248,17 @@ fn notes(place: &Placed<'_, '_>, sizes: Sizes) -> Result<f64, PlotError> {
     })
 }
 
-/// Height of what stands below a frame, px.
+/// Height of the labels below a frame, px.
 fn below(place: &Placed<'_, '_>, sizes: Sizes) -> f64 {
     if !place.numbered.0 {
-        // The ticks, or half a number of the y axis.
+        // Room for the ticks, or for half a number of the y axis.
         return 0.4 * sizes.tick;
     }
     let bare = place.x.label.is_empty() && place.x.unit.is_empty();
     sizes.mark + TICK_LINE * sizes.tick + if bare { 0.0 } else { LABEL_LINE * sizes.label }
 }
 
-/// Height of what stands above a frame, px: heading, legend, the other axis and a gap, which half a number of the y axis may fill.
+/// Height above a frame, px: heading, legend, second axis, and a gap for half a number of the y axis.
 fn above(place: &Placed<'_, '_>, sizes: Sizes) -> f64 {
     let texts = heading_height(place, sizes) + place.legend.0.height(sizes.tick);
     texts + place.beside.height(sizes) + 0.4 * sizes.tick
@@ -267,7 +268,7 @@ fn heading_height(place: &Placed<'_, '_>, sizes: Sizes) -> f64 {
     place.heading.0.len() as f64 * HEADING_LINE * sizes.tick
 }
 
-/// The largest value of every group, 0 at the least.
+/// Maximum of each group, at least 0.
 fn most(groups: usize, group: impl Fn(usize) -> usize, values: impl Iterator<Item = f64>) -> Vec<f64> {
     let mut most = vec![0.0_f64; groups];
     for (i, value) in values.enumerate() {

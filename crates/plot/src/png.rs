@@ -1,4 +1,4 @@
-//! Figures as PNG, with what they come from in text chunks.
+//! PNG output with metadata in text chunks.
 
 use crate::carried::{LONG_TEXT, MOST_TEXT, texts};
 use crate::layout::Layout;
@@ -10,15 +10,16 @@ use crate::{Figure, PlotError};
 use png::text_metadata::{ITXtChunk, TEXtChunk, ZTXtChunk};
 use std::io::{Cursor, Write};
 
-/// Level of compression, 1 to 9. Of a picture of quickstart (1.6 million pixels), level 2 makes 41 kB in 12 million
-/// instructions, level 4 39 kB in 22 million, level 6 36 kB in 44 million, level 9 32 kB in 220 million.
+/// Compression level, 1 to 9. Higher levels take far longer for little gain.
 const LEVEL: i32 = 4;
 
-/// Draws a figure and encodes it. The title (unless the provenance has one) and the provenance become text chunks:
-/// `tEXt` where Latin-1 suffices, else `iTXt`; beyond a kilobyte both are compressed (`zTXt`, `iTXt`). The same figure gives the same bytes.
+/// Draws a figure as PNG; the same figure gives the same bytes.
+///
+/// Title (unless the provenance has one) and provenance become text chunks: `tEXt` for Latin-1, otherwise `iTXt`.
+/// Texts beyond 1 KiB are compressed (`zTXt`, `iTXt`).
 ///
 /// # Errors
-/// A figure that cannot be drawn, see [`PlotError`]; a provenance key that PNG does not allow.
+/// If the figure cannot be drawn, see [`PlotError`], or if PNG does not allow a provenance key.
 pub fn draw_png(figure: &Figure<'_>) -> Result<Vec<u8>, PlotError> {
     let raster = pixels(figure)?;
     let (width, height) = figure.size;
@@ -36,11 +37,11 @@ pub fn draw_png(figure: &Figure<'_>) -> Result<Vec<u8>, PlotError> {
     Ok(bytes)
 }
 
-/// Draws figures of one size one after the other as an animated PNG, `delay` (ms) each, for ever: one file, which viewers
-/// without animation show as its first figure. Texts are those of the first.
+/// Draws figures of the same size as an endless animated PNG with `delay` ms per frame. Viewers without animation
+/// show the first figure. The metadata are those of the first figure.
 ///
 /// # Errors
-/// No figure, figures of different sizes, or one that cannot be drawn.
+/// If there are no figures, if their sizes differ, or if one cannot be drawn.
 pub fn draw_animation(figures: &[Figure<'_>], delay: u16) -> Result<Vec<u8>, PlotError> {
     let Some(first) = figures.first() else { return Err(PlotError::NoPanels) };
     if let Some(other) = figures.iter().find(|figure| figure.size != first.size) {
@@ -50,7 +51,7 @@ pub fn draw_animation(figures: &[Figure<'_>], delay: u16) -> Result<Vec<u8>, Plo
     let frames = figures.iter().map(pixels).collect::<Result<Vec<_>, _>>()?;
     let (width, height) = first.size;
     let count = frames.len() * width as usize * height as usize;
-    // One palette serves all frames.
+    // All frames share one palette.
     let indexed = Indexed::new(count, frames.iter().flat_map(Raster::colours));
     let mut bytes = Vec::new();
     let mut encoder = encoder(&mut bytes, first.size, indexed.as_ref());
@@ -70,7 +71,7 @@ pub fn draw_animation(figures: &[Figure<'_>], delay: u16) -> Result<Vec<u8>, Plo
     Ok(bytes)
 }
 
-/// A figure in pixels.
+/// Renders a figure as a bitmap.
 fn pixels(figure: &Figure<'_>) -> Result<Raster, PlotError> {
     let layout = Layout::new(figure)?;
     let (width, height) = figure.size;
@@ -83,11 +84,11 @@ fn pixels(figure: &Figure<'_>) -> Result<Raster, PlotError> {
     Ok(raster)
 }
 
-/// The text chunks, compressed or not: first what is Latin-1 as it stands, then what is compressed, then what is
-/// Unicode, each kind in its order.
+/// Returns the text chunks: first uncompressed Latin-1 (`tEXt`), then compressed Latin-1 (`zTXt`), then Unicode
+/// (`iTXt`).
 pub(crate) fn read_png(bytes: &[u8]) -> Result<Vec<(String, String)>, PlotError> {
     let mut options = png::DecodeOptions::default();
-    // By default a damaged text is as if it were not there.
+    // By default the decoder ignores damaged texts.
     options.set_skip_ancillary_crc_failures(false);
     let reader = png::Decoder::new_with_options(Cursor::new(bytes), options).read_info()?;
     let info = reader.info();
@@ -106,7 +107,7 @@ pub(crate) fn read_png(bytes: &[u8]) -> Result<Vec<(String, String)>, PlotError>
     Ok(texts)
 }
 
-/// An image as a PNG of its own.
+/// Encodes an image as PNG.
 pub(crate) fn encoded(image: &Image) -> Result<Vec<u8>, PlotError> {
     let size = |side: usize| u32::try_from(side).map_err(|e| PlotError::Png(e.to_string()));
     let indexed = Indexed::new(image.width * image.height, image.colours());
@@ -136,13 +137,13 @@ fn encoder<'b>(
         }
         None => encoder.set_color(png::ColorType::Rgb),
     }
-    // For animations alone, whose frames the crate compresses itself.
+    // These settings apply to animations only, whose frames the crate `png` compresses.
     encoder.set_compression(png::Compression::Default);
     encoder.set_filter(png::FilterType::NoFilter);
     encoder
 }
 
-/// Says how large the picture is in print: 16 cm wide if not asked for, whatever its pixels.
+/// Sets the physical size: the print width of the figure, or 160 mm.
 fn print_size<W: Write>(encoder: &mut png::Encoder<'_, W>, figure: &Figure<'_>) {
     let metres = figure.print_width.unwrap_or(Figure::PRINT_WIDTH) / 1000.0;
     let per_metre = (f64::from(figure.size.0) / metres).round() as u32;
@@ -150,8 +151,8 @@ fn print_size<W: Write>(encoder: &mut png::Encoder<'_, W>, figure: &Figure<'_>) 
     encoder.set_pixel_dims(Some(png::PixelDimensions { xppu: per_metre, yppu: per_metre, unit }));
 }
 
-/// Writes the rows of a picture, so many bytes each, unfiltered: filters are for photographs. Compressed at once by zlib-rs,
-/// in a tenth of what the crate `png` takes, which hands over row by row.
+/// Writes the rows of an image, `row` bytes each, without filters. zlib-rs compresses them at once, which is faster
+/// than row by row in the crate `png`.
 fn write_image<W: Write>(writer: &mut png::Writer<W>, pixels: &[u8], row: usize) -> Result<(), PlotError> {
     let mut rows = Vec::with_capacity(pixels.len() + pixels.len() / row);
     for pixels in pixels.chunks_exact(row) {
@@ -169,7 +170,7 @@ fn write_image<W: Write>(writer: &mut png::Writer<W>, pixels: &[u8], row: usize)
 fn write_texts<W: Write>(writer: &mut png::Writer<W>, figure: &Figure<'_>) -> Result<(), PlotError> {
     for (key, text) in texts(figure) {
         check_key(&key)?;
-        // NUL ends a chunk's text early.
+        // NUL would end the text.
         write_text(writer, &key, &text.replace('\0', " "))?;
     }
     Ok(())
@@ -196,7 +197,8 @@ fn write_text<W: Write>(
     }
 }
 
-/// PNG's rule for keywords: 1 to 79 printable Latin-1 characters, no blanks at the ends or in a row.
+/// Checks PNG's rule for keywords: 1 to 79 printable Latin-1 characters, without blanks at the ends and double
+/// blanks.
 fn check_key(key: &str) -> Result<(), PlotError> {
     let printable = |c: char| matches!(u32::from(c), 0x20..=0x7E | 0xA1..=0xFF);
     let blanks = key.starts_with(' ') || key.ends_with(' ') || key.contains("  ");

@@ -1,18 +1,18 @@
-//! A profile in three dimensions and what is pressed in its place: f(r) beside g(x).
+//! Axisymmetric profile f(r) and its one-dimensional MDR profile g(x).
 
 use crate::Label;
 use crate::figure::{Arrangement, Figure};
 use crate::panel::{Axis, Panel, Reference, Series};
 use crate::theme::{Dash, Ink, Style};
 
-/// A profile and its one-dimensional equivalent.
+/// Axisymmetric profile f(r) and the equivalent one-dimensional profile g(x).
 #[derive(Debug, Clone, PartialEq)]
 pub struct ProfilePair<'a> {
-    /// Distances from the axis, r or x, m, ascending from 0.
+    /// Distances r or x from the axis, m, ascending from 0.
     pub x: &'a [f64],
-    /// f(r), m, as many; none for springs without a shape in three dimensions.
+    /// Profile f(r) at each distance, m; `None` for a list of springs.
     pub f: Option<&'a [f64]>,
-    /// g(x), m, as many.
+    /// MDR profile g(x) at each distance, m.
     pub g: &'a [f64],
     /// Indentation, m.
     pub d: f64,
@@ -20,10 +20,10 @@ pub struct ProfilePair<'a> {
     pub a: f64,
 }
 
-/// How far the picture goes at least, of the contact radius.
+/// Minimum range shown, as a multiple of the contact radius.
 const BEYOND: f64 = 1.15;
 
-/// Both curves on both sides of the axis, with the indentation d at which g reaches the contact radius ±a.
+/// Draws both profiles on both sides of the axis, with the indentation d and the contact radius ±a.
 pub fn profile_figure<'a>(title: &str, pair: &ProfilePair<'a>) -> Figure<'a> {
     let curve = |label: &str, values: &[f64], place: usize| {
         let right: Vec<(f64, f64)> = pair.x.iter().copied().zip(values.iter().copied()).collect();
@@ -37,7 +37,7 @@ pub fn profile_figure<'a>(title: &str, pair: &ProfilePair<'a>) -> Figure<'a> {
     let rims =
         [-pair.a, pair.a].map(|x| Reference::Vertical { x, label: Label::plain("contact radius ±a") });
     let references = if pair.a > 0.0 { [vec![level], rims.to_vec()].concat() } else { Vec::new() };
-    // The heights of a flat punch end at its rims, which are to be seen.
+    // The profile of a flat punch ends at its edges, which must be visible.
     let around = (pair.a > 0.0).then_some((-BEYOND * pair.a, BEYOND * pair.a));
     let panel = Panel {
         x: Axis { tight: true, covers: around, ..Axis::new(Label::plain("r, x"), "m") },

@@ -1,17 +1,17 @@
-//! The range of values an axis has to show.
+//! Range of values on an axis.
 
 use crate::panel::{Panel, Reference, Shape, is_drawable};
 
-/// Largest magnitude that is drawn: differences and squares of such values are still finite.
+/// Largest magnitude that is drawn, so that differences and squares stay finite.
 pub(crate) const LARGEST: f64 = 1e150;
-/// Smallest span and magnitude told from zero.
+/// Smallest span and magnitude that are distinguished from zero.
 const SMALLEST: f64 = 1e-150;
-/// Spans below this share of the magnitude are round-off: the series is constant.
+/// Spans below this fraction of the magnitude are rounding errors: the series is constant.
 const ROUND_OFF: f64 = 1e-13;
-/// Half the range shown around a constant, as a share of it.
+/// Half-range shown around a constant, as a fraction of it.
 const AROUND_CONSTANT: f64 = 0.05;
 
-/// Smallest and largest of the values seen; none where none was seen.
+/// Smallest and largest value; `None` without values.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(crate) struct Extent(Option<(f64, f64)>);
 
@@ -28,12 +28,12 @@ impl Extent {
         }
     }
 
-    /// Whether all there is is 0, but for what no number has digits for.
+    /// Whether all values are 0, within the smallest magnitude.
     pub(crate) fn is_nothing(self) -> bool {
         self.0.is_some_and(|(low, high)| low.abs().max(high.abs()) <= SMALLEST)
     }
 
-    /// A range of some width that holds every value, with a margin on both sides; none of nothing.
+    /// Axis range with margins on both sides, never of zero width; `None` without values.
     pub(crate) fn range(self, margin: f64) -> Option<(f64, f64)> {
         let (low, high) = self.0?;
         let size = low.abs().max(high.abs());
@@ -46,7 +46,8 @@ impl Extent {
     }
 }
 
-/// Extents of a panel in x and y as laid off along its axes, reference lines included; drawable points alone.
+/// Ranges of a panel in x and y in axis coordinates, including reference lines. Points that cannot be drawn are
+/// ignored.
 pub(crate) fn extents(panel: &Panel<'_>) -> (Extent, Extent) {
     let (mut x, mut y) = (Extent::default(), Extent::default());
     for point in panel.series.iter().flat_map(|series| panel.points(series).flatten()) {
@@ -103,7 +104,7 @@ mod tests {
         assert_eq!(range(&[0.0]), Some((-1.0, 1.0)));
         assert_eq!(range(&[5e-324]), Some((-1.0, 1.0)));
         assert_eq!(range(&[2.0]), Some((1.9, 2.1)));
-        // Round-off of a constant is no signal.
+        // Rounding errors of a constant are not resolved.
         let (low, high) = range(&[1.0, 1.0 + f64::EPSILON]).unwrap();
         assert!(high - low > 0.09);
         let (low, high) = range(&[-LARGEST, LARGEST]).unwrap();

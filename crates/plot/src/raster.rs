@@ -1,7 +1,6 @@
-//! The backend for pictures: strokes by coverage with round joins, glyphs as outlines.
+//! Bitmap backend of plotters: anti-aliased strokes with round joins, and glyphs as outlines.
 //!
-//! Plotters' own bitmap smooths lines of 1 px only, leaves a curve hollow where it runs over itself, and sets
-//! glyphs without their left bearing.
+//! It replaces plotters' own bitmap backend, which anti-aliases only lines 1 px wide.
 
 use crate::canvas::{BASELINE, FONT_SIZE, UNITS};
 use crate::font;
@@ -17,44 +16,44 @@ use plotters_backend::{
 use thiserror::Error;
 use tiny_skia::{Color, FillRule, Paint, Path, PathBuilder, Pixmap, PremultipliedColorU8, Stroke, Transform};
 
-/// A picture in the making.
+/// Bitmap during drawing.
 pub(crate) struct Raster {
     pixmap: Pixmap,
     coverage: Coverage,
 }
 
-/// What the raster cannot do.
+/// Errors of the bitmap backend.
 #[derive(Debug, Clone, Error)]
 pub(crate) enum RasterError {
     /// The built-in font cannot be read.
     #[error("the built-in font cannot be read")]
     Font,
-    /// Only plain horizontal and vertical text is drawn.
-    #[error("this turn of a text is not supported")]
+    /// The text is neither horizontal nor turned by 270 degrees.
+    #[error("this rotation of text is not supported")]
     Turn,
 }
 
 type Drawn = Result<(), DrawingErrorKind<RasterError>>;
 
 impl Raster {
-    /// A picture of one colour; none for a size of zero or beyond memory.
+    /// Creates a bitmap of one colour; `None` for a size of zero or beyond memory.
     pub(crate) fn new((width, height): (u32, u32), Colour(r, g, b): Colour) -> Option<Self> {
         let mut pixmap = Pixmap::new(width, height)?;
         pixmap.fill(Color::from_rgba8(r, g, b, 255));
         Some(Self { pixmap, coverage: Coverage::new((width, height)) })
     }
 
-    /// Red, green, blue of every pixel, row by row.
+    /// Red, green and blue of each pixel, row by row.
     pub(crate) fn rgb(&self) -> Vec<u8> {
         self.pixmap.pixels().iter().flat_map(|p| [p.red(), p.green(), p.blue()]).collect()
     }
 
-    /// The colour of every pixel, row by row.
+    /// Colour of each pixel, row by row.
     pub(crate) fn colours(&self) -> impl Iterator<Item = Word> + Clone + '_ {
         self.pixmap.data().as_chunks().0.iter().map(|pixel| Word::from_le_bytes(*pixel))
     }
 
-    /// Puts an opaque image in place of what is there; what reaches beyond the picture is left out.
+    /// Copies an opaque image into the bitmap; parts outside are left out.
     pub(crate) fn paste(&mut self, image: &Image, (left, top): (usize, usize)) {
         let width = self.pixmap.width() as usize;
         let opaque = |c: &[u8]| PremultipliedColorU8::from_rgba(c[0], c[1], c[2], 255);
@@ -104,7 +103,7 @@ impl DrawingBackend for Raster {
         if !fill {
             return self.draw_path([from, (to.0, from.1), to, (from.0, to.1), from], style);
         }
-        // Not tiny-skia's rectangle, which may not be thinner than a pixel.
+        // The rectangle of tiny-skia cannot be thinner than a pixel.
         self.fill_polygon([from, (to.0, from.1), to, (from.0, to.1)], style)
     }
 
@@ -162,7 +161,7 @@ impl DrawingBackend for Raster {
         Ok(())
     }
 
-    /// Draws a text as plotters' SVG places it: top anchor, baseline [`BASELINE`] em below.
+    /// Draws a text as plotters' SVG backend places it: top anchor, baseline [`BASELINE`] em below.
     fn draw_text<S: BackendTextStyle>(&mut self, text: &str, style: &S, at: BackendCoord) -> Drawn {
         let failed = |e: RasterError| DrawingErrorKind::DrawingError(e);
         let em = style.size() / FONT_SIZE / f64::from(UNITS);

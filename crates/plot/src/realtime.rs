@@ -1,4 +1,4 @@
-//! How long the frames of a loop took, and what the loop did meanwhile.
+//! Real-time measurements: histograms of execution times, and time histories.
 
 use crate::Label;
 use crate::figure::{Arrangement, Figure};
@@ -6,58 +6,58 @@ use crate::panel::{Axis, Panel, Reference, Series};
 use crate::theme::{Dash, Ink, Style, Theme};
 use std::cmp::Ordering;
 
-/// How often times occurred.
+/// Histogram of times.
 #[derive(Debug, Clone, PartialEq)]
 pub struct TimesCurve<'a> {
     /// Name in the legend.
     pub name: &'a str,
-    /// Whether it is what the others are held against.
+    /// Whether it is the curve for comparison; drawn muted.
     pub is_beside: bool,
-    /// Lower and upper edges of the bins, s, and counts; ascending, side by side.
+    /// Bins as lower edge (s), upper edge (s) and count, ascending and adjacent.
     pub bins: Vec<(f64, f64, u64)>,
 }
 
-/// Frames that are marked, of one kind.
+/// Marked frames of one kind, such as the slowest.
 #[derive(Debug, Clone, PartialEq)]
 pub struct MarkedTimes<'a> {
-    /// Name in the legend: what happened in them.
+    /// Kind of frames, the name in the legend.
     pub name: &'a str,
-    /// How long each took, s.
+    /// Time of each frame, s.
     pub times: Vec<f64>,
-    /// Place of the curve that they belong to.
+    /// Index of the histogram that they belong to.
     pub on: usize,
 }
 
-/// A panel of times.
+/// Panel of histograms.
 #[derive(Debug, Clone, PartialEq)]
 pub struct TimesPanel<'a> {
-    /// Heading above it; none where empty.
+    /// Heading above the panel; empty for none.
     pub heading: String,
-    /// What took the time.
+    /// Quantity on the time axis, such as "execution time".
     pub what: &'a str,
-    /// How often, one curve for each loop.
+    /// Histograms, one per loop.
     pub curves: Vec<TimesCurve<'a>>,
-    /// Those that stand out.
+    /// Marked frames.
     pub marked: Vec<MarkedTimes<'a>>,
 }
 
-/// A panel of series over time.
+/// Panel of series over simulated time.
 #[derive(Debug, Clone, PartialEq)]
 pub struct TimelinePanel<'a> {
-    /// What is shown.
+    /// Name of the quantity.
     pub label: &'a str,
-    /// Its unit.
+    /// Unit of the quantity.
     pub unit: &'a str,
-    /// Whether values are laid off by their decades.
+    /// Whether the value axis is logarithmic.
     pub logarithmic: bool,
-    /// Names and values, as many as times.
+    /// Names and values of the series, one value per time.
     pub series: Vec<(&'a str, &'a [f64])>,
 }
 
-/// Where a bin without a count is drawn: below one, for zero has no place on such an axis.
+/// Ordinate of empty bins on the logarithmic axis.
 const NONE: f64 = 0.5;
 
-/// Histograms side by side, times and counts by their decades, with the period as a line.
+/// Draws histograms side by side on logarithmic axes, with the frame period as a vertical line.
 pub fn times_figure<'a>(title: &str, period: f64, panels: &[TimesPanel<'a>]) -> Figure<'a> {
     let panel = |times: &TimesPanel<'a>| {
         let curves = times.curves.iter().enumerate().map(|(place, curve)| steps(curve, place));
@@ -84,8 +84,8 @@ pub fn times_figure<'a>(title: &str, period: f64, panels: &[TimesPanel<'a>]) -> 
     .with_room_for_legends()
 }
 
-/// Histograms row by row, times and counts by their decades; all panels of a column cover the same times, and marks of one name
-/// have one colour and one entry.
+/// Draws histograms in a grid on logarithmic axes. The panels of a column have the same time range. Marks of one name
+/// have the same colour and one legend entry.
 pub fn times_grid<'a>(title: &str, columns: usize, panels: &[TimesPanel<'a>]) -> Figure<'a> {
     if panels.is_empty() {
         return Figure::without_data(title, "no frames");
@@ -97,7 +97,7 @@ pub fn times_grid<'a>(title: &str, columns: usize, panels: &[TimesPanel<'a>]) ->
             kinds.push(name);
         }
     }
-    // The loop beside the others has no colour of the palette.
+    // The loop for comparison has no palette colour.
     let curves = panels.iter().map(|panel| panel.curves.iter().filter(|curve| !curve.is_beside).count());
     let most = curves.max().unwrap_or(0);
     let panel = |(place, times): (usize, &TimesPanel<'a>)| {
@@ -106,7 +106,8 @@ pub fn times_grid<'a>(title: &str, columns: usize, panels: &[TimesPanel<'a>]) ->
         let highest = counts.map(|(.., count)| *count).max().unwrap_or(1).max(1) as f64;
         let colour = |name: &str| mark(most + kinds.iter().position(|kind| *kind == name).unwrap_or(0));
         let marked = times.marked.iter().map(|marked| points(marked, colour(marked.name), &times.curves));
-        // The first panel names all kinds: one legend then serves all panels. What is not above 0 has no place on such axes.
+        // The first panel names all kinds, so that one legend serves all panels. Values not above 0 are not drawn on
+        // logarithmic axes.
         let named = if place == 0 { &kinds[..] } else { &[] };
         let keys = named.iter().map(|name| {
             let key = points(&MarkedTimes { name, times: Vec::new(), on: 0 }, colour(name), &[]);
@@ -139,7 +140,7 @@ pub fn times_grid<'a>(title: &str, columns: usize, panels: &[TimesPanel<'a>]) ->
     .with_room_for_legends()
 }
 
-/// The shortest and the longest time that occurred in any of some panels.
+/// Range of the times with counts in some panels.
 fn covered<'a, 'b: 'a>(panels: impl Iterator<Item = &'a TimesPanel<'b>>) -> Option<(f64, f64)> {
     let bins = panels.flat_map(|panel| &panel.curves).flat_map(|curve| &curve.bins);
     let counted = bins.filter(|(.., count)| *count > 0);
@@ -147,7 +148,7 @@ fn covered<'a, 'b: 'a>(panels: impl Iterator<Item = &'a TimesPanel<'b>>) -> Opti
     ends.reduce(|(a, b), (low, high)| (a.min(low), b.max(high)))
 }
 
-/// The outline of a histogram.
+/// Outline of a histogram.
 fn steps<'a>(curve: &TimesCurve<'a>, place: usize) -> Series<'a> {
     let (mut xs, mut ys) = (Vec::new(), Vec::new());
     let height = |count: u64| if count == 0 { NONE } else { count as f64 };
@@ -171,7 +172,7 @@ fn steps<'a>(curve: &TimesCurve<'a>, place: usize) -> Series<'a> {
     Series { style, ..Series::new(curve.name, xs, ys) }
 }
 
-/// The colour of marks at a place behind the curves: where the palette ends it would begin anew with a curve's.
+/// Colour of marks at an index after the histograms. Beyond the palette it never repeats a histogram's colour.
 fn mark(place: usize) -> Ink {
     match place.cmp(&Theme::light().palette.len()) {
         Ordering::Less => Ink::Palette(place),
@@ -180,21 +181,21 @@ fn mark(place: usize) -> Ink {
     }
 }
 
-/// Marks on the outline that they belong to; equal ones lie on each other.
+/// Marks on the outline of their histogram.
 fn points<'a>(marked: &MarkedTimes<'a>, colour: Ink, curves: &[TimesCurve<'a>]) -> Series<'a> {
     let height = |time: f64| {
         let bins = curves.get(marked.on).map(|curve| &curve.bins[..]).unwrap_or_default();
         let bin = bins.iter().find(|(low, high, _)| (*low..*high).contains(&time));
         bin.map_or(1.0, |(_, _, count)| (*count).max(1) as f64)
     };
-    // A gap after each: points that no line joins.
+    // Gaps prevent connecting lines.
     let xs: Vec<f64> = marked.times.iter().flat_map(|time| [*time, f64::NAN]).collect();
     let ys: Vec<f64> = marked.times.iter().flat_map(|time| [height(*time), f64::NAN]).collect();
     let style = Style { ink: Some(colour), dash: Some(Dash::Solid), width: 2.0 };
     Series { style, marked: true, ..Series::new(marked.name, xs, ys) }
 }
 
-/// Series over one time axis (s), one panel below the other.
+/// Draws series over a common time axis in s, one panel below the other.
 pub fn timeline_figure<'a>(title: &str, time: &'a [f64], panels: &[TimelinePanel<'a>]) -> Figure<'a> {
     if time.is_empty() || panels.is_empty() {
         return Figure::without_data(title, "no frames");
@@ -258,7 +259,7 @@ mod tests {
         let panel = TimesPanel { heading: String::new(), what: "", curves: vec![curve(), curve()], marked };
         let figure = times_grid("", 1, &[panel]);
         let theme = Theme::light();
-        // Two curves, six marks, and their keys.
+        // Two curves, six marks, and their legend entries.
         let inks = figure.panels[0].series[..8].iter().map(|series| theme.colour(series.style.ink.unwrap()));
         let inks: Vec<_> = inks.collect();
         assert!(inks.iter().enumerate().all(|(place, ink)| !inks[..place].contains(ink)), "{inks:?}");

@@ -1,49 +1,50 @@
-//! What an axis shows: prefix, offset, ticks.
+//! Scale of an axis: unit prefix, offset and ticks.
 
 use crate::panel::Axis;
 use crate::{Label, PlotError};
 use stickslip_quantity::{Prefix, takes_prefix};
 
-/// An axis ready to be drawn.
+/// Scale of an axis.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Scale {
-    /// Subtracted from the values, in the axis' unit, where they differ only in late digits.
+    /// Offset subtracted from the values, in the unit of the axis; not 0 if the values differ only in their last
+    /// digits.
     offset: f64,
-    /// Ends of the axis, less the offset.
+    /// Ends of the axis minus the offset.
     low: f64,
     high: f64,
-    /// Whether there are ticks.
+    /// Whether the axis has ticks.
     numbered: bool,
-    /// The same ends in the unit shown; none of an empty axis.
+    /// Ends in the displayed unit; `None` for an empty axis.
     shown: Option<(f64, f64)>,
-    /// Whether the ends are powers of ten.
+    /// Whether the axis is logarithmic; the ends are then exponents of ten.
     decades: bool,
-    /// Whether all that is there is 0: then the ends say nothing.
+    /// Whether all values are 0; the ends are then arbitrary.
     is_nothing: bool,
-    /// Places (0 to 1) and numbers of the ticks.
+    /// Positions (0 to 1) and numbers of the ticks.
     pub(crate) ticks: Vec<(f64, String)>,
-    /// What it measures.
+    /// Name of the quantity.
     pub(crate) label: Label,
-    /// Offset and unit, to follow the label.
+    /// Offset and unit, which follow the label.
     pub(crate) unit: Label,
 }
 
-/// Room for the tick labels along an axis.
+/// Room for tick labels along an axis.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Along {
-    /// Labels side by side: width of the axis, px.
+    /// Horizontal axis, labels side by side: its width, px.
     Width(f64),
-    /// Labels one above the other: height of the axis, px.
+    /// Vertical axis, labels below each other: its height, px.
     Height(f64),
 }
 
-/// More ticks than this make a ruler of an axis.
+/// Maximum number of ticks.
 const MOST_TICKS: usize = 9;
-/// Ranges narrower than this share of their distance from zero get an offset.
+/// Ranges narrower than this fraction of their distance from zero get an offset.
 const OFFSET_BELOW: f64 = 5e-4;
 
 impl Scale {
-    /// The scale of a range (none: an empty axis), without ticks yet.
+    /// Creates the scale of a range, without ticks; `None` gives an empty axis.
     pub(crate) fn new(axis: &Axis, range: Option<(f64, f64)>) -> Self {
         let (label, numbered) = (axis.label.clone(), !axis.unnumbered);
         let Some((from, to)) = range else {
@@ -92,17 +93,17 @@ impl Scale {
         Self { offset, low, high, numbered, shown, decades, is_nothing, ticks, label, unit }
     }
 
-    /// The scale of what is 0 throughout, whose ends are arbitrary: its only number is 0.
+    /// Marks the scale as that of values that are all 0: its only tick is 0.
     pub(crate) fn of_nothing(self, is_nothing: bool) -> Self {
         Self { is_nothing, ..self }
     }
 
-    /// Whether its ends are arbitrary.
+    /// Whether all values are 0, so that the ends are arbitrary.
     pub(crate) fn is_of_nothing(&self) -> bool {
         self.is_nothing
     }
 
-    /// Gives the axis as many ticks as fit at a size of `em` px.
+    /// Sets as many ticks as fit at a font size of `em` px.
     pub(crate) fn set_ticks(&mut self, along: Along, em: f64) -> Result<(), PlotError> {
         let ticks = if self.decades { decades } else { ticks };
         let shown = self.shown.filter(|_| self.numbered);
@@ -113,17 +114,17 @@ impl Scale {
         Ok(())
     }
 
-    /// Place along the axis of a value, or of its power of ten on a logarithmic one, 0 to 1.
+    /// Position of an axis coordinate along the axis, 0 to 1.
     pub(crate) fn place(&self, value: f64) -> f64 {
         (value - self.offset - self.low) / (self.high - self.low)
     }
 
-    /// The values at both ends; none of an empty axis.
+    /// Axis coordinates of both ends; `None` for an empty axis.
     pub(crate) fn range(&self) -> Option<(f64, f64)> {
         self.shown.map(|_| (self.offset + self.low, self.offset + self.high))
     }
 
-    /// The value at the end of the axis.
+    /// Axis coordinate of the upper end.
     pub(crate) fn end(&self) -> f64 {
         self.offset + self.high
     }
@@ -133,7 +134,7 @@ impl Scale {
         self.ticks.iter().try_fold(0.0, |most: f64, (_, text)| Ok(most.max(Label::plain(text).width(em)?)))
     }
 
-    /// How far the tick labels stand out beyond the start and the end of a horizontal axis, px.
+    /// Lengths by which the tick labels extend beyond the start and the end of a horizontal axis, px.
     pub(crate) fn overhang(&self, width: f64, em: f64) -> Result<(f64, f64), PlotError> {
         self.ticks.iter().try_fold((0.0_f64, 0.0_f64), |(left, right), (place, text)| {
             let half = Label::plain(text).width(em)? / 2.0;
@@ -142,7 +143,7 @@ impl Scale {
     }
 }
 
-/// The unit with its prefix or power of ten.
+/// Unit with its prefix or power of ten.
 struct Multiple {
     exponent: i32,
     unit: String,
@@ -163,13 +164,13 @@ impl Multiple {
     }
 
     fn apply(&self, value: f64) -> f64 {
-        // In two steps: 10¹⁵³ times a value is in range where 10³⁰⁶ is not.
+        // In two steps, as 10³⁰⁶ would exceed the range of the result.
         let half = self.exponent / 2;
         value / 10_f64.powi(half) / 10_f64.powi(self.exponent - half)
     }
 }
 
-/// A round number near a range that lies far from zero; 0 for all others.
+/// Round number near a range that is far from zero; 0 for other ranges.
 fn offset(from: f64, to: f64) -> f64 {
     let span = to - from;
     if span >= OFFSET_BELOW * from.abs().max(to.abs()) {
@@ -180,7 +181,7 @@ fn offset(from: f64, to: f64) -> f64 {
     if offset.is_finite() { offset } else { 0.0 }
 }
 
-/// The offset in its own prefix, to the digit that the span needs.
+/// Formats the offset in its own prefix, with the digits that the span requires.
 fn offset_text(offset: f64, span: f64, unit: &str) -> String {
     let multiple = Multiple::of(offset, unit);
     let grain = math::log10(span).ceil() as i32;
@@ -190,7 +191,7 @@ fn offset_text(offset: f64, span: f64, unit: &str) -> String {
     if multiple.unit.is_empty() { text.to_owned() } else { format!("{text} {}", multiple.unit) }
 }
 
-/// A value in its own prefix to a number of significant digits, such as "12.5 ms".
+/// Formats a value with its own prefix and a number of significant digits, such as "12.5 ms".
 pub(crate) fn quantity(value: f64, unit: &str, digits: usize) -> String {
     if !value.is_finite() {
         return format!("{value} {unit}");
@@ -204,15 +205,15 @@ pub(crate) fn quantity(value: f64, unit: &str, digits: usize) -> String {
     if multiple.unit.is_empty() { text.to_owned() } else { format!("{text} {}", multiple.unit) }
 }
 
-/// What follows a label: the offset that the numbers lack, and their unit in brackets.
+/// Text after a label: offset, and unit in brackets.
 fn unit_text(label: &Label, offset: &str, unit: &str) -> Label {
     let bare = label.is_empty() && offset.is_empty();
     let unit = if unit.is_empty() || bare { unit.to_owned() } else { format!(" ({unit})") };
-    // Not a plain label: the blank in front counts.
+    // Not a plain label, which would drop the leading blank.
     Label::default().followed_by(offset).followed_by(&unit)
 }
 
-/// The finest ticks on 1, 2 or 5 times a power of ten whose labels keep apart.
+/// Finest ticks at 1, 2 or 5 times a power of ten whose labels do not overlap.
 fn ticks((low, high): (f64, f64), along: Along, em: f64) -> Result<Vec<(f64, String)>, PlotError> {
     let span = high - low;
     if !(span > 0.0 && span.is_finite()) {
@@ -243,7 +244,8 @@ fn ticks((low, high): (f64, f64), along: Along, em: f64) -> Result<Vec<(f64, Str
     Ok(best)
 }
 
-/// Ticks at powers of ten whose labels keep apart; at 1, 2 and 5 times them where the range holds less than two.
+/// Ticks at powers of ten whose labels do not overlap. A range with fewer than two powers also has ticks at 2 and 5
+/// times them.
 fn decades((low, high): (f64, f64), along: Along, em: f64) -> Result<Vec<(f64, String)>, PlotError> {
     let span = high - low;
     if !(span > 0.0 && span.is_finite()) {
@@ -288,7 +290,7 @@ fn keep_apart(ticks: &[(f64, String)], along: Along, em: f64) -> Result<bool, Pl
     Ok(true)
 }
 
-/// A number with a true minus sign.
+/// Formats a number with a minus sign instead of a hyphen.
 fn number(value: f64, decimals: usize) -> String {
     let text = format!("{value:.decimals$}");
     let zero = text.chars().all(|c| matches!(c, '-' | '0' | '.'));

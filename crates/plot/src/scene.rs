@@ -1,4 +1,4 @@
-//! The scene of a drive, drawn to scale: bodies, what joins them and what acts on them.
+//! Model of a drive, drawn to scale: bodies, contacts, springs, actuators and loads.
 
 mod arrange;
 mod attach;
@@ -10,10 +10,10 @@ pub(crate) mod symbols;
 
 use crate::figure::Figure;
 
-/// What a drive consists of. Points are in metres from their body's reference point: x along the slide, z normal to it.
+/// Model of a drive. Points are in metres from the reference point of their body: x along the slide, z normal to it.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Scene<'a> {
-    /// Bodies beside the ground.
+    /// Bodies other than the ground.
     pub bodies: Vec<SceneBody<'a>>,
     /// Contacts.
     pub contacts: Vec<SceneContact<'a>>,
@@ -21,119 +21,119 @@ pub struct Scene<'a> {
     pub links: Vec<SceneLink<'a>>,
     /// Forces and moments.
     pub loads: Vec<SceneLoad<'a>>,
-    /// Gravity, if there is any.
+    /// Gravity; `None` without.
     pub gravity: Option<SceneGravity>,
 }
 
-/// What a coordinate may do.
+/// Mobility of a coordinate.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Mobility<'a> {
-    /// Nothing.
+    /// The coordinate is fixed.
     Fixed,
-    /// Obey Newton.
+    /// The coordinate follows from the equation of motion.
     Free,
-    /// Be where forces balance, without a mass.
+    /// The coordinate has no mass and is in static equilibrium.
     Balanced,
-    /// Follow the waveform of this name.
+    /// The coordinate follows the waveform of this name.
     Follows(&'a str),
 }
 
-/// A quantity, SI.
+/// Constant or time-dependent quantity, SI.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Amount<'a> {
-    /// It has this value.
+    /// Constant value.
     Constant(f64),
-    /// It follows the waveform of this name.
+    /// Values of the waveform of this name.
     Follows(&'a str),
 }
 
-/// A rigid body.
+/// Rigid body.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SceneBody<'a> {
-    /// Name.
+    /// Name of the body.
     pub name: &'a str,
-    /// Mass, kg, where it matters.
+    /// Mass, kg; `None` if it has no effect.
     pub mass: Option<f64>,
-    /// Along the slide.
+    /// Mobility along the slide.
     pub x: Mobility<'a>,
-    /// Normal to the slide.
+    /// Mobility normal to the slide.
     pub z: Mobility<'a>,
-    /// Rotation, positive from x towards z.
+    /// Mobility of the rotation, positive from x towards z.
     pub pitch: Mobility<'a>,
 }
 
-/// Where something is fastened.
+/// Point to which a contact, spring or actuator is attached.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Fixture {
-    /// Place of the body in the list of bodies; none: the ground.
+    /// Index of the body in [`Scene::bodies`]; `None` for the ground.
     pub body: Option<usize>,
-    /// The point of the body, m; of the ground, which lies where its contacts are, it says nothing.
+    /// Point of the body, m. Ignored for the ground, which is drawn at its contacts.
     pub at: (f64, f64),
 }
 
 /// A contact.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SceneContact<'a> {
-    /// Name.
+    /// Name of the contact.
     pub name: &'a str,
-    /// The lower and the upper side.
+    /// Points on the lower and the upper side.
     pub between: [Fixture; 2],
-    /// Distances from the axis, ascending from 0, and gaps there, m; none where it has no shape to be drawn.
+    /// Profile as distances from the axis, ascending from 0, and heights, m. Empty if no profile can be drawn.
     pub profile: Vec<(f64, f64)>,
-    /// What presses it.
+    /// Normal loading.
     pub press: Press<'a>,
-    /// Identical contacts in this place.
+    /// Number of identical contacts at this point.
     pub count: u32,
 }
 
-/// What presses a contact.
+/// Normal loading of a contact.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Press<'a> {
-    /// A force on each, N.
+    /// Normal force on each contact, N.
     Force(Amount<'a>),
-    /// A given indentation, m.
+    /// Prescribed indentation, m.
     Indentation(Amount<'a>),
-    /// A given contact radius, m.
+    /// Prescribed contact radius, m.
     Radius(Amount<'a>),
-    /// The motion of its bodies.
+    /// Indentation from the motion of the bodies.
     Coupled,
 }
 
-/// A spring, damper or piezo stack.
+/// Spring, damper or piezo stack.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SceneLink<'a> {
-    /// Name.
+    /// Name of the link.
     pub name: &'a str,
-    /// Its ends; it pushes the second away from the first, along x or z.
+    /// Its ends. It pushes the second away from the first, along x or z.
     pub between: [Fixture; 2],
-    /// Along z, not along x.
+    /// Whether it acts along z instead of x.
     pub is_upright: bool,
-    /// What it is.
+    /// Type of the link.
     pub kind: LinkKind<'a>,
-    /// Force on the second side as drawn, N.
+    /// Preload: force on the second end along the axis, N.
     pub preload: f64,
 }
 
-/// What joins two bodies beside contacts.
+/// Connection of two bodies other than a contact.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum LinkKind<'a> {
-    /// A spring, a damper or both side by side.
+    /// Spring, damper or both in parallel.
     Spring {
-        /// Whether it has stiffness.
+        /// Whether it has a stiffness.
         is_stiff: bool,
-        /// Whether it has damping.
+        /// Whether it has a damping.
         is_damped: bool,
     },
-    /// A piezo stack and its free stroke, m.
+    /// Piezo stack with its free stroke, m.
     Stack(Amount<'a>),
 }
 
 /// Force and moment on a body.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SceneLoad<'a> {
-    /// Place of the body in the list of bodies.
+    /// Index of the body in [`Scene::bodies`].
     pub body: usize,
-    /// The point of the body, m.
+    /// Point of the body, m.
     pub at: (f64, f64),
     /// Force along x, N.
     pub x: Amount<'a>,
@@ -148,27 +148,30 @@ pub struct SceneLoad<'a> {
 pub struct SceneGravity {
     /// Acceleration, m/s².
     pub acceleration: f64,
-    /// Angle from the horizontal to the x axis, rad.
+    /// Incline: angle from the horizontal to the x axis, rad.
     pub incline: f64,
 }
 
 impl SceneGravity {
-    /// Whether the x axis goes up by more than 45 degrees: such a slide is drawn upright, its height normal to it to the right.
+    /// Whether the x axis rises at more than 45 degrees. Such a slide is drawn upright, with the z axis to the right.
     pub fn is_upright(&self) -> bool {
-        // Of 45 degrees themselves rounding says nothing.
+        // The tolerance excludes 45 degrees with rounding errors.
         self.acceleration > 0.0 && math::sin(self.incline) > std::f64::consts::FRAC_1_SQRT_2 + 1e-9
     }
 }
 
-/// More bodies, contacts, links and loads than this make no picture that could be read.
+/// Maximum number of bodies, contacts, links and loads that are drawn.
 const MOST_PARTS: usize = 200;
 
-/// The scene in the plane of x and z. To scale are the points of the bodies and, where they are large enough to be
-/// seen, the profiles of the contacts; bodies have no shape of their own: their outlines go around their points, and a
-/// body whose points all lie in its reference point stands where its contacts are. Symbols, arrows and outlines keep
-/// their size on paper. Axes count from the reference point of the first group of bodies that hang together, and from
-/// the ground; both have one scale, unless the scene would be a sliver. Where the slide goes up by more than 45 degrees x is drawn
-/// upwards.
+/// Draws the model in the x-z plane.
+///
+/// Points of bodies are to scale, and so are contact profiles that are large enough. Outlines of bodies only enclose
+/// their points. A body whose points all coincide with its reference point is drawn at its contacts. Symbols, arrows
+/// and outlines have a fixed size.
+///
+/// The origin of the axes is the reference point of the first group of connected bodies, and the ground. Both axes
+/// have the same scale unless the drawing would be very narrow. A slide that rises at more than 45 degrees is drawn
+/// upright.
 pub fn layout_figure(title: &str, scene: &Scene<'_>) -> Figure<'static> {
     let parts = scene.bodies.len() + scene.contacts.len() + scene.links.len() + scene.loads.len();
     if scene.bodies.is_empty() {
@@ -181,7 +184,7 @@ pub fn layout_figure(title: &str, scene: &Scene<'_>) -> Figure<'static> {
 }
 
 impl Amount<'_> {
-    /// Whether it is nothing, always.
+    /// Whether it is constantly 0.
     fn is_nothing(self) -> bool {
         self == Self::Constant(0.0)
     }

@@ -1,4 +1,4 @@
-//! States of springs over time: where a contact sticks, slips and is open.
+//! Stick and slip of the springs of contacts over time.
 
 use crate::figure::{Arrangement, Figure};
 use crate::panel::{Axis, Mosaic, Panel};
@@ -7,37 +7,37 @@ use crate::{Ink, Label};
 /// State of a spring.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum SpringCondition {
-    /// Out of contact.
+    /// Not in contact.
     Open,
-    /// Held by friction.
+    /// Sticking.
     Stick,
-    /// Slipping, dragged towards larger displacements.
+    /// Slipping towards larger displacements.
     SlipForward,
-    /// Slipping, dragged towards smaller displacements.
+    /// Slipping towards smaller displacements.
     SlipBackward,
 }
 
-/// The springs of a contact over time.
+/// States of the springs of a contact over time.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SpringMap<'a> {
     /// Name of the contact.
     pub name: &'a str,
-    /// Moments, s, ascending.
+    /// Times, s, ascending.
     pub time: &'a [f64],
-    /// Places of the springs, m, ascending.
+    /// Positions of the springs, m, ascending.
     pub x: &'a [f64],
-    /// States, moment by moment: as many as moments times springs.
+    /// States, time by time: number of times multiplied by the number of springs.
     pub conditions: &'a [SpringCondition],
 }
 
 const NOTHING: &str = "no springs recorded";
-/// Contacts that have room one below the other, and how many columns there are where more are shown.
+/// Maximum number of contacts below each other, and the number of columns for more contacts.
 const ROWS: usize = 17;
 const COLUMNS: usize = 3;
 
-/// One panel per contact: time to the right, the row of springs upwards, states in colours of their own. A state is
-/// shown from half way since the moment before to half way to the moment after. Of more contacts than there is room for, the first
-/// are shown, and the title says of how many.
+/// Draws one panel per contact: time to the right, position of the springs upwards, states in colours. A state
+/// extends to the midpoints between its time and the neighbouring ones. If there are too many contacts, the first are
+/// shown and the title gives their number.
 pub fn state_figure<'a>(title: &str, maps: &[SpringMap<'a>]) -> Figure<'a> {
     if maps.is_empty() {
         return Figure::without_data(title, NOTHING);

@@ -1,30 +1,28 @@
-//! Strokes with round ends and joints, by the distance of every pixel from the line.
+//! Anti-aliased strokes with round ends and joins, from the distance of each pixel to the line.
 //!
-//! A pixel takes as much of the line's colour as the line covers of it: of a straight line along the axes exactly, of others
-//! within a few hundredths. Outlining a stroke and filling the outline, as tiny-skia does, costs eight times as much for curves
-//! of thousands of points, most of it for joints that nobody sees.
+//! A pixel is blended by the fraction that the line covers. It is exact for lines along the axes, otherwise accurate
+//! to a few hundredths. For curves of thousands of points this is faster than filling outlines.
 
-/// Steps of the coverage: few, for every one is a colour of the palette, and no fewer than the filling of areas has.
+/// Levels of coverage. Each level is a colour of the palette, so there are few.
 const LEVELS: f32 = 16.0;
 
-/// How much of every pixel a line covers, for one line at a time.
+/// Coverage of the pixels by one line at a time.
 pub(crate) struct Coverage {
     width: usize,
-    /// Levels, row by row; 0 everywhere between two lines.
+    /// Coverage levels, row by row; 0 everywhere between two lines.
     levels: Vec<u8>,
-    /// First pixel that a line touches in each row, and the one after the last.
+    /// First pixel that the line touches in each row, and the one after the last.
     touched: Vec<(usize, usize)>,
 }
 
 impl Coverage {
-    /// Of a picture of some size.
+    /// Creates the coverage for a picture size.
     pub(crate) fn new((width, height): (u32, u32)) -> Self {
         let (width, height) = (width as usize, height as usize);
         Self { width, levels: vec![0; width * height], touched: vec![NOWHERE; height] }
     }
 
-    /// Draws a polyline of some width (px) and hands every pixel that it touches, by its place, and the share that it covers
-    /// to `blend`.
+    /// Draws a polyline of a width in px. Passes the index and covered fraction of each touched pixel to `blend`.
     pub(crate) fn draw(&mut self, points: &[(f32, f32)], width: f32, mut blend: impl FnMut(usize, f32)) {
         match points {
             [] => return,
@@ -45,18 +43,18 @@ impl Coverage {
         }
     }
 
-    /// The points within half the width of a piece of a straight line. Where several pieces cover a pixel, the most counts.
+    /// Adds one line segment. Where several segments cover a pixel, the largest coverage counts.
     fn piece(&mut self, [(x0, y0), (x1, y1)]: [(f32, f32); 2], width: f32) {
         let (dx, dy) = (x1 - x0, y1 - y0);
         let square = dx * dx + dy * dy;
         let (length, inverse) = (square.sqrt(), if square > 0.0 { square.recip() } else { 0.0 });
-        // Centres of pixels farther away are not touched.
+        // Pixels with centres farther away are not touched.
         let reach = width / 2.0 + 0.5;
         let rows = within((y0.min(y1) - reach, y0.max(y1) + reach), self.touched.len());
         let ends = (x0.min(x1) - reach, x0.max(x1) + reach);
         for row in rows.0..rows.1 {
             let y = row as f32 + 0.5 - y0;
-            // The strip along the line meets the row between these.
+            // Range of the row inside the strip along the line.
             let (mut from, mut to) = ends;
             if dy.abs() > 0.01 * length {
                 let (middle, half) = (x0 + y * dx / dy, reach * length / dy.abs());
@@ -81,12 +79,12 @@ impl Coverage {
     }
 }
 
-/// No pixel.
+/// Range without pixels.
 const NOWHERE: (usize, usize) = (usize::MAX, 0);
 
-/// The pixels whose centres lie between two places, of so many.
+/// Range of the pixels with centres between two positions, of `count` pixels.
 fn within((from, to): (f32, f32), count: usize) -> (usize, usize) {
-    // Casts take what lies outside to the ends.
+    // Float-to-integer casts saturate.
     ((from - 0.5).ceil() as usize, (((to - 0.5).floor() + 1.0) as usize).min(count))
 }
 
@@ -105,20 +103,20 @@ mod tests {
 
     #[test]
     fn a_level_line_covers_its_area() {
-        // From y = 8.75 to 11.25: rows 9 and 10 whole, a quarter of rows 8 and 11.
+        // From y = 8.75 to 11.25: rows 9 and 10 are covered fully, rows 8 and 11 by a quarter.
         for points in [[(5.0, 10.0), (25.0, 10.0)], [(25.0, 10.0), (5.0, 10.0)]] {
             let covered = drawn(&points, 2.5);
             let column = |y| covered.get(&(15, y)).copied().unwrap_or(0.0);
             assert_eq!([7, 8, 9, 10, 11, 12].map(column), [0.0, 0.25, 1.0, 1.0, 0.25, 0.0]);
         }
-        // Thinner than a pixel, in the middle of one.
+        // Line thinner than a pixel, in the middle of one.
         let covered = drawn(&[(10.5, 5.0), (10.5, 20.0)], 0.25);
         assert_eq!([9, 10, 11].map(|x| covered.get(&(x, 12)).copied().unwrap_or(0.0)), [0.0, 0.25, 0.0]);
     }
 
     #[test]
     fn a_stroke_covers_as_much_as_its_outline_holds() {
-        // A square and a half disc at either end: whatever the direction, wl + πw²/4.
+        // Rectangle with a half disc at both ends: area wl + πw²/4 for any direction.
         for (x, y) in [(32.0, 9.0), (9.0, 25.0), (30.0, 27.0), (8.0, 24.0)] {
             let (from, width) = ((7.3_f32, 6.1_f32), 3.6_f32);
             let length = (x - from.0).hypot(y - from.1);

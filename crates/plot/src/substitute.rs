@@ -1,4 +1,5 @@
-//! What stands for a contact: the profile g(x) pressed into a row of springs (Handbook of Contact Mechanics, figure 4.2).
+//! Contact as the MDR substitute: the profile g(x) pressed into a row of springs (Handbook of Contact Mechanics,
+//! figure 4.2).
 
 use crate::figure::{Arrangement, Figure};
 use crate::panel::{Axis, Note, Panel, Series, Shape};
@@ -8,65 +9,67 @@ use crate::theme::{Dash, Ink, Style};
 use crate::thin::Point;
 use crate::{Label, SpringCondition};
 
-/// The row of springs of a contact at a moment.
+/// Row of springs of a contact at one time.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SubstituteMoment<'a> {
-    /// What stands above it, such as a time.
+    /// Heading of the panel, such as the time.
     pub heading: &'a str,
     /// Indentation d, m.
     pub d: f64,
     /// Contact radius a and stick radius c, m.
     pub radii: (f64, f64),
-    /// Radius that the picture is scaled by, m: the largest of all moments.
+    /// Radius by which positions are scaled, m: the largest contact radius of all times.
     pub scale: f64,
-    /// Indentation that it is scaled by, m.
+    /// Indentation by which depths are scaled, m: the largest of all times.
     pub deepest: f64,
-    /// Stretch that it is scaled by, m: κ times that indentation, or what else is the most.
+    /// Stretch by which stretches are scaled, m: the gross slip displacement at that indentation, or a larger
+    /// stretch.
     pub largest_stretch: f64,
     /// Normal and tangential force, N.
     pub forces: (f64, f64),
-    /// Largest tangential force, μ`F_N`, N.
+    /// Friction limit μ`F_N`, N.
     pub limit: f64,
-    /// Places of the springs, m, ascending.
+    /// Positions of the springs, m, ascending.
     pub x: &'a [f64],
-    /// Their heights g(x), m, as many.
+    /// Heights g(x) of the springs, m.
     pub g: &'a [f64],
-    /// Their stretches, m.
+    /// Tangential stretches of the springs, m.
     pub stretch: &'a [f64],
-    /// What they do.
+    /// States of the springs.
     pub conditions: &'a [SpringCondition],
 }
 
-/// Lengths on paper: contact radius, depth, shear of the springs, rest length of a spring.
+/// Lengths in the drawing: contact radius, indentation, largest stretch, rest length of a spring.
 const RADIUS: f64 = 100.0;
 const DEPTH: f64 = 36.0;
 const SHEAR: f64 = 17.0;
 const SPRING: f64 = 86.0;
-/// Where the profile is cut off, and where the indenter ends.
+/// Height at which the profile is cut, and height of the indenter's top.
 const CUT: f64 = 52.0;
 const TOP: f64 = 78.0;
-/// Lines of the dimensions, and the frame.
+/// Heights of the dimension lines, and the frame.
 const DIMENSIONS: [f64; 2] = [-112.0, -158.0];
 const FRAME: [(f64, f64); 2] = [(-215.0, 215.0), (-208.0, 142.0)];
-/// Turns of a spring and half its width.
+/// Number of turns of a spring, and half its width.
 const TURNS: usize = 5;
 const COIL: f64 = 3.2;
-/// Springs that are drawn, at most.
+/// Maximum number of springs in the drawing.
 const SHOWN: usize = 25;
-/// Size of heads of arrows and of hatches.
+/// Scale of arrowheads and hatches.
 const UNIT: f64 = 0.5;
 const DIGITS: usize = 3;
 
-/// One drawing per moment: springs coloured by what they do and sheared by their stretch, the contact's width 2a, that of its
-/// stick zone 2c, forces as arrows. Not to scale: depth and shear are drawn as large as can be seen.
+/// Draws one sketch per time. The springs are sheared by their stretch and coloured by their state. Dimension lines
+/// show the widths 2a of the contact and 2c of the stick zone, arrows the forces. Depths and stretches are not to
+/// scale.
 pub fn substitute_figure(title: &str, moments: &[SubstituteMoment<'_>]) -> Figure<'static> {
     if moments.iter().all(|moment| moment.x.is_empty() || moment.scale <= 0.0) {
-        return Figure::without_data(title, "nothing ever touches");
+        return Figure::without_data(title, "the contact is always open");
     }
     let columns = moments.len().min(2);
     let rows = moments.len().div_ceil(columns);
     let mut panels: Vec<Panel<'static>> = moments.iter().map(panel).collect();
-    // One legend for all, which names what any of them shows.
+    // One legend for all panels.
     let shown =
         |condition: &SpringCondition| moments.iter().any(|moment| moment.conditions.contains(condition));
     for panel in &mut panels {
@@ -84,10 +87,10 @@ pub fn substitute_figure(title: &str, moments: &[SubstituteMoment<'_>]) -> Figur
     }
 }
 
-/// A moment on paper.
+/// Sketch of one time.
 struct Sketch<'m, 'a> {
     moment: &'m SubstituteMoment<'a>,
-    /// How far the indenter stands from where it touched, on paper: as far as its innermost spring is stretched.
+    /// Tangential displacement of the indenter in the drawing: the stretch of its innermost spring.
     shift: f64,
 }
 
@@ -127,7 +130,7 @@ fn drawn(lines: Lines, ink: Ink, width: f64) -> impl Iterator<Item = Series<'sta
     })
 }
 
-/// All states, as the legend has them.
+/// States in the order of the legend.
 const ALL: [SpringCondition; 4] = [
     SpringCondition::Stick,
     SpringCondition::SlipForward,
@@ -135,12 +138,12 @@ const ALL: [SpringCondition; 4] = [
     SpringCondition::Open,
 ];
 
-/// The look of a spring.
+/// Style of a spring.
 fn style(ink: Ink) -> Style {
     Style { ink: Some(ink), dash: Some(Dash::Solid), width: 0.75 }
 }
 
-/// Name and colour of a spring.
+/// Legend entry and colour of a spring.
 fn look(condition: SpringCondition) -> (&'static str, Ink) {
     match condition {
         SpringCondition::Open => ("open", Ink::Muted),
@@ -151,22 +154,22 @@ fn look(condition: SpringCondition) -> (&'static str, Ink) {
 }
 
 impl Sketch<'_, '_> {
-    /// A stretch on paper.
+    /// Converts a stretch to the drawing.
     fn shear(&self, stretch: f64) -> f64 {
         if self.moment.largest_stretch > 0.0 { SHEAR * stretch / self.moment.largest_stretch } else { 0.0 }
     }
 
-    /// A place on paper.
+    /// Converts a position to the drawing.
     fn place(&self, x: f64) -> f64 {
         RADIUS * x / self.moment.scale
     }
 
-    /// Height of the profile on paper above the surface of what is pressed.
+    /// Height of the profile in the drawing above the undeformed surface.
     fn height(&self, g: f64) -> f64 {
         DEPTH * (g - self.moment.d) / self.moment.deepest
     }
 
-    /// The corners of the indenter.
+    /// Corners of the indenter.
     fn indenter(&self) -> Vec<Point> {
         let points = self.moment.x.iter().zip(self.moment.g);
         let points = points.map(|(x, g)| (self.place(*x) + self.shift, self.height(*g)));
@@ -177,7 +180,7 @@ impl Sketch<'_, '_> {
         profile
     }
 
-    /// Height of the indenter over a place on paper.
+    /// Height of the indenter over a position in the drawing.
     fn surface(&self, at: f64) -> f64 {
         let (x, g) = (self.moment.x, self.moment.g);
         let place = (at - self.shift) * self.moment.scale / RADIUS;
@@ -192,11 +195,11 @@ impl Sketch<'_, '_> {
         self.height(g)
     }
 
-    /// The springs, each from the ground to the indenter or to its rest length.
+    /// Springs from the ground to the indenter, or to their rest length if open.
     fn springs(&self) -> Vec<Series<'static>> {
         let moment = self.moment;
         let stride = moment.x.len().div_ceil(SHOWN).max(1);
-        // As many to either side of the middle.
+        // Symmetric about the middle.
         let first = (moment.x.len() / 2) % stride;
         let springs = (first..moment.x.len()).step_by(stride).map(|i| {
             let (_, ink) = look(moment.conditions[i]);
@@ -205,7 +208,7 @@ impl Sketch<'_, '_> {
                 SpringCondition::Open => (foot.0, 0.0),
                 _ => {
                     let at = foot.0 + self.shear(moment.stretch[i]);
-                    // A tip that the shear of the drawing takes beyond the rim is not above the surface.
+                    // A tip that is drawn beyond the edge of the indenter stays at the surface.
                     (at, self.surface(at).min(0.0))
                 }
             };
@@ -215,7 +218,7 @@ impl Sketch<'_, '_> {
         springs.filter(|series| series.xs.iter().all(|x| (FRAME[0].0..FRAME[0].1).contains(x))).collect()
     }
 
-    /// The widths of contact and stick zone.
+    /// Draws the widths of contact and stick zone.
     fn dimensions(&self, series: &mut Vec<Series<'static>>, notes: &mut Vec<Note>) {
         let (a, c) = self.moment.radii;
         for (symbol, radius, y) in [("2c", c, DIMENSIONS[0]), ("2a", a, DIMENSIONS[1])] {
@@ -236,7 +239,7 @@ impl Sketch<'_, '_> {
         }
     }
 
-    /// The forces on the indenter.
+    /// Draws the forces on the indenter.
     fn forces(&self, series: &mut Vec<Series<'static>>, notes: &mut Vec<Note>) {
         let (normal, tangential) = self.moment.forces;
         let mut push = |from: Point, to: Point, symbol: &str, force: f64| {
@@ -254,14 +257,14 @@ impl Sketch<'_, '_> {
             corners.iter().map(|point| point.0).fold(f64::INFINITY, f64::min)
         };
         if tangential != 0.0 && self.moment.limit > 0.0 && edge.is_finite() {
-            // At the face that it pulls: as long as its share of the most.
+            // At the face in the direction of the force; the length is proportional to F_x/(μF_N).
             let way = tangential.signum() * (14.0 + 36.0 * (tangential / self.moment.limit).abs().min(1.0));
             push((edge, 0.5 * (CUT + TOP)), (edge + way, 0.5 * (CUT + TOP)), "F_x", tangential);
         }
     }
 }
 
-/// A spring from its foot to its tip, its turns across the way up.
+/// Zigzag of a spring from foot to tip, with horizontal turns.
 fn zigzag(foot: Point, tip: Point) -> Vec<Point> {
     let at = |share: f64, aside: f64| {
         (foot.0 + (tip.0 - foot.0) * share + aside, foot.1 + (tip.1 - foot.1) * share)

@@ -1,4 +1,4 @@
-//! Figures as SVG.
+//! SVG output.
 
 use crate::canvas::UNITS;
 use crate::carried::{LONG_TEXT, texts};
@@ -13,17 +13,17 @@ use plotters::backend::SVGBackend;
 use roxmltree::{Document, Node};
 use std::fmt::Write as _;
 
-/// XML namespace of the entries.
+/// XML namespace of the metadata entries.
 const NAMESPACE: &str = "urn:stickslip";
-/// Least width of the figure, px, as which embedded pictures are drawn: 500 to the inch at 16 cm.
+/// Minimum figure width for embedded images, px: 500 px per inch at 160 mm.
 const EMBEDDED_WIDTH: u32 = 3200;
 
-/// Draws a figure as an SVG document; title and provenance become its `<title>` and `<desc>`, the long texts too the
-/// entries of its `<metadata>`. Texts stay texts, in `DejaVu` Sans or what the viewer has instead. Mosaics are embedded
-/// pictures, fine enough for print: as rectangles they would swell the file and show seams.
+/// Draws a figure as an SVG document. The title becomes `<title>`. Title and provenance become entries of
+/// `<metadata>`, and short ones also lines of `<desc>`. Texts stay texts in `DejaVu` Sans or a fallback font. Mosaics
+/// are embedded images in print resolution.
 ///
 /// # Errors
-/// A figure that cannot be drawn, see [`PlotError`].
+/// If the figure cannot be drawn, see [`PlotError`].
 pub fn draw_svg(figure: &Figure<'_>) -> Result<String, PlotError> {
     let layout = Layout::new(figure)?;
     let (width, height) = figure.size;
@@ -32,7 +32,7 @@ pub fn draw_svg(figure: &Figure<'_>) -> Result<String, PlotError> {
         let mut backend = SVGBackend::with_string(&mut drawing, (width * UNITS, height * UNITS));
         paint(&mut backend, figure, &layout)?;
     }
-    // Plotters writes the size in units and knows no joins; the rest of its document stays.
+    // The root tag of plotters is replaced: its size is in units, and it has no line joins.
     let body = drawing.split_once('>').map(|(_, body)| body);
     let body = body.ok_or_else(|| PlotError::Draw("plotters wrote no SVG".to_owned()))?;
     let (wide, high) = (width * UNITS, height * UNITS);
@@ -45,7 +45,7 @@ pub fn draw_svg(figure: &Figure<'_>) -> Result<String, PlotError> {
     let short = texts.iter().filter(|(_, text)| text.len() <= LONG_TEXT);
     let description: String = short.map(|(key, text)| escaped(&format!("{key}: {text}\n"))).collect();
     let metadata: String = texts.iter().map(entry).collect();
-    // As wide as asked for in print; else pixels, which viewers fit to their page.
+    // The size is the print width, otherwise px, which viewers fit to their page.
     let (across, down) = match figure.print_width {
         Some(mm) => (format!("{mm}mm"), format!("{:.3}mm", mm * f64::from(height) / f64::from(width))),
         None => (width.to_string(), height.to_string()),
@@ -63,7 +63,7 @@ fn entry((key, text): &(String, String)) -> String {
     format!("<entry xmlns=\"{NAMESPACE}\" key=\"{key}\">{}</entry>\n", escaped(text))
 }
 
-/// The entries of the metadata.
+/// Returns the entries of the metadata.
 pub(crate) fn read_svg(text: &str) -> Result<Vec<(String, String)>, PlotError> {
     let document = Document::parse(text).map_err(|e| PlotError::Svg(e.to_string()))?;
     let root = document.root_element();
@@ -78,7 +78,7 @@ pub(crate) fn read_svg(text: &str) -> Result<Vec<(String, String)>, PlotError> {
     Ok(entries.filter_map(pair).collect())
 }
 
-/// An image over a frame; `xlink:href` is what older viewers know.
+/// Embeds an image over a frame. `xlink:href` also works in older viewers.
 fn embedded(frame: Area, image: &Image) -> Result<String, PlotError> {
     let Area { left, top, width, height } = frame;
     let [x, y, w, h] = [left, top, width, height].map(|way| (way * f64::from(UNITS)).round());
@@ -90,7 +90,7 @@ fn embedded(frame: Area, image: &Image) -> Result<String, PlotError> {
     Ok(tag)
 }
 
-/// Text between tags; characters that XML does not allow become blanks.
+/// Escapes text between tags. Characters that XML does not allow become blanks.
 fn escaped(text: &str) -> String {
     let mut out = String::with_capacity(text.len());
     for c in text.chars() {

@@ -1,32 +1,32 @@
-//! Colours, line styles and sizes.
+//! Colours, line styles and text sizes.
 
 /// An opaque colour, sRGB.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Colour(pub u8, pub u8, pub u8);
 
-/// What a curve is drawn with.
+/// Colour selector of a curve or an area.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Ink {
-    /// The colour at this place of the theme's palette, counted round; its line style comes with it.
+    /// Colour of the theme's palette at this index, modulo its length; also selects the line style.
     Palette(usize),
-    /// The palette's colour at this place washed out, for what came before or stands behind; drawn solid.
+    /// Palette colour at this index, mixed with the background, for curves in the background; solid line.
     Pale(usize),
-    /// One of the theme's shades at this place, counted round, for areas.
+    /// Shade of the theme at this index, modulo 4, for areas.
     Shade(usize),
-    /// The theme's ink for texts.
+    /// Text colour of the theme.
     Foreground,
-    /// The theme's muted ink, for what stands behind.
+    /// Muted colour of the theme, for curves in the background.
     Muted,
-    /// A share of a ramp from the least (0) to the most (255), pale enough for texts upon it, for areas.
+    /// Colour of the viridis colour map, 0 (lowest) to 255 (highest), lightened so that texts on it are readable.
     Ramp(u8),
-    /// A colour of one's own.
+    /// Explicit colour.
     Colour(Colour),
 }
 
-/// Interruption of a line.
+/// Dash pattern of a line.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Dash {
-    /// No interruption.
+    /// Solid line.
     #[default]
     Solid,
     /// Dashes.
@@ -39,50 +39,50 @@ pub enum Dash {
     LongDash,
 }
 
-/// Look of a curve; everything left open follows its place in the panel.
+/// Style of a curve. `None` selects the value by the index of the curve in its panel.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Style {
-    /// Ink; by default the palette at the series' place.
+    /// Ink. `None`: the palette colour at the index of the series.
     pub ink: Option<Ink>,
-    /// Dashes; by default those that go with the place in the palette, solid for other inks. A curve that fills
-    /// an area is drawn solid whatever it says.
+    /// Dash pattern. `None`: the pattern of the palette index; solid for other inks. Very long curves are always
+    /// solid.
     pub dash: Option<Dash>,
-    /// Width as a multiple of the theme's line, 0.1 to 10.
+    /// Line width as a multiple of the theme's line width, 0.1 to 10.
     pub width: f64,
 }
 
-/// Colours and sizes of a figure. Lengths are px of a figure 1600 px wide and grow with the width.
+/// Colours and sizes of a figure. Lengths are px for a figure 1600 px wide and scale with the width.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Theme {
-    /// Behind everything.
+    /// Background.
     pub background: Colour,
     /// Texts and frames.
     pub foreground: Colour,
-    /// Curves that stand behind, reference lines.
+    /// Curves in the background and reference lines.
     pub muted: Colour,
-    /// Grid.
+    /// Grid lines.
     pub grid: Colour,
-    /// Colours of the curves, told apart by the colour-blind too.
+    /// Colours of curves, distinguishable with colour vision deficiencies.
     pub palette: Vec<Colour>,
-    /// Colours of areas side by side, from next to nothing to what stands out; told apart by the colour-blind and,
-    /// by their lightness, in a grey print.
+    /// Colours of adjacent areas, from inconspicuous to conspicuous. They are distinguishable with colour vision
+    /// deficiencies and in greyscale.
     pub shades: [Colour; 4],
-    /// How far a pale ink has gone towards the background, 0 to 1.
+    /// Fraction of the background colour in pale inks, 0 to 1.
     pub pale: f64,
     /// Size of the title, px per em.
     pub title: f64,
     /// Size of axis labels, px per em.
     pub label: f64,
-    /// Size of tick labels and legends, px per em; 29 px are 8.2 pt at 16 cm.
+    /// Size of tick labels and legends, px per em. 29 px are 8.2 pt at a width of 160 mm.
     pub tick: f64,
     /// Width of a curve, px.
     pub line: f64,
 }
 
-/// Line styles by place: the first palette round solid lines alone would leave a grey print unreadable.
+/// Dash patterns by index, so that curves are distinguishable in greyscale print.
 const DASHES: [Dash; 5] = [Dash::Solid, Dash::Dashed, Dash::DashDot, Dash::LongDash, Dash::Dotted];
 
-/// Okabe and Ito, *Color Universal Design* (2008), without the yellow, which white swallows.
+/// Palette by Okabe and Ito, *Color Universal Design* (2008), without yellow, which has too little contrast on white.
 const OKABE_ITO: [Colour; 6] = [
     Colour(0x00, 0x72, 0xB2),
     Colour(0xD5, 0x5E, 0x00),
@@ -92,7 +92,7 @@ const OKABE_ITO: [Colour; 6] = [
     Colour(0x56, 0xB4, 0xE9),
 ];
 
-/// From next to nothing to the most: the middle of the ramp viridis (Smith, van der Walt 2015), told apart in grey.
+/// Samples of the colour map viridis (Smith, van der Walt 2015), which is monotonic in lightness.
 pub(crate) const RAMP: [Colour; 9] = [
     Colour(0x44, 0x01, 0x54),
     Colour(0x47, 0x2D, 0x7B),
@@ -104,10 +104,10 @@ pub(crate) const RAMP: [Colour; 9] = [
     Colour(0xAD, 0xDC, 0x30),
     Colour(0xFD, 0xE7, 0x25),
 ];
-/// How far the ramp has gone towards the background where texts and lines lie on it.
+/// Fraction of the background colour in [`Ink::Ramp`] colours, so that texts and lines on them are readable.
 const WASHED: f64 = 0.45;
 
-/// The same hues for a dark background: the blue would drown there, and the yellow serves.
+/// Palette for dark backgrounds: lighter blue, and yellow in addition.
 const DARK: [Colour; 6] = [
     Colour(0x48, 0xA8, 0xF0),
     Colour(0xF5, 0x79, 0x3A),
@@ -118,14 +118,14 @@ const DARK: [Colour; 6] = [
 ];
 
 impl Dash {
-    /// The line style at a place, counted round.
+    /// Dash pattern at an index, modulo the number of patterns.
     pub(crate) fn at(place: usize) -> Self {
         DASHES[place % DASHES.len()]
     }
 }
 
 impl Colour {
-    /// The colour a share of the way to another.
+    /// Mixes in a fraction of another colour.
     fn towards(self, other: Self, share: f64) -> Self {
         let mix = |a: u8, b: u8| (f64::from(a) + share * (f64::from(b) - f64::from(a))).round() as u8;
         Self(mix(self.0, other.0), mix(self.1, other.1), mix(self.2, other.2))
@@ -133,10 +133,10 @@ impl Colour {
 }
 
 impl Theme {
-    /// How many colours curves have before they come round.
+    /// Number of palette colours; later curves repeat them.
     pub(crate) const COLOURS: usize = OKABE_ITO.len();
 
-    /// Dark on white, for paper.
+    /// Dark on white, for print.
     pub fn light() -> Self {
         Self {
             background: Colour(0xFF, 0xFF, 0xFF),
@@ -158,7 +158,7 @@ impl Theme {
         }
     }
 
-    /// Light on near-black, for screens and slides.
+    /// Light on near-black, for screens.
     pub fn dark() -> Self {
         Self {
             background: Colour(0x14, 0x17, 0x1C),
@@ -172,7 +172,7 @@ impl Theme {
                 Colour(0xF5, 0xB0, 0x41),
                 Colour(0x3D, 0x8F, 0xD9),
             ],
-            // What stands behind must not drown: the eye sees less of two dark colours than of two light ones.
+            // Two dark colours have less visible contrast than two light ones.
             pale: 0.6,
             ..Self::light()
         }
@@ -200,7 +200,7 @@ impl Theme {
         }
     }
 
-    /// Colour, dashes and width (px before scaling) of the curve at a place of its panel.
+    /// Colour, dashes and width (px, unscaled) of the curve at an index of its panel.
     pub(crate) fn stroke(&self, style: Style, place: usize) -> Stroke {
         let ink = style.ink.unwrap_or(Ink::Palette(place));
         let dash = match ink {
@@ -211,19 +211,19 @@ impl Theme {
         Stroke { colour: self.colour(ink), dash: style.dash.unwrap_or(dash), width: self.line * width }
     }
 
-    /// Of letters that name what has an ink: some of that is too light for letters.
+    /// Text colour for an ink, with more contrast than the ink itself.
     pub(crate) fn lettering(&self, ink: Ink) -> Colour {
         self.colour(ink).towards(self.foreground, 0.3)
     }
 
-    /// Behind a stretch that is shown enlarged elsewhere.
+    /// Background of a stretch that is enlarged elsewhere.
     pub(crate) fn shaded(&self) -> Colour {
         self.background.towards(self.muted, 0.22)
     }
 
-    /// The stroke of reference lines, by the place of their name among those of a panel.
+    /// Stroke of a reference line, by the index of its name in the panel.
     pub(crate) fn reference(&self, place: usize) -> Stroke {
-        // Solid lines are curves.
+        // Solid lines are reserved for curves.
         Stroke { colour: self.muted, dash: Dash::at(1 + place % (DASHES.len() - 1)), width: 0.6 * self.line }
     }
 }
@@ -234,7 +234,7 @@ impl Default for Style {
     }
 }
 
-/// A line ready to be drawn: width in px of a figure 1600 px wide.
+/// Resolved line style. Width in px of a figure 1600 px wide.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Stroke {
     pub(crate) colour: Colour,
@@ -248,8 +248,8 @@ mod tests {
 
     type Matrix = [[f64; 3]; 3];
 
-    /// How linear RGB looks without one kind of cones: Machado, Oliveira, Fernandes, IEEE Trans. Vis. Comput. Graph. 15
-    /// (2009) 1291, severity 1; the first is plain sight.
+    /// Matrices for linear RGB that simulate normal vision and three colour vision deficiencies of severity 1
+    /// (Machado, Oliveira, Fernandes, IEEE Trans. Vis. Comput. Graph. 15 (2009) 1291).
     const SIGHTS: [Matrix; 4] = [
         [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
         [[0.152286, 1.052583, -0.204868], [0.114503, 0.786281, 0.099216], [-0.003882, -0.048116, 1.051998]],
@@ -264,7 +264,7 @@ mod tests {
         })
     }
 
-    /// CIELAB (D65) of a colour as somebody sees it.
+    /// CIELAB coordinates (D65) of a colour under a simulated vision.
     fn lab(colour: Colour, sight: &Matrix) -> [f64; 3] {
         let light = linear(colour);
         let seen = sight.map(|row| row.iter().zip(light).map(|(m, v)| m * v).sum::<f64>().clamp(0.0, 1.0));
@@ -277,7 +277,7 @@ mod tests {
 
     #[test]
     fn colours_are_told_apart_by_everyone() {
-        // A difference of 2.3 is just noticeable.
+        // A CIELAB difference of 2.3 is just noticeable.
         for theme in [Theme::light(), Theme::dark()] {
             for colours in [theme.palette.as_slice(), &theme.shades] {
                 for sight in &SIGHTS {
@@ -304,8 +304,7 @@ mod tests {
 
     #[test]
     fn texts_and_curves_stand_out() {
-        // Contrast ratios of WCAG 2.1: 7 for texts, 3 for graphics; the palette of the light theme is published with
-        // colours a little below.
+        // Contrast ratios of WCAG 2.1: 7 for texts, 3 for graphics. The published light palette is slightly below.
         let luminance =
             |colour| linear(colour).iter().zip([0.2126, 0.7152, 0.0722]).map(|(v, m)| v * m).sum::<f64>();
         for (theme, least, least_pale) in [(Theme::light(), 2.1, 1.5), (Theme::dark(), 4.5, 2.0)] {
@@ -315,7 +314,7 @@ mod tests {
             };
             assert!(contrast(theme.foreground) > 7.0 && contrast(theme.muted) > 3.0);
             assert!(theme.palette.iter().all(|colour| contrast(*colour) > least));
-            // What is pale stands out, too, and what lies upon it: bodies of a scene under their arrows and names.
+            // Pale bodies must contrast with the background, and arrows and names with pale bodies.
             for place in 0..2 {
                 let pale = contrast(theme.colour(Ink::Pale(place)));
                 let seen = |colour| (contrast(colour) / pale).max(pale / contrast(colour));

@@ -1,25 +1,25 @@
-//! What is drawn of a long series: no more than the picture can show, and no less.
+//! Reduction of long series to what a picture can show.
 
 use std::collections::{HashMap, HashSet};
 
-/// A point of the picture, px.
+/// Point in the picture, px.
 pub(crate) type Point = (f64, f64);
 
-/// Width of a column, px: whatever a curve does inside one shows as its outermost points.
+/// Width of a column, px. Inside a column only the outermost points are kept.
 const COLUMN: f64 = 0.5;
-/// Polylines longer than this are searched for pieces that repeat earlier ones.
+/// Polylines with more points than this are searched for repeated pieces.
 const LONG: usize = 20_000;
-/// How far a polyline may go from the points that it leaves out, px: half of what positions are rounded to.
+/// Tolerance of the simplification, px: half a unit of the drawing coordinates.
 const STRAIGHT: f64 = 1.0 / 16.0;
-/// Points that cost nothing worth the search.
+/// Polylines with at most this many points are not simplified.
 const FEW: usize = 64;
-/// Points among which those that can be left out are looked for at once: what the search costs grows with the square.
+/// Number of points that are simplified at once, as the cost grows with its square.
 const STRETCH: usize = 256;
-/// A curve's last stretch, px, which it is not said to retrace.
+/// Length of the last part of a curve that does not count as retraced, px.
 const RECENT: f64 = 10.0;
 
-/// Polylines of a series of points with gaps (none). Of a run of points inside one column only the first, the last
-/// and the outermost in both directions stay, so a spike of a single sample among millions is drawn in full height.
+/// Converts a series of points with gaps (`None`) to polylines. Of consecutive points inside one column only the
+/// first, the last and the four outermost are kept. A spike of a single sample is therefore drawn in full height.
 pub(crate) fn thinned(points: impl Iterator<Item = Option<Point>>) -> Vec<Vec<Point>> {
     let mut lines = Vec::new();
     let mut line = Vec::new();
@@ -47,9 +47,8 @@ pub(crate) fn thinned(points: impl Iterator<Item = Option<Point>>) -> Vec<Vec<Po
     lines
 }
 
-/// The same polylines without the points that a straight line passes within a sixteenth of a pixel (Douglas and Peucker,
-/// Cartographica 10 (1973) 112, stretch by stretch). Every corner costs a joint of many pieces in a picture, and bytes in a
-/// drawing; smooth curves have a tenth of the corners that they come with. Polylines of few points are left alone.
+/// Simplifies polylines with a tolerance of 1/16 px (Douglas and Peucker, Cartographica 10 (1973) 112, in sections).
+/// Fewer corners make drawing faster and files smaller. Short polylines are unchanged.
 pub(crate) fn straightened(lines: Vec<Vec<Point>>) -> Vec<Vec<Point>> {
     let straighter = |line: Vec<Point>| if line.len() > FEW { straightened_line(line) } else { line };
     lines.into_iter().map(straighter).collect()
@@ -76,7 +75,7 @@ fn straightened_line(line: Vec<Point>) -> Vec<Point> {
     kept
 }
 
-/// Square of the distance of a point from a piece of a straight line, px².
+/// Squared distance of a point from a line segment, px².
 fn square_distance((x, y): Point, ((x0, y0), (x1, y1)): (Point, Point)) -> f64 {
     let (dx, dy) = (x1 - x0, y1 - y0);
     let length = dx * dx + dy * dy;
@@ -85,8 +84,8 @@ fn square_distance((x, y): Point, ((x0, y0), (x1, y1)): (Point, Point)) -> f64 {
     away_x * away_x + away_y * away_y
 }
 
-/// Drops pieces that run from the same spot to the same spot (a quarter of a pixel) as an earlier piece: the
-/// thousandth cycle of a closed loop costs nothing. Short polylines are left alone.
+/// Drops segments that repeat earlier ones within a quarter of a pixel, as in many cycles of a closed loop. Short
+/// polylines are unchanged.
 pub(crate) fn without_repeats(lines: Vec<Vec<Point>>) -> Vec<Vec<Point>> {
     if lines.iter().map(Vec::len).sum::<usize>() <= LONG {
         return lines;
@@ -115,8 +114,8 @@ pub(crate) fn without_repeats(lines: Vec<Vec<Point>>) -> Vec<Vec<Point>> {
     kept
 }
 
-/// Pieces of polylines that do not follow, within about a pixel, where the same curve has run before: dashes of a
-/// second cycle would fill the gaps of the first.
+/// Parts of polylines that do not retrace the same curve within about a pixel. Otherwise dashes of a second cycle
+/// would fill the gaps of the first.
 pub(crate) fn without_retraced(lines: &[Vec<Point>]) -> Vec<Vec<Point>> {
     let mut trail: HashMap<(i64, i64), f64> = HashMap::new();
     let mut gone = 0.0;
@@ -139,7 +138,7 @@ pub(crate) fn without_retraced(lines: &[Vec<Point>]) -> Vec<Vec<Point>> {
                 } else {
                     trail.entry(cell(at)).or_insert(gone);
                 }
-                // Steps along one stretch add no corners; after a retraced one the piece starts afresh.
+                // Steps along one segment add no corners. After a retraced step a new piece begins.
                 if piece.is_empty() || k as f64 == steps {
                     piece.push(at);
                 }
@@ -152,7 +151,7 @@ pub(crate) fn without_retraced(lines: &[Vec<Point>]) -> Vec<Vec<Point>> {
     kept
 }
 
-/// Whether the curve passed here, or next to here, before the last [`RECENT`] px of its way.
+/// Whether the curve passed this cell or a neighbour before its last [`RECENT`] px.
 fn retraced(trail: &HashMap<(i64, i64), f64>, at: Point, gone: f64) -> bool {
     let (x, y) = cell(at);
     let near = |dx: i64, dy: i64| trail.get(&(x + dx, y + dy)).is_some_and(|before| gone - before > RECENT);
@@ -163,7 +162,7 @@ fn cell((x, y): Point) -> (i64, i64) {
     (x.floor() as i64, y.floor() as i64)
 }
 
-/// Length of polylines, px.
+/// Total length of polylines, px.
 pub(crate) fn length(lines: &[Vec<Point>]) -> f64 {
     let way = |pair: &[Point]| math::hypot(pair[1].0 - pair[0].0, pair[1].1 - pair[0].1);
     lines.iter().flat_map(|line| line.windows(2)).map(way).sum()
@@ -173,7 +172,7 @@ fn column((x, _): Point) -> i64 {
     (x / COLUMN).floor() as i64
 }
 
-/// Consecutive points inside one column, reduced to six, each with its place in the order of drawing.
+/// Consecutive points in one column, reduced to six, each with its rank in the drawing order.
 struct Run {
     column: i64,
     count: usize,
@@ -269,7 +268,7 @@ mod tests {
 
     #[test]
     fn a_second_cycle_is_not_traced_again() {
-        // Circles sampled differently every time round: 2π·300 px are left of five rounds.
+        // Circles with different sampling in each round: one circumference 2π·300 px remains.
         let circle = |i: usize| {
             let angle = std::f64::consts::TAU * i as f64 / 399.3;
             (500.0 + 300.0 * angle.cos(), 400.0 + 300.0 * angle.sin())
@@ -277,7 +276,7 @@ mod tests {
         let once = without_retraced(&thinned((0..2000).map(|i| Some(circle(i)))));
         let expected = std::f64::consts::TAU * 300.0;
         assert!((length(&once) / expected - 1.0).abs() < 0.02, "{} of {expected}", length(&once));
-        // A curve that never comes back keeps its length.
+        // A curve that does not retrace itself keeps its length.
         let spiral = |i: usize| {
             (
                 500.0 + 0.02 * i as f64 * (0.01 * i as f64).cos(),
@@ -290,7 +289,7 @@ mod tests {
 
     #[test]
     fn a_smooth_curve_needs_few_corners() {
-        // A circle of radius r has sagitta s over chords of √(8rs), 22.4 px here: 281 corners at least.
+        // For a circle of radius r, a chord of √(8rs) = 22.4 px has the sagitta s: at least 281 corners.
         let radius = 1000.0;
         let circle: Vec<Point> = (0..=10_000)
             .map(|i| std::f64::consts::TAU * f64::from(i) / 1e4)
@@ -298,14 +297,14 @@ mod tests {
             .collect();
         let line = straightened_line(circle);
         assert!((280..800).contains(&line.len()), "{}", line.len());
-        // A line that goes forth and back keeps the turns that reach beyond its ends.
+        // A line that goes back and forth keeps the turns beyond its ends.
         let turning = vec![(0.0, 0.0), (1.0, 0.0), (5.0, 0.0), (2.0, 0.0), (-2.0, 0.0), (3.0, 0.0)];
         let turns = straightened_line(turning);
         assert_eq!(turns, [(0.0, 0.0), (5.0, 0.0), (-2.0, 0.0), (3.0, 0.0)]);
     }
 
     proptest! {
-        /// Every point left out lies beside the line between the points around it that are kept.
+        /// Every point left out is within the tolerance of the segment between the kept points around it.
         #[test]
         fn straightened_lines_pass_all_their_points(
             steps in proptest::collection::vec((-2.0..2.0_f64, -0.3..0.3_f64), 1..900)
@@ -330,7 +329,7 @@ mod tests {
         fn extremes_of_every_stretch_stay(
             points in proptest::collection::vec(proptest::option::weighted(0.95, (0.0..40.0_f64, -50.0..50.0_f64)), 0..300)
         ) {
-            // Stretch by stretch between gaps, nothing is added, the order stays, and the bounding box is the same.
+            // Between gaps no point is added, the order stays, and the bounding box is the same.
             let lines = thinned(points.iter().copied());
             let stretches: Vec<&[Option<Point>]> = points.split(Option::is_none).filter(|s| !s.is_empty()).collect();
             prop_assert_eq!(lines.len(), stretches.len());

@@ -1,40 +1,40 @@
-//! What matters most: bars, the longest first.
+//! Tornado plot: sensitivities as bars in descending order.
 
 use crate::figure::{Arrangement, Figure};
 use crate::panel::{Axis, Lane, Mark, Panel, Reference};
 use crate::{Ink, Label};
 
-/// Bars about something.
+/// Sensitivities of one result.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Tornado<'a> {
-    /// What they are about.
+    /// Name of the result.
     pub name: &'a str,
-    /// What their length is.
+    /// Label of the horizontal axis.
     pub axis: String,
-    /// The bars, the longest first.
+    /// Bars in descending order of length.
     pub bars: Vec<Bar>,
-    /// What stands in their place where there are none.
+    /// Message if there are no bars.
     pub absence: &'a str,
 }
 
-/// A bar from zero.
+/// Bar of a sensitivity, from zero.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Bar {
-    /// Name, left of it.
+    /// Name of the parameter, left of the bar.
     pub name: String,
-    /// What stands right of it.
+    /// Text right of the bar.
     pub note: String,
-    /// Where it ends.
+    /// End of the bar on the axis.
     pub length: f64,
-    /// Whether it is one of two that differ: pale.
+    /// Whether the bar is one of two different one-sided sensitivities; drawn pale.
     pub is_half: bool,
 }
 
-/// Lanes that a heading and an axis take the place of.
+/// Height of heading and axis, in lanes.
 const FRAME: usize = 3;
 
-/// A panel for each thing, one below the other, as high as its bars are many; those to the right in one colour, those to the left in
-/// another.
+/// Draws one panel per result, with a height proportional to the number of bars. Positive and negative sensitivities
+/// differ in colour.
 pub fn tornado_figure<'a>(title: &str, tornados: &[Tornado<'a>]) -> Figure<'a> {
     if tornados.is_empty() {
         return Figure::without_data(title, "no figure");

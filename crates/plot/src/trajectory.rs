@@ -1,14 +1,14 @@
-//! Trajectories: the motion of a drive over time.
+//! Trajectories: positions and displacements of a drive over time.
 
 use crate::Label;
 use crate::figure::{Arrangement, Figure};
 use crate::panel::{Axis, Panel, Reference, Series};
 use crate::theme::{Dash, Ink, Style};
 
-/// Height that each panel beyond two adds to the figure, px.
+/// Height of each panel after the second, px.
 const MORE: u32 = 300;
 
-/// A named position or displacement over the trajectory's time.
+/// Named position or displacement over time.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Track<'a> {
     /// Name in the legend.
@@ -17,7 +17,7 @@ pub struct Track<'a> {
     pub values: &'a [f64],
 }
 
-/// A coordinate beside the position along the slide.
+/// Coordinate other than the position along the slide.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Coordinate {
     /// Position normal to the slide, m.
@@ -26,39 +26,38 @@ pub enum Coordinate {
     Pitch,
 }
 
-/// Motion in a coordinate that has a panel of its own.
+/// Motion in a coordinate with a panel of its own.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Motion<'a> {
-    /// Which coordinate.
+    /// Coordinate of the panel.
     pub coordinate: Coordinate,
-    /// The feet, drawn muted behind the sliders.
+    /// Feet, drawn muted behind the sliders.
     pub feet: Vec<Track<'a>>,
-    /// The sliders, each in its colour of the other panels.
+    /// Sliders, in the same colours as in the other panels.
     pub sliders: Vec<Track<'a>>,
 }
 
-/// The motion of a drive.
+/// Motion of a drive.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Trajectory<'a> {
     /// Time, s.
     pub time: &'a [f64],
-    /// The feet, drawn muted behind the sliders.
+    /// Feet, drawn muted behind the sliders.
     pub feet: Vec<Track<'a>>,
-    /// The sliders; no panel of positions without feet and sliders.
+    /// Sliders. Without feet and sliders there is no panel of positions.
     pub sliders: Vec<Track<'a>>,
     /// Motion in the other coordinates, one panel each.
     pub beside: Vec<Motion<'a>>,
-    /// Relative displacements of the contacts, m; no lower panel without.
+    /// Displacements u of the contacts, m. Without them there is no panel of displacements.
     pub relative: Vec<Track<'a>>,
-    /// Displacement `u_c` at which gross slip starts, m, marked with both signs in the lower panel; for contacts that
-    /// oscillate about u = 0. In a drive u runs away with every step.
+    /// Gross slip displacement `u_c`, m, drawn with both signs. For contacts that oscillate about u = 0; in a drive u
+    /// drifts by a step length per period.
     pub gross_slip: Option<f64>,
-    /// Whether the slide goes up by more than 45 degrees, which the axis of positions then says.
+    /// Whether the slide rises at more than 45 degrees, which the axis label then says.
     pub is_upright: bool,
 }
 
-/// Position over time: sliders over feet above, the other coordinates and relative displacements below, on one time
-/// axis.
+/// Draws positions over time at the top, then the other coordinates and the contact displacements, on one time axis.
 pub fn trajectory_figure<'a>(title: &str, trajectory: &Trajectory<'a>) -> Figure<'a> {
     let beside = &trajectory.beside;
     let slider_names =
@@ -71,7 +70,7 @@ pub fn trajectory_figure<'a>(title: &str, trajectory: &Trajectory<'a>) -> Figure
     let time = Axis { tight: true, ..Axis::new(Label::plain("time t"), "s") };
     let panel = |(label, unit): (&str, &str), feet: &[Track<'a>], sliders: &[Track<'a>], share| {
         let place = |track: &Track<'_>| slider_names.iter().position(|name| *name == track.name).unwrap_or(0);
-        // Of one ink, they are told apart by their dashes, the same in all panels.
+        // Feet have the same colour and differ in dashes, equally in all panels.
         let foot = |track: &Track<'_>| feet_names.iter().position(|name| *name == track.name).unwrap_or(0);
         let feet = feet.iter().map(|track| series(track, Ink::Muted, Some(Dash::at(foot(track))), 0.6));
         let sliders = sliders.iter().map(|track| series(track, Ink::Palette(place(track)), None, 1.0));
@@ -116,7 +115,7 @@ pub fn trajectory_figure<'a>(title: &str, trajectory: &Trajectory<'a>) -> Figure
         .with_room_for_legends()
 }
 
-/// The different names of tracks, in order of appearance.
+/// Distinct names of tracks, in order of appearance.
 fn names<'a>(tracks: impl Iterator<Item = &'a Track<'a>>) -> Vec<&'a str> {
     let mut names: Vec<&str> = Vec::new();
     for track in tracks {

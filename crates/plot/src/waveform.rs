@@ -1,32 +1,33 @@
-//! Pictures of waveforms: value and rate over time.
+//! Waveforms: value and rate over time.
 
 use crate::Label;
 use crate::figure::{Arrangement, Figure};
 use crate::panel::{Axis, Panel, Series};
 use crate::theme::{Dash, Ink, Style};
 
-/// What a waveform does over time.
+/// Waveform as points over time.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct WaveformCourse<'a> {
-    /// Its name.
+    /// Name of the waveform.
     pub name: &'a str,
-    /// Unit of its values; empty where nothing tells.
+    /// Unit of the values; empty if unknown.
     pub unit: &'a str,
-    /// Time, s; twice where the rate or the value jumps.
+    /// Times, s; twice at jumps of the value or the rate.
     pub time: &'a [f64],
-    /// Value, as many.
+    /// Value at each time.
     pub value: &'a [f64],
-    /// Rate, per s, as many.
+    /// Rate at each time, per s.
     pub rate: &'a [f64],
-    /// Times of its corners, s.
+    /// Times of the corners, s.
     pub corners: &'a [f64],
-    /// Values there, as many.
+    /// Values at the corners.
     pub corner_values: &'a [f64],
 }
 
 const NOTHING: &str = "no waveform";
 
-/// Each waveform beside its rate, one below the other; dots are corners, between which it is smooth.
+/// Draws each waveform next to its rate, one waveform per row. Dots are corners, between which the waveform is
+/// smooth.
 pub fn waveform_figure<'a>(title: &str, courses: &[WaveformCourse<'a>]) -> Figure<'a> {
     if courses.is_empty() {
         return Figure::without_data(title, NOTHING);
@@ -47,7 +48,7 @@ pub fn waveform_figure<'a>(title: &str, courses: &[WaveformCourse<'a>]) -> Figur
 
 fn value<'a>(place: usize, course: &WaveformCourse<'a>) -> Panel<'a> {
     let mut series = vec![line(place, course.time, course.value)];
-    // A gap after every dot: points that no line joins are marked.
+    // Points separated by gaps are drawn as dots.
     let gapped = |values: &[f64]| values.iter().flat_map(|value| [*value, f64::NAN]).collect::<Vec<f64>>();
     if !course.corners.is_empty() {
         let style = Style { ink: Some(Ink::Foreground), dash: Some(Dash::Solid), width: 0.7 };
@@ -66,8 +67,8 @@ fn value<'a>(place: usize, course: &WaveformCourse<'a>) -> Panel<'a> {
 fn rate<'a>(place: usize, course: &WaveformCourse<'a>) -> Panel<'a> {
     let unit = if course.unit.is_empty() { "1/s".to_owned() } else { format!("{}/s", course.unit) };
     Panel {
-        // As high as its neighbour's.
-        heading: Label::plain("its rate"),
+        // A heading of the same height as next to it.
+        heading: Label::plain("rate"),
         x: time(),
         y: Axis::new(Label::plain("rate"), &unit),
         series: vec![line(place, course.time, course.rate)],

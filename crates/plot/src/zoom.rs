@@ -1,4 +1,4 @@
-//! A part enlarged beside or below the whole: where ringing of many periods is a solid band, one period shows what it is.
+//! Enlarged time range next to or below the whole.
 
 use crate::figure::{Arrangement, Figure};
 use crate::layout::{Area, Placed};
@@ -8,12 +8,12 @@ use crate::theme::{Dash, Stroke};
 use crate::{Label, PlotError};
 use plotters_backend::DrawingBackend;
 
-/// Least width of the shade over a stretch, px of a figure 1600 px wide: a thousandth of a run is seen as well.
+/// Minimum width of a shaded range, px of a figure 1600 px wide.
 const LEAST: f64 = 5.0;
 
-/// The panels of a column along one axis, each with the same panel of a second figure beside it, which shows the stretch `of`
-/// that axis alone: it is shaded in the first. `heading` stands above the second. As it is where the figures are not columns of
-/// equally many panels.
+/// Places each panel of `part` right of the same panel of `whole`, as an enlargement of the range `of`. The range is
+/// shaded in the left panels; `heading` stands above the right ones. Returns `whole` unchanged unless both are
+/// columns with equally many panels.
 pub fn enlarged_beside<'a>(whole: Figure<'a>, part: Figure<'a>, of: (f64, f64), heading: &str) -> Figure<'a> {
     let is_column = |figure: &Figure<'_>| figure.arrangement == Arrangement::Column { share_x: true };
     if whole.panels.len() != part.panels.len() || !is_column(&whole) || !is_column(&part) {
@@ -26,7 +26,7 @@ pub fn enlarged_beside<'a>(whole: Figure<'a>, part: Figure<'a>, of: (f64, f64), 
         if row == 0 {
             right.heading = Label::plain(heading);
         }
-        // What is beside it is named there, and what is in the part alone here.
+        // Names that the left panel has already are not repeated.
         let is_named = |label: &Label| {
             left.series
                 .iter()
@@ -43,8 +43,8 @@ pub fn enlarged_beside<'a>(whole: Figure<'a>, part: Figure<'a>, of: (f64, f64), 
     Figure { panels, arrangement: Arrangement::Columns { columns: 2 }, ..whole }.with_room_for_legends()
 }
 
-/// The one panel of a figure along one axis, with that of a second figure below it, which shows the stretch `of` that axis alone;
-/// `heading` stands above the second. As it is where either has more panels or none.
+/// Places the single panel of `part` below that of `whole`, as an enlargement of the range `of` with a heading.
+/// Returns `whole` unchanged unless both have exactly one panel.
 pub fn enlarged_below<'a>(whole: Figure<'a>, part: Figure<'a>, of: (f64, f64), heading: &str) -> Figure<'a> {
     let (width, height) = whole.size;
     let mut panels = whole.panels;
@@ -67,7 +67,7 @@ fn label_of(reference: &mut Reference) -> &mut Label {
 }
 
 impl<B: DrawingBackend> Painter<'_, B> {
-    /// Shades a stretch of the x axis from the top of the frame to its bottom.
+    /// Shades a range of the x axis over the height of the frame.
     pub(crate) fn enlarged(
         &mut self,
         place: &Placed<'_, '_>,

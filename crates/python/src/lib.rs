@@ -1,7 +1,8 @@
-//! The module `stickslip._core`: what the package `stickslip` stands on.
+//! Extension module `stickslip._core`, the basis of the Python package `stickslip`.
 //!
-//! It hands over text and arrays; names, objects and pictures for Python are made in `python/stickslip`. In reading order: `watch`
-//! (signals during long work), `scenario`, `run`, `sim`, `study`, `tables` (measured loops, comparisons).
+//! It exchanges texts and arrays; the Python API is implemented in `python/stickslip`. Modules in reading order:
+//! `watch` (signals during long computations), `scenario`, `run`, `sim`, `study`, `tables` (measured loops, fits,
+//! comparisons).
 
 mod run;
 mod scenario;
@@ -15,18 +16,18 @@ use pyo3::prelude::*;
 pyo3::import_exception!(stickslip._errors, ScenarioError);
 pyo3::import_exception!(stickslip._errors, RunError);
 
-/// A message with what to try, where there is something.
+/// Error message with its help, if there is any.
 fn text(message: &impl ToString, help: &str) -> String {
     if help.is_empty() { message.to_string() } else { format!("{}\n   help: {help}", message.to_string()) }
 }
 
-/// A number in the SI unit, from a text with a unit or without.
+/// Converts a text with or without a unit to a number in the SI unit.
 #[pyfunction]
 fn quantity(text: &str, unit: &str) -> PyResult<f64> {
     stickslip_scenario::quantity(text, unit).map_err(pyo3::exceptions::PyValueError::new_err)
 }
 
-/// The JSON Schema of scenario files.
+/// Returns the JSON Schema of scenario files.
 #[pyfunction]
 fn schema() -> String {
     stickslip_scenario::schema()

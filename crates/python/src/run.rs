@@ -1,4 +1,4 @@
-//! What came of a run: columns, events, the summary, pictures.
+//! Result of a run: columns, events, summary, plots.
 
 use crate::scenario::refused;
 use crate::watch::{Signals, is_main, lock};
@@ -16,27 +16,27 @@ use stickslip_run::files::InsideTables;
 use stickslip_run::{Job, Outcome, SealedTable, Table, Watcher};
 use stickslip_scenario::PlotName;
 
-/// Words of the states of a contact, by their codes.
+/// Names of the contact states by their codes.
 pub(crate) fn states() -> Vec<&'static str> {
     (0..4).map(|code| stickslip_drive::state_name(f64::from(code))).collect()
 }
 
-/// How long a run may take that has no account of its periods: longer ones are not done twice where the summary is asked for.
+/// Maximum duration of a run whose summary data are not kept. If the summary is requested, the run is repeated.
 const BRIEF: Duration = Duration::from_millis(50);
 
-/// What a run left.
+/// Result of a completed run.
 pub(crate) struct Ended {
     table: Table,
-    /// Why it ended early.
+    /// Reason why the run ended early.
     error: Option<String>,
     /// Time reached, s.
     end: f64,
-    /// What the summary is made from; a brief run is repeated for it.
+    /// Data for the summary; `None` for a brief run, which is repeated for it.
     outcome: Option<Outcome>,
 }
 
 impl Ended {
-    /// Runs a job. Rows and events are those of its tables.
+    /// Runs a job and keeps its rows and events.
     pub(crate) fn of(job: &Job, watcher: &dyn Watcher) -> Self {
         Self::brief(job, watcher).unwrap_or_else(|| {
             let mut outcome = job.run_with_table(watcher);
@@ -48,7 +48,8 @@ impl Ended {
         })
     }
 
-    /// The same of a run that takes no longer than it may, and whose tables have all rows and events.
+    /// Runs a job without summary data. `None` if it takes too long, or if its tables do not contain all rows and
+    /// events.
     fn brief(job: &Job, watcher: &dyn Watcher) -> Option<Self> {
         let written = &job.scenario.written;
         let has_all = written.window == [0.0, f64::INFINITY] && written.digits.is_none();
@@ -61,7 +62,7 @@ impl Ended {
         {
             return None;
         }
-        // What a brief run can have at most; more rows find their room.
+        // Initial capacity only; the table grows if necessary.
         let rows = stickslip_drive::facts::rows(&job.scenario.plan).min(1e5) as usize;
         let mut watched = Brief {
             table: Table::of(&job.columns).with_room(rows),
@@ -78,7 +79,7 @@ impl Ended {
     }
 }
 
-/// Records rows and events until a run takes too long.
+/// Records rows and events until the run takes too long.
 struct Brief<'a> {
     table: Table,
     watcher: &'a dyn Watcher,
@@ -107,19 +108,19 @@ impl Record for Brief<'_> {
     }
 }
 
-/// A run that has ended.
+/// Result of a run.
 #[pyclass(frozen, module = "stickslip._core")]
 pub(crate) struct Run {
     job: Arc<Job>,
     outcome: Mutex<Option<Outcome>>,
     error: Option<(String, f64)>,
-    /// Name with unit, whether it holds words, values.
+    /// Columns: name with unit, whether the values are codes of states, values.
     columns: Vec<(String, bool, Py<PyArray1<f64>>)>,
     events: Vec<Event>,
 }
 
 impl Run {
-    /// Runs a job; what ends it early stands in [`Self::error`].
+    /// Runs a job. An early end is reported in [`Self::error`].
     pub(crate) fn new(py: Python<'_>, job: &Arc<Job>) -> PyResult<Self> {
         let is_main = is_main(py)?;
         let ended = py.detach(|| {
@@ -130,7 +131,7 @@ impl Run {
         Ok(Self::of(py, job, ended))
     }
 
-    /// With the columns of a run moved into arrays.
+    /// Creates a result, with its columns moved into `NumPy` arrays.
     pub(crate) fn of(py: Python<'_>, job: &Arc<Job>, ended: Ended) -> Self {
         let Ended { table, error, end, outcome } = ended;
         let (channels, events) = (table.channels().to_vec(), table.events().to_vec());
@@ -148,7 +149,7 @@ impl Run {
         }
     }
 
-    /// What the summary and pictures are made from.
+    /// Calls `of` with the data for summary and plots. Repeats the run if they were not kept.
     fn with_outcome<T>(
         &self,
         is_main: bool,
@@ -158,7 +159,7 @@ impl Run {
         let signals = Signals::new(is_main);
         let found = outcome.get_or_insert_with(|| {
             let mut outcome = self.job.run_with_table(&signals);
-            // The columns are there already.
+            // The columns are kept already.
             outcome.table = None;
             outcome
         });
@@ -172,7 +173,7 @@ impl Run {
 
 #[pymethods]
 impl Run {
-    /// Name with unit, name, unit, text, whether it holds words, values of every column.
+    /// Name with unit, name, unit, description, whether the values are codes of states, and values of each column.
     #[getter]
     #[allow(clippy::type_complexity, reason = "a tuple of a column for the Python side alone")]
     fn columns(
@@ -187,7 +188,7 @@ impl Run {
             .collect()
     }
 
-    /// Time, source and kind of every event.
+    /// Time (s), source and kind of each event.
     #[getter]
     fn events(&self) -> Vec<(f64, String, &'static str)> {
         let waveforms = &self.job.scenario.scene.waveforms;
@@ -203,13 +204,13 @@ impl Run {
         self.events.len()
     }
 
-    /// Why the run ended early, and when.
+    /// Reason for an early end of the run and its time in s, or None.
     #[getter]
     fn error(&self) -> Option<(String, f64)> {
         self.error.clone()
     }
 
-    /// `summary.json` but for the files and the time taken.
+    /// Returns the content of `summary.json` without the files and the computing time.
     fn summary(&self, py: Python<'_>) -> PyResult<String> {
         let is_main = is_main(py)?;
         py.detach(|| {
@@ -221,7 +222,7 @@ impl Run {
         })
     }
 
-    /// The program's picture of a name, as bytes.
+    /// Draws the plot of this name and returns the content of the picture file.
     fn picture<'p>(
         &self,
         py: Python<'p>,
@@ -241,14 +242,14 @@ impl Run {
             formats: vec![if format == "svg" { Format::Svg } else { Format::Png }],
             themes: vec![if theme == "dark" { Colours::Dark } else { Colours::Light }],
             scale,
-            width: None,
+            ..Look::default()
         };
         let is_main = is_main(py)?;
         let bytes = py.detach(|| {
             if self.job.scenario.plots.contains(&plot) {
                 return self.with_outcome(is_main, |outcome, _| drawn(&self.job, outcome, plot, &look));
             }
-            // What this picture needs was not kept: the same run again, with it.
+            // The data for this plot were not kept, so the run is repeated with it.
             let plots = [("plots".to_owned(), format!("[\"{}\"]", plot.name()))];
             let job = self.job.with(&plots).map_err(|error| refused(&error))?;
             let signals = Signals::new(is_main);
@@ -261,12 +262,12 @@ impl Run {
 }
 
 fn drawn(job: &Job, outcome: &Outcome, plot: PlotName, look: &Look) -> PyResult<Vec<u8>> {
-    // A run in memory has none of them.
+    // A run in memory writes no tables.
     let nowhere = || SealedTable::from(PathBuf::new());
     let insides =
         InsideTables { springs: nowhere(), memory: nowhere(), fields: nowhere(), friction: nowhere() };
     let sources = Sources { job, kept: &outcome.kept, insides };
     let pictures = draw_one(&sources, plot, look).map_err(|error| RunError::new_err(error.to_string()))?;
     let first = pictures.into_iter().next().map(|(_, bytes)| bytes);
-    first.ok_or_else(|| RunError::new_err(format!("{} has nothing to draw here", plot.name())))
+    first.ok_or_else(|| RunError::new_err(format!("the run has no data for the plot {}", plot.name())))
 }

@@ -1,4 +1,4 @@
-//! A scenario that was found good, and what can be asked of it.
+//! Checked scenario with its runs and studies.
 
 use crate::run::{Ended, Run};
 use crate::sim::Sim;
@@ -28,12 +28,12 @@ pub(crate) struct Scenario {
     pub(crate) job: Arc<Job>,
 }
 
-/// The exception of a refused scenario: its text, and the place of its first report.
+/// Exception for an invalid scenario, with its reports.
 pub(crate) fn refused(error: &stickslip_scenario::ScenarioError) -> PyErr {
     Python::attach(|py| {
         let raised = ScenarioError::new_err(error.to_string());
         let reports: Vec<_> = error.reports().map(report).collect();
-        // A failure to set an attribute leaves the text.
+        // If the attribute cannot be set, the message remains.
         let _ = raised.value(py).call_method1("_set", (reports,));
         raised
     })
@@ -52,7 +52,7 @@ fn invalid(error: impl ToString) -> PyErr {
     PyValueError::new_err(error.to_string())
 }
 
-/// A number of threads: all cores for 0.
+/// Number of threads; 0 stands for all cores.
 pub(crate) fn cores(threads: usize) -> usize {
     if threads > 0 { threads } else { available_parallelism().map_or(1, usize::from) }
 }
@@ -66,7 +66,7 @@ impl Scenario {
         py.detach(|| self.job.with(set)).map_err(|error| refused(&error))
     }
 
-    /// The job once more, for a study that owns it.
+    /// Copies the job for a study that owns it.
     fn again(&self, py: Python<'_>) -> PyResult<Job> {
         self.with(py, &[])
     }
@@ -106,12 +106,12 @@ impl Scenario {
         self.job.title()
     }
 
-    /// In canonical JSON: SI numbers, defaults written out.
+    /// Returns the complete scenario as canonical JSON: SI numbers, with all defaults.
     fn resolved(&self) -> &str {
         &self.job.resolved
     }
 
-    /// Kind and text of every warning.
+    /// Returns kind and text of each warning.
     fn warnings(&self, py: Python<'_>) -> Vec<(&'static str, String)> {
         let warnings = py.detach(|| self.job.warnings());
         warnings.iter().map(|warning| (warning.kind, warning.to_string())).collect()
@@ -148,7 +148,7 @@ impl Scenario {
         .map_err(stopped)
     }
 
-    /// A curve as JSON: by its name, or over the number at a path.
+    /// Computes a curve given by its name, or over the parameter at a path, as JSON.
     #[allow(clippy::too_many_arguments, reason = "one for each keyword of Python's function")]
     fn curve(
         &self,
@@ -223,7 +223,7 @@ impl Scenario {
         .map_err(invalid)
     }
 
-    /// What the theory says of one contact, as JSON; with a folder also its tables there.
+    /// Computes a single contact and returns the results as JSON. Writes its tables to the folder `out`.
     #[allow(clippy::too_many_arguments, reason = "one for each keyword of Python's function")]
     fn contact(
         &self,
@@ -265,7 +265,8 @@ impl Scenario {
         .map_err(invalid)
     }
 
-    /// The linear system with all contacts stuck, as JSON.
+    /// Returns the linear system with all contacts sticking, as JSON. `at` selects the indentation: start, least or
+    /// most.
     fn linear(&self, py: Python<'_>, at: &str) -> PyResult<String> {
         let found = py.detach(|| match at {
             "least" => StateSpace::of(&self.job, |d| d.least),
@@ -281,7 +282,7 @@ fn theory_failure(path: &str, source: std::io::Error) -> theory::TheoryError {
     theory::TheoryError::Write { path: path.to_owned(), words, source }
 }
 
-/// Runs scenarios on so many threads; the results in their order.
+/// Runs scenarios on a number of threads; returns the results in their order.
 #[pyfunction]
 pub(crate) fn run_many(py: Python<'_>, scenarios: Vec<Py<Scenario>>, threads: usize) -> PyResult<Vec<Run>> {
     let jobs: Vec<Arc<Job>> = scenarios.iter().map(|scenario| Arc::clone(&scenario.get().job)).collect();

@@ -1,4 +1,4 @@
-//! A run that stands between two calls.
+//! Simulation that is advanced step by step.
 
 use crate::watch::{Signals, is_main, lock};
 use crate::{RunError, text};
@@ -10,7 +10,7 @@ use std::sync::{Arc, Mutex, MutexGuard};
 use stickslip_drive::{Interpolation, Shape, Unrecorded};
 use stickslip_run::{Held, Job, Port};
 
-/// A held run. Calls from several threads wait for each other.
+/// Simulation between two calls of `advance`. Calls from several threads are serialised.
 #[pyclass(frozen, module = "stickslip._core")]
 pub(crate) struct Sim {
     job: Arc<Job>,
@@ -20,7 +20,7 @@ pub(crate) struct Sim {
 
 struct Standing {
     held: Held,
-    /// What each input was given last, and until when.
+    /// Last value of each input and its end time, s.
     last: Vec<Option<(f64, f64)>>,
 }
 
@@ -41,7 +41,7 @@ impl Sim {
         lock(&self.standing)
     }
 
-    /// A state as bytes, with what the inputs were given last behind it.
+    /// State as bytes, followed by the last values of the inputs.
     fn bytes(standing: &Standing) -> Vec<u8> {
         let mut bytes = standing.held.to_bytes();
         for last in &standing.last {
@@ -66,7 +66,7 @@ impl Sim {
         Ok(Standing { held, last })
     }
 
-    /// What is wrong with a value that an input is given.
+    /// Checks a value for an input; the error is the message.
     fn check(
         &self,
         port: &Port,
@@ -77,7 +77,7 @@ impl Sim {
         let Some(value) = given else { return Ok(()) };
         let (name, (low, high)) = (&port.name, port.range);
         if !(low..=high).contains(&value) {
-            return Err(format!("{name:?} takes values from {low} to {high} {}, got {value}", port.unit));
+            return Err(format!("{name:?}: expected a value from {low} to {high} {}, got {value}", port.unit));
         }
         if self.is_held(port.place) {
             return Ok(());
@@ -87,13 +87,13 @@ impl Sim {
                 Err(format!("{name:?} is linear: expected a time after {now} s; times are absolute"))
             }
             Some((known, end)) if end >= until && known != value => {
-                Err(format!("{name:?} has its value {known} until {end} s already"))
+                Err(format!("{name:?} already has the value {known} until {end} s"))
             }
             _ => Ok(()),
         }
     }
 
-    /// Whether an input is held until its next value, or led there in a straight line.
+    /// Whether an input is held until its next value instead of interpolated linearly.
     fn is_held(&self, place: usize) -> bool {
         let waveform = self.job.scenario.scene.waveforms.get(place);
         let shape = waveform.map(|waveform| waveform.part.shape());
@@ -103,7 +103,7 @@ impl Sim {
 
 #[pymethods]
 impl Sim {
-    /// Moves on to a time, s, with inputs by their names; a linear one that is left out stays at its last value.
+    /// Advances to a time in s, with values of inputs by name. A linear input without a value keeps its last value.
     fn advance(&self, py: Python<'_>, until: f64, inputs: Vec<(String, f64)>) -> PyResult<()> {
         let mut given = vec![None; self.inputs.len()];
         for (name, value) in inputs {
@@ -111,7 +111,7 @@ impl Sim {
                 let known: Vec<&str> = self.inputs.iter().map(|port| port.name.as_str()).collect();
                 let known =
                     if known.is_empty() { "this scenario has none".to_owned() } else { known.join(", ") };
-                return Err(PyValueError::new_err(format!("{name:?} is no input; inputs: {known}")));
+                return Err(PyValueError::new_err(format!("{name:?} is not an input; inputs: {known}")));
             };
             given[place] = Some(value);
         }
@@ -120,16 +120,17 @@ impl Sim {
             let mut guard = self.standing()?;
             let (now, Standing { held, last }) = (guard.held.time(), &mut *guard);
             if until.is_nan() || until < now || until.is_infinite() {
-                let message = format!("expected a time from {now} s on, got {until} s: times are absolute");
+                let message = format!("expected a time of at least {now} s, got {until} s: times are absolute");
                 return Err(PyValueError::new_err(message));
             }
-            // Nothing is fed before all of it is found good.
+            // All values are checked before any is set.
             for ((port, given), last) in self.inputs.iter().zip(&given).zip(&*last) {
                 self.check(port, *given, *last, (now, until)).map_err(PyValueError::new_err)?;
             }
             for ((port, given), last) in self.inputs.iter().zip(given).zip(last) {
                 let is_held = self.is_held(port.place);
-                // A linear input that is left out stays; one whose piece reaches so far already has its value.
+                // A linear input without a value keeps its last one. If its piece already extends to the new time, it
+                // stays unchanged.
                 let open = !is_held && until > now && last.is_none_or(|(_, end)| end < until);
                 let value = if is_held || open { given } else { None };
                 let fed = match value.or(last.map(|(value, _)| value).filter(|_| open)) {
@@ -148,7 +149,7 @@ impl Sim {
                 let raised = RunError::new_err(text(&error, error.advice()));
                 let t = held.time();
                 Python::attach(|py| {
-                    // A failure to set an attribute leaves the text.
+                    // If the attribute cannot be set, the message remains.
                     let _ = raised.value(py).setattr("t", t);
                 });
                 raised
@@ -156,7 +157,7 @@ impl Sim {
         })
     }
 
-    /// Values of all channels, in their order.
+    /// Returns the values of all channels in their order.
     fn row<'p>(&self, py: Python<'p>) -> PyResult<Bound<'p, PyArray1<f64>>> {
         Ok(py.detach(|| self.standing().map(|standing| standing.held.row()))?.into_pyarray(py))
     }
@@ -189,13 +190,13 @@ impl Sim {
         })
     }
 
-    /// Name with unit and unit of every channel.
+    /// Returns name with unit and unit of each channel.
     fn channels(&self, py: Python<'_>) -> PyResult<Vec<(String, &'static str)>> {
         let channels = py.detach(|| self.standing().map(|standing| standing.held.channels()))?;
         Ok(channels.into_iter().map(|channel| (channel.name, channel.unit)).collect())
     }
 
-    /// Name, unit, smallest and largest value of every input.
+    /// Returns name, unit and range of each input.
     fn inputs(&self) -> Vec<(String, &'static str, (f64, f64))> {
         self.inputs.iter().map(|port| (port.name.clone(), port.unit, port.range)).collect()
     }

@@ -1,4 +1,4 @@
-//! Studies: many runs of one scenario that differ in some numbers.
+//! Studies: many runs of a scenario with different parameters.
 
 use crate::RunError;
 use crate::scenario::{cores, refused};
@@ -9,7 +9,7 @@ use pyo3::prelude::*;
 use std::path::{Path, PathBuf};
 use stickslip_study::sweep::{self, Shard, StudyError};
 
-/// A study, read and checked.
+/// Checked study.
 #[pyclass(frozen, module = "stickslip._core")]
 pub(crate) struct Study {
     study: sweep::Study,
@@ -26,7 +26,7 @@ fn failed(error: StudyError) -> PyErr {
 
 #[pymethods]
 impl Study {
-    /// A study from a text, or from a file where there is none.
+    /// Reads a study from a text, or from a file if there is no text.
     #[new]
     fn new(py: Python<'_>, text: Option<&str>, file: &str, stem: &str, folder: &str) -> PyResult<Self> {
         let study = py.detach(|| match text {
@@ -56,13 +56,13 @@ impl Study {
         &self.study.hash
     }
 
-    /// Paths of the numbers that vary.
+    /// Paths of the varied parameters.
     #[getter]
     fn varied(&self) -> Vec<&str> {
         self.study.varied().map(|(path, _)| path).collect()
     }
 
-    /// Names of the results, and the words of those that are codes.
+    /// Names of the results; for coded results also the words of the codes.
     #[getter]
     fn results(&self) -> Vec<(&str, Option<Vec<String>>)> {
         let results = self.study.results().enumerate();
@@ -83,7 +83,8 @@ impl Study {
         Ok(self.study.overrides(case))
     }
 
-    /// Number of parts that are there, those that are missing and those that are damaged.
+    /// Returns the number of existing parts, the indices of missing parts (damaged ones included), and the indices of
+    /// damaged parts.
     fn status(&self, py: Python<'_>, out: PathBuf) -> PyResult<(u64, Vec<u64>, Vec<u64>)> {
         let status = py.detach(|| self.study.status(&out)).map_err(failed)?;
         Ok((status.parts, status.missing, status.damaged))
@@ -121,7 +122,7 @@ impl Study {
         text(&found.map_err(failed)?)
     }
 
-    /// A result of all cases: a number, or the code of a word; NaN where there is none.
+    /// Returns a result for all cases: numbers or codes, NaN without a result.
     fn column<'py>(
         &self,
         py: Python<'py>,
@@ -136,7 +137,7 @@ impl Study {
         py.detach(|| self.study.errors(&out)).map_err(failed)
     }
 
-    /// The values of a number that varies, by its place, in all cases.
+    /// Returns the values of the varied parameter with index `axis` for all cases.
     fn values<'py>(&self, py: Python<'py>, axis: usize) -> Bound<'py, PyArray1<f64>> {
         let all = py.detach(|| {
             let value = |case| self.study.values(case).get(axis).copied().unwrap_or(f64::NAN);

@@ -1,4 +1,4 @@
-//! Measured loops and comparisons of results.
+//! Measured loops, fits, and comparisons of results.
 
 use crate::RunError;
 use crate::scenario::{Scenario, cores};
@@ -12,12 +12,12 @@ use stickslip_record::{Named, Recipe};
 use stickslip_run::measured::{Correct, How, Measured, Rig, table};
 use stickslip_study::fit::{Asked, fit as search};
 
-/// Names of the columns of a file: times, displacements, forces; arrays of the same.
+/// Names of the columns of a file for time, displacement and force; the same as arrays.
 type Names = (Option<String>, Option<String>, Option<String>);
 type Arrays<'py> =
     (Option<PyReadonlyArray1<'py, f64>>, PyReadonlyArray1<'py, f64>, PyReadonlyArray1<'py, f64>);
 
-/// A measured record, from a file or from arrays.
+/// Reads a measured record from a file or from arrays.
 fn measured(
     file: Option<&str>,
     names: Names,
@@ -40,7 +40,7 @@ fn measured(
             let t = t.map_or_else(|| (0..u.len()).map(|k| k as f64).collect(), |t| list(&t));
             if t.len() != u.len() || force.len() != u.len() {
                 let message = format!(
-                    "expected arrays of one length, got {} times, {} displacements and {} forces",
+                    "expected arrays of equal length, got {} times, {} displacements and {} forces",
                     t.len(),
                     u.len(),
                     force.len()
@@ -62,7 +62,7 @@ fn measured(
     }
 }
 
-/// The cycles of a measured record as a CSV table, and its figures with their intervals as JSON.
+/// Evaluates a measured record. Returns its cycles as a CSV table, and its results with confidence intervals as JSON.
 #[pyfunction]
 #[allow(clippy::too_many_arguments, reason = "one for each keyword of Python's function")]
 pub(crate) fn measure(
@@ -86,7 +86,7 @@ pub(crate) fn measure(
     })
 }
 
-/// Numbers of a scenario that fit a measured record, as JSON.
+/// Fits parameters of a scenario to a measured record; returns the fit as JSON.
 #[pyfunction]
 #[allow(clippy::too_many_arguments, reason = "one for each keyword of Python's function")]
 pub(crate) fn fit(
@@ -111,7 +111,7 @@ pub(crate) fn fit(
         .map_err(|error| PyValueError::new_err(error.to_string()))
 }
 
-/// The comparison of two folders of results as JSON.
+/// Compares two result folders; returns the comparison as JSON.
 #[pyfunction]
 pub(crate) fn compare(
     py: Python<'_>,

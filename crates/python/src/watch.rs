@@ -1,4 +1,4 @@
-//! Signals of Python during long work: Ctrl-C ends it within a tenth of a second.
+//! Python signals during long computations: Ctrl-C ends them within a tenth of a second.
 
 use pyo3::prelude::*;
 use std::cell::{Cell, RefCell};
@@ -8,22 +8,22 @@ use std::sync::{Mutex, MutexGuard, PoisonError, TryLockError};
 use std::time::{Duration, Instant};
 use stickslip_run::Watcher;
 
-/// How often Python is asked for signals.
+/// Interval at which Python's signals are checked.
 const EVERY: Duration = Duration::from_millis(20);
 
 thread_local! {
-    /// Whether handlers of Python's signals run on this thread, which holds a run meanwhile.
+    /// True while Python's signal handlers run on this thread, which may hold a lock.
     static HANDLES: Cell<bool> = const { Cell::new(false) };
 }
 
-/// Whether Python called from its main thread: others get no signals, and may outlive the interpreter.
+/// Whether the caller is Python's main thread. Other threads get no signals and may outlive the interpreter.
 pub(crate) fn is_main(py: Python<'_>) -> PyResult<bool> {
     let threading = py.import("threading")?;
     let [own, main] = ["current_thread", "main_thread"].map(|name| threading.call_method0(name));
     Ok(own?.is(&main?))
 }
 
-/// Locks; a handler of a signal that came during a call that holds the lock is refused, since it would wait for itself.
+/// Locks a mutex. In a signal handler it returns an error instead of waiting, as its own thread may hold the lock.
 pub(crate) fn lock<T>(mutex: &Mutex<T>) -> PyResult<MutexGuard<'_, T>> {
     if !HANDLES.get() {
         return Ok(mutex.lock().unwrap_or_else(PoisonError::into_inner));
@@ -32,7 +32,7 @@ pub(crate) fn lock<T>(mutex: &Mutex<T>) -> PyResult<MutexGuard<'_, T>> {
         Ok(guard) => Ok(guard),
         Err(TryLockError::Poisoned(poisoned)) => Ok(poisoned.into_inner()),
         Err(TryLockError::WouldBlock) => {
-            Err(crate::RunError::new_err("the run is busy: a signal came during a call"))
+            Err(crate::RunError::new_err("the run is busy: a signal arrived during a call"))
         }
     }
 }
@@ -44,7 +44,7 @@ fn check() -> PyResult<()> {
     checked
 }
 
-/// Watches a run on the thread that Python called.
+/// Watcher of a run on the thread that Python called.
 pub(crate) struct Signals {
     is_main: bool,
     asked: Cell<Instant>,
@@ -56,12 +56,12 @@ impl Signals {
         Self { is_main, asked: Cell::new(Instant::now()), raised: RefCell::new(None) }
     }
 
-    /// What Python raised meanwhile.
+    /// Returns the exception that a signal handler raised, if any.
     pub(crate) fn take(&self) -> PyResult<()> {
         self.raised.borrow_mut().take().map_or(Ok(()), Err)
     }
 
-    /// Whether the work continues.
+    /// Whether the computation continues.
     pub(crate) fn goes_on(&self) -> bool {
         if self.is_main && self.asked.get().elapsed() > EVERY {
             self.asked.set(Instant::now());
@@ -81,7 +81,7 @@ impl Watcher for Signals {
     }
 }
 
-/// Asked by all threads of a study whether it continues.
+/// Stop flag of a computation on several threads.
 #[derive(Default)]
 pub(crate) struct Flag(AtomicBool);
 
@@ -93,7 +93,7 @@ impl Watcher for Flag {
     }
 }
 
-/// Does work on a thread of its own without the interpreter's lock, while this one waits for signals.
+/// Runs `work` on another thread without the interpreter lock, while this one checks for signals.
 pub(crate) fn wait<T: Send>(py: Python<'_>, work: impl FnOnce(&Flag) -> T + Send) -> PyResult<T> {
     let (flag, is_main) = (Flag::default(), is_main(py)?);
     py.detach(|| {

@@ -80,7 +80,7 @@ def test_errors_are_those_of_the_package(tmp_path):
         ss.normal(1, 2, 0)
     a = ss.study(p1.set("run.cycles", 2), friction=ss.uniform(0.1, 0.2), n=3).run(tmp_path)
     assert a.results == ["slider.x_m", "steps.last_m", "energy.friction_J"]
-    with pytest.raises(ValueError, match="belongs to another study"):
+    with pytest.raises(ValueError, match="has parts of another study"):
         ss.study(p1.set("run.cycles", 3), friction=ss.uniform(0.1, 0.2), n=3).run(tmp_path)
     with pytest.raises(ValueError, match="parts are missing"):
         ss.study(p1.set("run.cycles", 2), friction=ss.uniform(0.1, 0.2), n=3).run(tmp_path / "b", shard=(2, 2)).frame()

@@ -1,5 +1,5 @@
-//! What every column of every table and every number of every report is: columns have a table of their own, of a report the
-//! comments of its fields say it. `stickslip explain` and the page `docs/definitions.md` read both.
+//! Definitions of all columns and results. Columns take them from the tables in [`columns`](crate::columns), keys of
+//! reports from the doc comments of the fields. `stickslip explain` and the page `docs/definitions.md` print them.
 
 use schemars::JsonSchema;
 use schemars::generate::SchemaSettings;
@@ -7,39 +7,40 @@ use serde_json::{Map, Value};
 use std::borrow::Cow;
 use std::fmt::Write;
 
-/// What a column or a key is.
+/// Definition of a column or key.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Definition {
-    /// The file, such as `trace.csv`.
+    /// Name of the file or report, such as `trace.csv`.
     pub file: &'static str,
-    /// Its name there, which ends with the unit: words in capitals such as `BODY` stand for names that the scenario or the run gives.
+    /// Name of the column or path of the key. Words in capitals such as `BODY` stand for names of the scenario or run.
     pub name: Cow<'static, str>,
-    /// What it is, with its formula.
+    /// Meaning, with formula.
     pub text: Cow<'static, str>,
 }
 
-/// The columns of a table.
+/// Columns of a table with their definitions.
 #[derive(Debug, Clone, Copy)]
 pub struct Columns {
-    /// The file.
+    /// Name of the file.
     pub file: &'static str,
-    /// Their names, in order.
+    /// Names in their order.
     pub names: &'static [&'static str],
-    /// What they are, in the same order.
+    /// Definitions in the same order.
     pub texts: &'static [&'static str],
 }
 
 impl Columns {
-    /// What a column is by its name, written out; empty where there is none.
+    /// Returns the definition of a column of a written table, such as `slider.x_m`. Returns an empty text for an
+    /// unknown name.
     #[must_use]
     pub fn text(&self, name: &str) -> &'static str {
         let columns = || self.names.iter().zip(self.texts);
-        // `energy.elastic_J` is not the elastic energy of a contact.
+        // An exact name has priority: `energy.elastic_J` also fits `CONTACT.elastic_J`.
         let own = columns().find(|(known, _)| **known == name);
         own.or_else(|| columns().find(|(known, _)| is_written_out(known, name))).map_or("", |(_, text)| text)
     }
 
-    /// What they are.
+    /// Returns the definitions of all columns.
     pub fn definitions(&self) -> impl Iterator<Item = Definition> + use<> {
         let file = self.file;
         let columns = self.names.iter().zip(self.texts);
@@ -51,13 +52,13 @@ impl Columns {
     }
 }
 
-/// Names that are not the same in every run.
+/// Words that stand for names of the scenario or run.
 const PLACEHOLDERS: [&str; 9] =
     ["ACTUATOR", "AXIS", "BODY", "CODE", "CONTACT", "COORDINATE", "FILE", "LOAD", "WAVEFORM"];
-/// The word for the names of a map, or for a name of several, in the schema of a field.
+/// Schema keyword with the placeholder for the names of a map or of several fields.
 const NAMED: &str = "x-name";
 
-/// The numbers of a report: the comment of a field is what it is.
+/// Returns the definitions of all numbers and words of a report, taken from the schema of its type.
 #[must_use]
 pub fn report<T: JsonSchema>(file: &'static str) -> Vec<Definition> {
     let settings = SchemaSettings::draft2020_12().for_serialize().with(|settings| {
@@ -73,8 +74,9 @@ pub fn report<T: JsonSchema>(file: &'static str) -> Vec<Definition> {
     found.into_iter().map(definition).collect()
 }
 
-/// Names and texts of what a schema of a name and a text holds: a leaf is what holds no others. What has no comment takes that of the variant
-/// that it stands in, but for the word that says which variant it is: there the comment of the field counts.
+/// Collects names and texts of the leaves of a schema, that is of everything that contains no object. A field without a
+/// comment takes the comment of its enum variant. The tag of a variant takes the comment of the field that holds the
+/// enum.
 fn leaves(schema: &Map<String, Value>, name: &str, text: &str, found: &mut Vec<(String, String)>) {
     let comment =
         |schema: &'_ Map<String, Value>| schema.get("description").and_then(Value::as_str).map(str::to_owned);
@@ -108,7 +110,7 @@ fn leaves(schema: &Map<String, Value>, name: &str, text: &str, found: &mut Vec<(
     }
 }
 
-/// Whether a schema is one of an object, or of a list or choice of objects.
+/// Returns whether a schema describes an object, or a list or choice of objects.
 fn holds_others(schema: &Map<String, Value>) -> bool {
     let within = |key: &str| match schema.get(key) {
         Some(Value::Array(all)) => all.iter().filter_map(Value::as_object).any(holds_others),
@@ -119,7 +121,7 @@ fn holds_others(schema: &Map<String, Value>) -> bool {
         || ["anyOf", "oneOf", "allOf", "items"].iter().any(|key| within(key))
 }
 
-/// Whether one of the choices is a word.
+/// Returns whether one of the choices of a schema is a string.
 fn has_words(schema: &Map<String, Value>) -> bool {
     let choices = ["anyOf", "oneOf"].iter().filter_map(|kind| schema.get(*kind)?.as_array()).flatten();
     choices.filter_map(Value::as_object).any(|choice| choice.get("type").is_some_and(|kind| kind == "string"))
@@ -134,10 +136,11 @@ fn joined(name: &str, key: &str) -> String {
 }
 
 impl Definition {
-    /// Whether it is what a name means: `slider.x_m` is `BODY.x_m`, `x_m` and `steady.step_m` are ends of names.
+    /// Returns whether a name means this definition. `slider.x_m` means `BODY.x_m`; the end of a path, such as
+    /// `steady.step_m`, is sufficient.
     pub fn is(&self, asked: &str) -> bool {
         let mut known: Vec<&str> = self.name.split('.').collect();
-        // What is the same for all names at its end is asked for without one.
+        // A placeholder at the end may be omitted.
         while known.last().is_some_and(|last| PLACEHOLDERS.contains(last)) {
             known.pop();
         }
@@ -148,36 +151,36 @@ impl Definition {
             && known.iter().rev().zip(asked.iter().rev()).all(|(known, asked)| fits(known, asked))
     }
 
-    /// Whether a name is that of something which holds it: `drivers`, `at_limit`.
+    /// Returns whether a name is that of an object which contains this key, such as `drivers` or `at_limit`.
     pub fn is_within(&self, asked: &str) -> bool {
         self.name.rsplit_once('.').is_some_and(|(holders, _)| {
             holders.split('.').any(|holder| holder == asked && !PLACEHOLDERS.contains(&holder))
         })
     }
 
-    /// Whether its text begins with a symbol and what that is: `u_c = κd …` or `a, contact radius …`; digits may stand for those
-    /// below the line.
+    /// Returns whether the text begins with a symbol, as in `u_c = κd …` or `a, contact radius …`. A digit matches its
+    /// subscript, and `Q` matches `Q*`.
     pub fn has_symbol(&self, asked: &str) -> bool {
         let Some((symbol, _)) = self.text.split_once([' ', ',']) else { return false };
         let rest = &self.text[symbol.len()..];
         let plain: String = symbol.chars().map(|c| lowered(c).unwrap_or(c)).collect();
-        // Amplitudes, as in Q*, are asked for without their stars as well.
+        // Q means Q*, too.
         let is = |symbol: &str| symbol == asked || symbol.strip_suffix('*') == Some(asked);
         (rest.starts_with(',') || rest.starts_with(" = ")) && (is(symbol) || is(&plain))
     }
 
-    /// Whether a word is one of those that it may say, such as `partial` of a state.
+    /// Returns whether a word stands between backticks in the text, such as `partial` among the states.
     pub fn says(&self, asked: &str) -> bool {
         self.text.split('`').skip(1).step_by(2).any(|word| word == asked)
     }
 
-    /// Whether it is the definition of this column or key of its file, written out.
+    /// Returns whether this is the definition of a column or key of a written file.
     pub fn defines(&self, file: &str, name: &str) -> bool {
         self.file == file && is_written_out(&self.name, name)
     }
 }
 
-/// Whether a name is a known one with its words in capitals replaced.
+/// Returns whether a name results from a known name by replacing its placeholders.
 fn is_written_out(known: &str, name: &str) -> bool {
     known.split('.').count() == name.split('.').count()
         && known
@@ -186,12 +189,12 @@ fn is_written_out(known: &str, name: &str) -> bool {
             .all(|(known, given)| known == given || PLACEHOLDERS.contains(&known))
 }
 
-/// The digit that stands below the line.
+/// Returns the digit of a subscript digit.
 fn lowered(below: char) -> Option<char> {
     char::from_digit(u32::from(below).checked_sub(u32::from('₀'))?, 10)
 }
 
-/// The page `docs/definitions.md`, in Markdown; definitions of one file stand together.
+/// Returns the page `docs/definitions.md` in Markdown. The definitions must be sorted by file.
 #[must_use]
 pub fn page(definitions: &[Definition]) -> String {
     let mut page = INTRODUCTION.to_owned();
@@ -209,13 +212,30 @@ pub fn page(definitions: &[Definition]) -> String {
 const INTRODUCTION: &str = "\
 # Definitions
 
-Every column of the tables of runs and studies, every key of `summary.json`, and what `info`, `contact`, `steady`, `check`,
-`validate`, `curve`, `sensitivity` and `realtime` print. `stickslip explain NAME` prints one of these lines, `stickslip explain`
-without a name this page. Names end with their unit. BODY, CONTACT and other words in capitals stand for names of the scenario; LOAD is
-`start`, or `smallest` and `largest` of a load that varies. [Figures](figures.md) describes how steps and loops are measured, and how
-exactly; [physics](physics.md) what the contacts obey. Numbers in brackets such as (4.26) are equations of the *Handbook of Contact
-Mechanics* (Popov, Heß, Willert 2019). `info` and `contact` print the same numbers as tables for people, with the symbols that stand
-first here. `stickslip explain` knows the keys of scenarios, too.
+All columns of tables and all keys of results, with formulas: files of runs and studies, and the output of `info`, `contact`, `steady`,
+`branch`, `curve`, `sensitivity`, `map`, `study`, `check`, `validate` and `realtime`. `stickslip explain NAME` prints the
+rows of a name, symbol or term, `stickslip explain` prints this page. Keys of scenarios are in [reference/scenario.md](reference/scenario.md).
+
+* A name ends with its SI unit: `step_m` is in m, `stiffness_N_m` in N/m, `velocity_m_s` in m/s, `work_J_m2` in J/m². Names without a
+  unit are ratios, counts, words or lists.
+* Words in capitals stand for names of the scenario, such as BODY and CONTACT. LOAD is `start`, or `smallest` and `largest` for a varying
+  load.
+* *Absent* means that the key is missing, *empty* that the cell of a table is empty.
+* Numbers in parentheses, such as (4.26), are equations of the *Handbook of Contact Mechanics* (Popov, Heß, Willert 2019).
+
+[Evaluation of runs](theory/evaluation.md) describes how steps and loops are evaluated, [physics](theory/physics.md) the equations of the
+model, [contact mechanics](theory/contact_mechanics.md) the contacts, [periodic orbits](theory/periodic_orbits.md) multipliers and errors.
+These symbols occur in many rows:
+
+| symbol | meaning | symbol | meaning |
+| --- | --- | --- | --- |
+| u | tangential displacement of a contact | F_x | tangential force |
+| d | indentation | F_N | normal force |
+| a | contact radius | μ | coefficient of friction |
+| c | stick radius | E\\*, G\\* | effective modulus, effective shear modulus |
+| s | tangential stretch of a spring | κ | stick slope μE\\*/G\\* |
+| u_c | gross slip displacement κd | f(r), g(x) | profile, substitute profile |
+| S₀ | zero-step stroke | λ | Floquet multiplier |
 ";
 
 #[cfg(test)]
@@ -223,7 +243,7 @@ mod tests {
     use super::*;
     use serde::Serialize;
 
-    /// A report of all kinds of fields.
+    /// Report with all kinds of fields.
     #[derive(Serialize, JsonSchema)]
     #[allow(dead_code, reason = "only the types are read")]
     struct Whole {
@@ -311,12 +331,11 @@ mod tests {
         assert_eq!(found("slider.x_m"), [("trace.csv", "BODY.x_m")]);
         assert_eq!(found("stick_m"), [("trace.csv", "CONTACT.stick_m")]);
         assert!(found("nothing").is_empty() && found("BODY").is_empty() && found("").is_empty());
-        // What ends with a name is found without one.
+        // A placeholder at the end may be omitted.
         let states = Definition { file: "", name: Cow::Borrowed("states.CODE"), text: Cow::Borrowed("") };
         assert!(states.is("states"));
     }
 
-    /// States and regimes were called by nothing.
     #[test]
     fn words_of_states_are_found() {
         let all = known();
@@ -338,7 +357,7 @@ mod tests {
         assert!(starred.has_symbol("S₀") && starred.has_symbol("S0"));
         let starred = Definition { text: Cow::Borrowed("Q* = (F_max - F_min)/2"), ..starred };
         assert!(starred.has_symbol("Q") && starred.has_symbol("Q*"));
-        // Words of sentences are none.
+        // Words of sentences are no symbols.
         for word in ["time", "displacement", "the", "₀", ""] {
             assert_eq!(found(word), 0, "{word}");
         }

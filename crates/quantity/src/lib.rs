@@ -1,10 +1,10 @@
-//! Numbers that have names: units, texts, definitions. Read by all that write a number down or tell what one is.
+//! Numbers with units, names and definitions, for all crates that write or explain numbers.
 //!
-//! * [`Real`] – a number of a result, which JSON writes even where it is not finite;
-//! * [`Prefix`] and [`quantity()`] – numbers with units, as people read them;
-//! * [`names`] – what the name of a channel or figure says;
-//! * [`columns`] – the columns of all tables; [`terms`] – terms of the field;
-//! * [`report()`] – what the numbers of a report are, from the comments of its fields.
+//! * [`Real`]: a number of a result in JSON, null if it is not finite.
+//! * [`Prefix`] and [`quantity()`]: numbers with units, formatted for readers.
+//! * [`names`]: the unit and the owner in the name of a channel or result.
+//! * [`columns`]: the columns of all tables; [`terms`]: terms of the field.
+//! * [`report()`]: definitions of the keys of a report, taken from the doc comments of its fields.
 
 pub mod columns;
 mod definitions;

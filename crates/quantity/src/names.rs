@@ -1,6 +1,6 @@
-//! What the name of a channel or figure says.
+//! Unit and owner in the name of a channel or result.
 
-/// SI units by the end of a name.
+/// SI units by the suffix of a name.
 const UNITS: [(&str, &str); 13] = [
     ("_rad_s", "rad/s"),
     ("_m_s", "m/s"),
@@ -17,24 +17,24 @@ const UNITS: [(&str, &str); 13] = [
     ("_s", "s"),
 ];
 
-/// SI unit of a channel or figure; empty where it has none.
+/// Returns the SI unit of a channel or result, or an empty text if it has none.
 pub fn unit(name: &str) -> &'static str {
     let name = name.split('[').next().unwrap_or(name);
     UNITS.iter().find(|(end, _)| name.ends_with(end)).map_or("", |(_, unit)| unit)
 }
 
-/// A name without its unit: `slider.x` of `slider.x_m`.
+/// Returns a name without its unit: `slider.x` of `slider.x_m`.
 pub fn bare(name: &str) -> &str {
     UNITS.iter().find_map(|(end, _)| name.strip_suffix(end)).unwrap_or(name)
 }
 
-/// A name with its unit at the end, as columns have it: `stroke_m`.
+/// Returns a name with its unit as suffix, as in the names of columns: `stroke_m`.
 pub fn with_unit(name: &str, unit: &str) -> String {
     let unit = unit.replace([' ', '/'], "_").replace('²', "2").replace('Ω', "Ohm");
     if unit.is_empty() { name.to_owned() } else { format!("{name}_{unit}") }
 }
 
-/// What a channel or figure belongs to: `slider` of `slider.x_m`, `ball` of `contacts.ball.friction_J`.
+/// Returns the part that a channel or result belongs to: `slider` of `slider.x_m`, `ball` of `contacts.ball.friction_J`.
 pub fn owner(name: &str) -> &str {
     let mut parts = name.split('.');
     let first = parts.next().unwrap_or(name);

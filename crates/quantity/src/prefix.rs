@@ -1,9 +1,9 @@
-//! The SI prefix that makes a series readable.
+//! SI prefixes for readable numbers.
 
-/// An SI prefix: 12 µm = 12 × `factor` m.
+/// SI prefix. For µ, 12 µm = 12 × `factor` m.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Prefix {
-    /// Symbol, empty for the bare unit.
+    /// Symbol, empty without a prefix.
     pub symbol: &'static str,
     /// Power of ten.
     pub exponent: i32,
@@ -17,11 +17,11 @@ impl Prefix {
     /// No prefix.
     pub const NONE: Self = Self { symbol: "", exponent: 0 };
 
-    /// The prefix that brings a magnitude into [1, 1000); none for zero, for what is not finite, and beyond the
-    /// prefixes' range (1e-24 to 1e27), where a prefix would not help.
+    /// Returns the prefix that scales a magnitude to [1, 1000). Returns [`Self::NONE`] for zero, for numbers that are not finite, and
+    /// outside 1e-24 to 1e27.
     pub fn of_magnitude(magnitude: f64) -> Self {
         let magnitude = magnitude.abs();
-        // 0.001 m computed as 0.9999999999 mm is still 1 mm.
+        // Rounds up: 0.001 m computed as 0.9999999999 mm is shown as 1 mm.
         let magnitude = magnitude * (1.0 + 1e-9);
         if !(magnitude.is_finite() && (1e-24..1e27).contains(&magnitude)) {
             return Self::NONE;
@@ -36,25 +36,23 @@ impl Prefix {
         Self::of_exponent(exponent)
     }
 
-    /// The prefix for the largest finite magnitude of a series.
+    /// Returns the prefix for the largest finite magnitude of a series.
     pub fn of_series(values: &[f64]) -> Self {
         let finite = values.iter().filter(|v| v.is_finite());
         Self::of_magnitude(finite.fold(0.0, |most: f64, v| most.max(v.abs())))
     }
 
-    /// The prefix for a magnitude of a quantity in this unit: none where the unit takes none, see
-    /// [`takes_prefix`].
+    /// Returns the prefix for a magnitude in this unit, or [`Self::NONE`] if the unit takes no prefix ([`takes_prefix`]).
     pub fn of_quantity(magnitude: f64, unit: &str) -> Self {
         if takes_prefix(unit) { Self::of_magnitude(magnitude) } else { Self::NONE }
     }
 
-    /// The power of ten as a number: a value in the prefixed unit is the value in the unit divided by it.
+    /// Returns the prefix as a factor: a value in the unit is this factor times the value in the prefixed unit.
     pub fn factor(&self) -> f64 {
         ten(self.exponent)
     }
 
-    /// The value in the prefixed unit. Divides by an exact power of ten where there is one, so 12e-6 m are
-    /// 12 µm to the last bit.
+    /// Converts a value to the prefixed unit. The function uses exact powers of ten if possible, so that 12e-6 m gives exactly 12 µm.
     pub fn apply(&self, value: f64) -> f64 {
         if self.exponent < 0 { value * ten(-self.exponent) } else { value / ten(self.exponent) }
     }
@@ -65,8 +63,8 @@ impl Prefix {
     }
 }
 
-/// Whether a unit takes an SI prefix in front: not the empty unit, 1, per cent, degrees, kg (which has one), nor a
-/// leading power such as m², whose prefix would be squared with it.
+/// Returns whether a unit takes an SI prefix. Exceptions are the empty unit, 1, per cent, degrees, minutes, hours and kg. Units that
+/// begin with a power, such as m², are also excluded, because the power would apply to the prefix.
 pub fn takes_prefix(unit: &str) -> bool {
     let leading: String = unit.trim().chars().take_while(|c| c.is_alphabetic()).collect();
     let rest = unit.trim()[leading.len()..].chars().next();
@@ -74,10 +72,10 @@ pub fn takes_prefix(unit: &str) -> bool {
         && !matches!(rest, Some('²' | '³' | '⁴' | '^' | '⁻'))
 }
 
-/// 10ᵏ, correctly rounded for every k a prefix can have.
+/// Returns 10ᵏ, correctly rounded for every exponent k of a prefix.
 fn ten(k: i32) -> f64 {
-    // powi rounds at each multiplication; up to 10²² the product is exact, above it and below 1 the quotient or
-    // product of two exact powers rounds once.
+    // `powi` rounds at each multiplication and is exact up to 10²². Outside this range, one quotient or product of exact powers
+    // is rounded once.
     match k {
         0..=22 => 10_f64.powi(k),
         23.. => 1e22 * 10_f64.powi(k - 22),

@@ -4,8 +4,7 @@ use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::{Serialize, Serializer};
 use std::borrow::Cow;
 
-/// A number in JSON. Where it is not finite it is null, which every reader of JSON takes: JSON has no such numbers, and a
-/// string in the place of one breaks who expects it. A summary notes where that happens.
+/// Number in JSON. NaN and infinities are written as null, because JSON has no such numbers. The summary notes where this happens.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Real(pub f64);
 

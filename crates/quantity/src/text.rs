@@ -1,17 +1,17 @@
-//! Numbers with their units, as people read them.
+//! Formats numbers with units.
 
 use crate::{Prefix, Real};
 
-/// Digits of a number that people read, and at most of one that has to be told apart from others.
+/// Default and maximum number of significant digits.
 const DIGITS: usize = 4;
 const MOST_DIGITS: usize = 12;
 
-/// Four digits with an SI prefix, of which a kilogram has one already.
+/// Formats a value with four significant digits and an SI prefix. Values in kg are shown in g with a prefix.
 pub fn quantity(value: Real, unit: &str) -> String {
     in_digits(value, unit, DIGITS)
 }
 
-/// Quantities in as many digits, four at the least, as tell apart those that differ.
+/// Formats values with the smallest number of digits (4 to 12) at which neighbouring values that differ have different texts.
 pub fn apart(values: &[f64], unit: &str) -> Vec<String> {
     let told = |digits| values.iter().map(|value| in_digits(Real(*value), unit, digits)).collect::<Vec<_>>();
     let differ = |told: &[String]| {
@@ -26,14 +26,14 @@ fn in_digits(value: Real, unit: &str, digits: usize) -> String {
         unit.strip_prefix('k').filter(|unit| unit.starts_with('g')).map_or((unit, 1.0), |grams| (grams, 1e3));
     let prefix = Prefix::of_magnitude(scaled * value.0);
     let shown = prefix.apply(scaled * value.0);
-    // 9.9996 is shown as 10.00 and not as 10.000.
+    // 9.9996 is shown as 10.00, not as 10.000.
     let rounding = 0.5 * 0.1_f64.powi(digits as i32 - 1);
     let behind = match shown.abs() {
         x if x >= 100.0 * (1.0 - 0.1 * rounding) => digits - 3,
         x if x >= 10.0 * (1.0 - 0.1 * rounding) => digits - 2,
         _ => digits - 1,
     };
-    // Smaller than any prefix makes readable.
+    // The value is below the smallest prefix.
     if shown != 0.0 && shown.abs() < 1.0 - rounding {
         let behind = digits - 1;
         return format!("{:.behind$e} {unit}", value.0);
@@ -61,7 +61,6 @@ mod tests {
     #[test]
     fn what_differs_is_told_apart() {
         assert_eq!(apart(&[0.091, 0.092], "s"), ["91.00 ms", "92.00 ms"]);
-        // The last period of three thousand.
         assert_eq!(
             apart(&[2999.0, 2999.2, 2999.2, 3000.0], "s"),
             ["2.9990 ks", "2.9992 ks", "2.9992 ks", "3.0000 ks"]

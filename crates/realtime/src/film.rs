@@ -1,32 +1,31 @@
-//! A loop in pictures: so many frames at most, evenly spread.
+//! Time history of a real-time loop, reduced to a limited number of points.
 
 use crate::room::room;
 
-/// Most points.
+/// Maximum number of points.
 const MOST: u64 = 4000;
 
-/// What is kept of a loop for its timeline. How many frames there will be is known, so every so many frames a point is taken, and
-/// nothing is ever thrown away again.
+/// Reduced time history of a loop. The points are equally spaced in the planned number of frames.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Film {
     every: u64,
     /// Simulated times of the points, s.
     pub times: Vec<f64>,
-    /// Values of the outputs at the points, one series for each.
+    /// Values of the outputs at the points, one series per output.
     pub outputs: Vec<Vec<f64>>,
-    /// Values of the inputs at the points, one series for each.
+    /// Values of the inputs at the points, one series per input.
     pub inputs: Vec<Vec<f64>>,
-    /// Longest execution time since the last point, ns.
+    /// Maximum execution time since the previous point, ns.
     pub execution: Vec<f64>,
-    /// Longest wake-up latency since the last point, ns.
+    /// Maximum wake-up latency since the previous point, ns.
     pub latency: Vec<f64>,
     worst: (u64, u64),
-    /// How many there will be.
+    /// Planned number of points.
     points: usize,
 }
 
 impl Film {
-    /// For so many frames.
+    /// Creates an empty time history for a number of frames.
     pub fn new(frames: u64, inputs: usize, outputs: usize) -> Self {
         let every = frames.div_ceil(MOST).max(1);
         let points = (frames / every) as usize;
@@ -43,7 +42,7 @@ impl Film {
         }
     }
 
-    /// Looks at a frame, counted from 0, that ends at `time`, s.
+    /// Adds a frame with its index from 0, and its end time, s. `taken` is its latency and its execution time, ns.
     pub(crate) fn look(
         &mut self,
         frame: u64,

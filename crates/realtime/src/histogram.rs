@@ -1,16 +1,17 @@
-//! Times, counted in bins made beforehand.
+//! Histogram of durations with preallocated bins.
 
 use crate::room::touched;
 
-/// Bins of 10 ns below this many ns …
+/// Range of the fine bins, ns, and their width, ns.
 const FINE: u64 = 100_000;
 const FINE_BIN: u64 = 10;
-/// … of 1 µs up to this many; one for all that is longer.
+/// Range of the coarse bins, ns, and their width, ns. Longer durations share one bin.
 const COARSE: u64 = 20_000_000;
 const COARSE_BIN: u64 = 1_000;
 
-/// How often times occurred: to 10 ns up to 100 µs, to 1 µs up to 20 ms, beyond it only that they did. Counting allocates
-/// nothing.
+/// Histogram of durations. Counting allocates no memory.
+///
+/// The bins have a width of 10 ns up to 100 µs and of 1 µs up to 20 ms. Longer durations share one bin.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Histogram {
     fine: Vec<u64>,
@@ -22,7 +23,7 @@ pub struct Histogram {
 }
 
 impl Histogram {
-    /// An empty one.
+    /// Creates an empty histogram.
     pub fn new() -> Self {
         let bins = |most: u64, bin: u64| touched(1, 0, (most / bin) as usize);
         Self {
@@ -35,7 +36,7 @@ impl Histogram {
         }
     }
 
-    /// Counts a time, ns.
+    /// Counts a duration, ns.
     #[inline]
     pub fn count(&mut self, time: u64) {
         if time < FINE {
@@ -50,25 +51,24 @@ impl Histogram {
         self.sum = self.sum.saturating_add(time);
     }
 
-    /// Number of times counted.
+    /// Returns the number of counted durations.
     pub fn total(&self) -> u64 {
         self.count
     }
 
-    /// The longest, ns; 0 of none.
+    /// Returns the longest duration, ns; 0 if there is none.
     pub fn worst(&self) -> u64 {
         self.worst
     }
 
-    /// The mean, ns; 0 of none.
+    /// Returns the mean duration, ns; 0 if there is none.
     pub fn mean(&self) -> f64 {
         if self.count == 0 { 0.0 } else { self.sum as f64 / self.count as f64 }
     }
 
-    /// The least upper edge of a bin, ns, below which a share of the times lies; the longest time where that is less or lies
-    /// beyond the bins.
+    /// Returns a quantile, ns: the upper edge of the bin below which a fraction `share` of the durations lies.
     ///
-    /// With a share of 0.9999 of fewer than 10 000 times this is the longest.
+    /// The result is at most the longest duration. For 0.9999 and fewer than 10 000 durations it is the longest one.
     pub fn quantile(&self, share: f64) -> u64 {
         let wanted = (share * self.count as f64).ceil() as u64;
         let mut seen = 0;
@@ -83,8 +83,9 @@ impl Histogram {
         self.worst
     }
 
-    /// So many bins for each decade, from 10 ns on, as (lower edge, upper edge, count), edges in ns; the last has all that is longer
-    /// than 20 ms. Where bins are narrower than those that were counted in, the counts lie in the first that touches them.
+    /// Returns logarithmic bins as (lower edge, upper edge, count), edges in ns, with `per_decade` bins per decade from 10 ns on.
+    ///
+    /// The last bin contains all durations above 20 ms. Where a logarithmic bin is narrower than the counting bins, some bins are empty.
     pub fn decades(&self, per_decade: u32) -> Vec<(f64, f64, u64)> {
         let edge = |bin: u32| FINE_BIN as f64 * math::powf(10.0, f64::from(bin) / f64::from(per_decade));
         let last = (f64::from(per_decade) * math::log10(COARSE as f64 / FINE_BIN as f64)).ceil() as u32;
@@ -100,13 +101,13 @@ impl Histogram {
         bins
     }
 
-    /// Ten bins for each decade, as [`Self::decades`] has them, edges in s: what pictures show.
+    /// Returns ten bins per decade as in [`Self::decades`], with edges in s.
     pub fn tenths(&self) -> Vec<(f64, f64, u64)> {
         let seconds = |(low, high, count): (f64, f64, u64)| (1e-9 * low, 1e-9 * high, count);
         self.decades(10).into_iter().map(seconds).collect()
     }
 
-    /// Bins of 1 µs, as (lower edge in µs, count), those that are not empty; and how many times were 20 ms or longer.
+    /// Returns the non-empty bins of 1 µs as (lower edge in µs, count), and the number of durations of 20 ms or more.
     pub fn microseconds(&self) -> (impl Iterator<Item = (u64, u64)> + '_, u64) {
         let each = (COARSE_BIN / FINE_BIN) as usize;
         let fine = self.fine.chunks(each).map(|bins| bins.iter().sum::<u64>());
@@ -130,7 +131,7 @@ mod tests {
     fn quantiles_are_upper_edges_of_bins() {
         let mut histogram = Histogram::new();
         assert_eq!((histogram.quantile(0.5), histogram.worst(), histogram.total()), (0, 0, 0));
-        // 9 900 times 1.234 µs, 99 times 250.5 µs, one of a minute.
+        // 9 900 times of 1.234 µs, 99 times of 250.5 µs, one of a minute.
         (0..9_900).for_each(|_| histogram.count(1_234));
         (0..99).for_each(|_| histogram.count(250_500));
         histogram.count(60_000_000_000);

@@ -1,13 +1,14 @@
-//! What is let in: packets are judged one by one, and whatever comes, every frame has good values.
+//! Validation of received input packets. In every frame the inputs have valid values.
 //!
-//! * A packet of the wrong length, that is no packet, of another scenario, with a value that is not finite or out of its range,
-//!   or with a time stamp that is not finite, is refused and counted; the last good values stay.
-//! * Sequence numbers of a client ascend: the same again, or a smaller one, is refused and counted. Gaps are no fault.
-//! * Of several good packets within a frame the last counts; the others are counted as superseded.
-//! * The first client that says something good has the inputs, until it has been silent for the patience: what others say is
-//!   refused and counted. After that the first good packet, whoever sends it and whatever its number, takes over.
-//! * A frame without a good packet is stale: the last values are held. After the silence allowed they stay all the same, go
-//!   back to their initial values until the next good packet, or end the loop.
+//! * A packet is refused and counted if its length, format or scenario number is wrong. The same holds for values or time stamps that are
+//!   not finite or out of range. The last valid values remain.
+//! * The sequence numbers of a client must ascend. Packets with the same or a smaller number are refused and counted. Gaps are allowed.
+//! * Of several accepted packets within a frame the last one counts. The others are counted as superseded.
+//! * The first client with an accepted packet owns the inputs until it has been silent for the patience. Packets of other clients are
+//!   refused
+//!   and counted. Afterwards the first accepted packet of any client takes over, with any sequence number.
+//! * A frame without an accepted packet is stale. The last values are held. After the allowed silence they are still held, return to their
+//!   initial values, or the loop ends, depending on [`Silence`].
 
 use crate::pace::Stop;
 use crate::plant::{Input, Takes};
@@ -16,75 +17,75 @@ use schemars::JsonSchema;
 use serde::Serialize;
 use std::net::SocketAddr;
 
-/// Who speaks.
+/// Sender of a packet.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Client {
-    /// From an address of the network.
+    /// Client with a network address.
     Address(SocketAddr),
-    /// By the number that it writes into shared memory.
+    /// Client that writes into shared memory, with its client number.
     Writer(u64),
-    /// The only one that can.
+    /// The only possible client.
     Only,
 }
 
-/// What happens when no good packet has come for long.
+/// Action after a long time without an accepted packet.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Silence {
-    /// The last values stay.
+    /// The last values are held.
     #[default]
     Hold,
-    /// The initial values come back.
+    /// The initial values are restored.
     Initial,
     /// The loop ends.
     Stop,
 }
 
-/// How long is waited for whom, in frames.
+/// Time limits for silent clients, in frames.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Patience {
-    /// What happens after …
+    /// Action after `silent_after` frames without an accepted packet.
     pub silence: Silence,
-    /// … so many frames without a good packet.
+    /// Number of frames without an accepted packet until this action.
     pub silent_after: u64,
-    /// After how many another client may take over.
+    /// Number of frames without an accepted packet until another client may take over.
     pub owner: u64,
 }
 
-/// What came.
+/// Numbers of accepted and refused inputs.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, JsonSchema)]
 pub struct Received {
-    /// packets or lines that were taken, or that a later one of the same frame followed
+    /// number of accepted packets or lines, including superseded ones
     pub good: u64,
-    /// of these, followed by another one in the same frame
+    /// number of accepted packets that a later one in the same frame replaced
     pub superseded: u64,
-    /// refused: too long or too short
+    /// number of refused packets of wrong length
     pub wrong_length: u64,
-    /// refused: no packet, another version, or another number of values
+    /// number of refused packets of another format or version, or with another number of values
     pub foreign: u64,
-    /// refused: another scenario's
+    /// number of refused packets with another scenario number
     pub other_scenario: u64,
-    /// refused: the number of the last one again
+    /// number of refused packets with the same sequence number as the last one
     pub repeated: u64,
-    /// refused: a smaller number than the last one's
+    /// number of refused packets with a smaller sequence number than the last one
     pub out_of_order: u64,
-    /// refused: a value or time stamp that is not finite, or a value out of its range
+    /// number of refused packets with a value outside its range, or a value or time stamp that is not finite
     pub out_of_range: u64,
-    /// refused: of another client than the one that has the inputs
+    /// number of refused packets of another client than the owner of the inputs
     pub other_client: u64,
-    /// frames in which somebody was writing into shared memory whenever it was looked at
+    /// number of frames in which the shared memory was being written at every attempt to read it
     pub torn_frames: u64,
-    /// frames in which nothing good came
+    /// number of frames without an accepted input
     pub stale_frames: u64,
-    /// most of them in a row
+    /// largest number of frames in succession without an accepted input
     pub most_stale: u64,
-    /// clients that had the inputs, one after the other
+    /// number of clients that owned the inputs, one after the other
     pub owners: u64,
-    /// times that `--silence` came into force
+    /// number of times that `--silence` took effect
     pub silences: u64,
 }
 
 impl Received {
-    /// What was refused, in words; none where nothing was.
+    /// Returns the numbers of refused packets as text. Returns `None` if none was refused.
     #[must_use]
     pub fn refused(&self) -> Option<String> {
         let counts = [
@@ -102,7 +103,7 @@ impl Received {
     }
 }
 
-/// The values for the next frame, and what was judged.
+/// Validates packets and holds the values for the next frame.
 #[derive(Debug)]
 pub struct Intake {
     scenario: u64,
@@ -112,15 +113,15 @@ pub struct Intake {
     values: Vec<f64>,
     candidate: Vec<f64>,
     owner: Option<(Client, u64)>,
-    /// Good packets since the last frame.
+    /// Number of accepted packets since the last frame.
     fresh: u64,
-    /// Frames since the last good packet.
+    /// Number of frames since the last accepted packet.
     stale: u64,
     received: Received,
 }
 
 impl Intake {
-    /// Initial values, and nobody yet.
+    /// Creates a validator with the initial values and no owner.
     pub fn new(scenario: u64, inputs: &[Input], patience: Patience) -> Self {
         let initial: Vec<f64> = inputs.iter().map(|input| input.initial).collect();
         Self {
@@ -137,82 +138,82 @@ impl Intake {
         }
     }
 
-    /// The scenario's number.
+    /// Returns the number of the scenario.
     pub fn scenario(&self) -> u64 {
         self.scenario
     }
 
-    /// Number of values.
+    /// Returns the number of values.
     pub fn width(&self) -> usize {
         self.initial.len()
     }
 
-    /// Values for the next frame.
+    /// Returns the values for the next frame.
     pub fn values(&self) -> &[f64] {
         &self.values
     }
 
-    /// What came so far.
+    /// Returns the counts of accepted and refused packets.
     pub fn received(&self) -> &Received {
         &self.received
     }
 
-    /// After how many frames of silence another client may take over.
+    /// Returns the number of silent frames after which another client may take over.
     pub(crate) fn patience(&self) -> u64 {
         self.patience.owner
     }
 
-    /// Who has the inputs.
+    /// Returns the client that owns the inputs.
     pub fn owner(&self) -> Option<Client> {
         self.owner.map(|(client, _)| client)
     }
 
-    /// The same unless another client may take over.
+    /// Returns the owner, unless another client may take over.
     pub(crate) fn holder(&self) -> Option<Client> {
         self.owner().filter(|_| !self.has_lapsed())
     }
 
-    /// Whether nothing good has come for so long that another client may take over.
+    /// Returns whether the owner has been silent for so long that another client may take over.
     fn has_lapsed(&self) -> bool {
         self.stale >= self.patience.owner
     }
 
-    /// Judges a packet.
+    /// Validates a packet.
     pub fn offer(&mut self, client: Client, bytes: &[u8]) {
         let mut candidate = std::mem::take(&mut self.candidate);
         let stamp = wire::decode(bytes, self.scenario, &mut candidate);
         self.judge(client, stamp, candidate);
     }
 
-    /// Judges a packet that comes as words.
+    /// Validates a packet that consists of 64-bit words.
     pub(crate) fn offer_words(&mut self, client: Client, words: impl Iterator<Item = u64>) {
         let mut candidate = std::mem::take(&mut self.candidate);
         let stamp = wire::read(words, self.scenario, &mut candidate);
         self.judge(client, stamp, candidate);
     }
 
-    /// Notes that something came that is none.
+    /// Counts a refused packet, as one of wrong length or as one of another format.
     pub(crate) fn note_foreign(&mut self, length: bool) {
         *(if length { &mut self.received.wrong_length } else { &mut self.received.foreign }) += 1;
     }
 
-    /// Notes that so many came with values that are none of an input's.
+    /// Counts refused packets with a value out of range.
     pub(crate) fn note_out_of_range(&mut self, count: u64) {
         self.received.out_of_range += count;
     }
 
-    /// Notes that so many good ones were followed by another one before anybody looked.
+    /// Counts accepted packets that a later one in the same frame replaced.
     pub(crate) fn note_superseded(&mut self, count: u64) {
         self.received.good += count;
         self.received.superseded += count;
     }
 
-    /// Notes a frame in which somebody was always writing.
+    /// Counts a frame in which the shared memory was being written at every attempt to read it.
     pub(crate) fn note_torn(&mut self) {
         self.received.torn_frames += 1;
     }
 
-    /// Takes values that were judged before.
+    /// Sets values that were validated before.
     pub(crate) fn impose(&mut self, values: &[f64]) {
         self.values.copy_from_slice(values);
         (self.fresh, self.received.good) = (1, self.received.good + 1);
@@ -248,10 +249,10 @@ impl Intake {
         self.fresh += 1;
     }
 
-    /// Ends the looking for packets of a frame.
+    /// Ends a frame and applies the action for silence.
     ///
     /// # Errors
-    /// Where silence is the end, and there was too much of it.
+    /// [`Stop::Silence`] if the silence exceeds its limit and its action is to stop.
     pub fn settle(&mut self) -> Result<(), Stop> {
         let received = &mut self.received;
         received.superseded += self.fresh.saturating_sub(1);

@@ -1,17 +1,15 @@
-//! Drives in real time: a frame after each tick of a clock, inputs from outside and outputs to it.
+//! Real-time simulation of drives: one frame per clock tick, with inputs and outputs over UDP or shared memory.
 //!
-//! [`plant`] is what is stepped a frame at a time; [`pace`] the loop, with absolute deadlines on the monotonic clock and a
-//! [`Histogram`] of how long everything took; [`session`] joins them with the outside world: a [`Source`] of
-//! inputs, the [`Intake`] that judges them, [`Sink`]s of outputs, and tapes of what is written down beside
-//! it. What came of it is a [`report`].
+//! [`plant`] is the simulated drive, advanced frame by frame. [`pace`] is the loop, with absolute deadlines on the monotonic clock and
+//! [`Histogram`]s of its timing. [`session`] connects them with a [`Source`] of inputs, the [`Intake`] that validates them, [`Sink`]s of
+//! outputs, and tapes that record them. [`report`] summarises a session.
 //!
-//! In the loop nothing is allocated, locked or logged, and nothing asked of the system but the sleep and, over UDP, packets.
+//! The loop allocates no memory, takes no lock and writes no log. Its only system calls are the sleep and, with UDP, sending and receiving.
 //!
-//! In reading order: [`plant`], [`pace`], [`histogram`], [`worst`]; [`wire`] (a packet), [`intake`], [`source`], [`sink`],
-//! [`region`] (shared memory) with `seqlock` and [`memory`]; [`tape`] with `ring`, [`film`]; [`session`], [`probe`],
-//! [`report`]; [`system`].
+//! In reading order: [`plant`], [`pace`], [`histogram`], [`worst`]; [`wire`] (packet format), [`intake`], [`source`], [`sink`], [`region`]
+//! (shared memory) with `seqlock` and [`memory`]; [`tape`] with `ring`, [`film`]; [`session`], [`probe`], [`report`]; [`system`].
 //!
-//! This crate alone of the workspace has unsafe code: in [`memory`] and [`system`], each use with its reason.
+//! In the workspace, only this crate contains unsafe code. It is in [`memory`] and [`system`], and each use is justified.
 
 pub mod film;
 pub mod histogram;

@@ -1,6 +1,6 @@
-//! Memory that other processes write, too: a file that is mapped, as words.
+//! Shared memory: a memory-mapped file of 64-bit words that other processes write, too.
 //!
-//! Whatever they write, words are numbers: nothing in it is trusted, no length and no place is read from it.
+//! Any word may have any value at any time. Therefore no length and no address is read from it.
 
 #[cfg(target_os = "linux")]
 mod bus;
@@ -10,38 +10,38 @@ use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicU64, Ordering};
 use thiserror::Error;
 
-/// Why there is no shared memory.
+/// Error for shared memory.
 #[derive(Debug, Error)]
 pub enum MemoryError {
-    /// A file that is something else.
-    #[error("{}: a file that is no shared memory of stickslip; give another name", .0.display())]
+    /// The file contains something else.
+    #[error("{}: this file is not a shared memory of stickslip; give another name", .0.display())]
     Foreign(PathBuf),
-    /// Another run has it.
+    /// Another run uses the file.
     #[error("{}: in use by another run; give another name", .0.display())]
     InUse(PathBuf),
-    /// Not on this system.
-    #[error("{}: shared memory is not to be had on this system; use udp", .0.display())]
+    /// This operating system is not supported.
+    #[error("{}: this system has no shared memory; use udp", .0.display())]
     Unknown(PathBuf),
-    /// Another process has cut it.
+    /// Another process truncated the file.
     #[error(
-        "{}: another process made the shared memory shorter, or wrote behind its records; the loop ended",
+        "{}: another process truncated the shared memory or wrote beyond its records; the loop ended",
         .0.display()
     )]
     Cut(PathBuf),
-    /// The system's word.
+    /// The operating system returned an error.
     #[error("{}: {source}", path.display())]
     System {
-        /// The file.
+        /// Path of the file.
         path: PathBuf,
-        /// What the system says.
+        /// Error of the operating system.
         source: io::Error,
     },
 }
 
-/// Words that other processes may read and write at any time; their file is gone when it is dropped.
+/// Memory-mapped words that other processes may read and write at any time. The file is removed when this value is dropped.
 ///
-/// Behind them lies the mark once more. Who makes the file shorter makes that 0: the system fills what remains of a page with zeros,
-/// and where no page remains a page of zeros takes its place as soon as it is touched (`bus`), which would be the end of the process.
+/// The word behind the mapped words contains the mark. If another process truncates the file, this word becomes 0. The system fills the
+/// rest of a page with zeros. A missing page is replaced by zeros when it is accessed (`bus`); otherwise the access would end the process.
 pub struct Shared {
     path: PathBuf,
     mark: u64,
@@ -49,12 +49,12 @@ pub struct Shared {
 }
 
 impl Shared {
-    /// Makes the file and maps `length` words of it, all 0.
+    /// Creates the file and maps `length` words of it, all 0.
     ///
-    /// A file that a run left which was killed is taken over, any other one not. It is for its user alone.
+    /// Only the user of the process can access the file. A file that a killed run has left is reused; any other existing file is an error.
     ///
     /// # Errors
-    /// A file that is something else or in use; the system's word.
+    /// The file contains something else or is in use, or the operating system returns an error.
     pub fn make(path: &Path, mark: u64, length: usize) -> Result<Self, MemoryError> {
         let shared =
             Self { path: path.to_owned(), mark, mapping: imp::Mapping::make(path, mark, length + 1)? };
@@ -62,7 +62,7 @@ impl Shared {
         Ok(shared)
     }
 
-    /// The words.
+    /// Returns the words.
     pub fn words(&self) -> &[AtomicU64] {
         let all = self.mapping.words();
         &all[..all.len() - 1]
@@ -73,12 +73,12 @@ impl Shared {
         &all[all.len() - 1]
     }
 
-    /// Whether the file has its length still, and nobody has written behind the words.
+    /// Returns whether the file still has its length and the word behind the end is unchanged.
     pub fn is_whole(&self) -> bool {
         self.end().load(Ordering::Relaxed) == self.mark
     }
 
-    /// Where the file was made.
+    /// Returns the path of the file.
     pub fn path(&self) -> &Path {
         &self.path
     }
@@ -86,8 +86,8 @@ impl Shared {
 
 impl Drop for Shared {
     fn drop(&mut self) {
-        // Clients that have it mapped keep it; what cannot be removed is taken over by the next run. Where the path is another
-        // file's by now, that is left alone.
+        // Clients that have mapped the file keep their mapping. A file that cannot be removed is reused by the next run. If another file
+        // has taken the path, it is not removed.
         if self.mapping.is_at(&self.path) {
             let _ = std::fs::remove_file(&self.path);
         }
@@ -105,19 +105,19 @@ mod imp {
     use std::ptr::NonNull;
 
     const WORD: usize = size_of::<AtomicU64>();
-    /// How often a file is opened anew that was removed meanwhile.
+    /// Maximum number of attempts to open a file that another run removes at the same time.
     const TRIES: usize = 100;
 
     pub(super) struct Mapping {
         start: NonNull<AtomicU64>,
         length: usize,
-        /// Keeps the process alive where the file is made shorter; gone before the mapping.
+        /// Handles accesses to a truncated file. It is dropped before the mapping.
         guard: Option<Guard>,
-        /// Keeps the lock.
+        /// Holds the file lock.
         file: File,
     }
 
-    /// Opens a file, makes it where there is none, and locks it.
+    /// Opens or creates a file and locks it.
     fn locked(path: &Path) -> Result<File, MemoryError> {
         for _ in 0..TRIES {
             let file = OpenOptions::new()
@@ -132,7 +132,7 @@ mod imp {
             if flock(&file, FlockOperation::NonBlockingLockExclusive).is_err() {
                 break;
             }
-            // Between the two a run may have ended and removed it: nobody would find what is mapped then.
+            // Another run may have removed the file between opening and locking. Then no client could find it.
             if is_at(&file, path) {
                 return Ok(file);
             }
@@ -140,7 +140,7 @@ mod imp {
         Err(MemoryError::InUse(path.to_owned()))
     }
 
-    /// Whether a file is the one at a path.
+    /// Returns whether an open file is the one at a path.
     fn is_at(file: &File, path: &Path) -> bool {
         let [open, there] = [file.metadata(), std::fs::symlink_metadata(path)];
         matches!((open, there), (Ok(open), Ok(there)) if (open.dev(), open.ino()) == (there.dev(), there.ino()))
@@ -153,7 +153,7 @@ mod imp {
             let file = locked(path)?;
             let found = file.metadata().map_err(failed)?;
             let mut head = [0; WORD];
-            // Without a mark it is ours if it is as long as what is made here: a run was killed before it wrote that.
+            // A file without a mark but with this length was left by a run that was killed before it wrote the mark.
             let mut is_ours = || {
                 file.read_exact_at(&mut head, 0).is_ok()
                     && (head == mark.to_ne_bytes() || (head == [0; WORD] && found.len() == bytes as u64))
@@ -161,12 +161,12 @@ mod imp {
             if !found.is_file() || (found.len() > 0 && !is_ours()) {
                 return Err(MemoryError::Foreign(path.to_owned()));
             }
-            // Written, and not only as long: a disk that is full says so here. A client of the run that was killed may still have it
-            // mapped: it never gets shorter.
+            // The file is written and not only extended, so that a full disk is reported here. It is never truncated, because a client of a
+            // killed run may still have mapped it.
             file.write_all_at(&vec![0; bytes], 0).map_err(failed)?;
             let access = ProtFlags::READ | ProtFlags::WRITE;
             #[allow(unsafe_code, reason = "memory that other processes write is not to be had otherwise")]
-            // SAFETY: a new mapping at a place that the system chooses takes no memory that anybody has.
+            // SAFETY: a new mapping at an address that the system chooses does not overlap existing memory.
             let start = unsafe { mmap(std::ptr::null_mut(), bytes, access, MapFlags::SHARED, &file, 0) };
             let start = start.map_err(|errno| failed(io::Error::from(errno)))?;
             let start =
@@ -176,16 +176,16 @@ mod imp {
             Ok(mapping)
         }
 
-        /// Whether its file is the one at a path.
+        /// Returns whether the mapped file is the one at a path.
         pub(super) fn is_at(&self, path: &Path) -> bool {
             is_at(&self.file, path)
         }
 
         pub(super) fn words(&self) -> &[AtomicU64] {
             #[allow(unsafe_code, reason = "the words of the mapping, whose length nobody else knows")]
-            // SAFETY: the mapping has `length` words, begins at a page, and lives as long as `self`. Every value of a word is
-            // a number, and whoever else writes them, this process reads and writes them by atomics only. The file was made
-            // as long as the mapping and is its user's alone; if that user cuts it, zeros take its place (`bus`).
+            // SAFETY: the mapping has `length` words, is page-aligned, and lives as long as `self`. Every bit pattern of a word is valid.
+            // This process reads and writes the words by atomics only, whatever other processes do. The file was created with the length of
+            // the mapping, and only its user can access it. If it is truncated, zeros replace the missing pages (`bus`).
             unsafe {
                 std::slice::from_raw_parts(self.start.as_ptr(), self.length)
             }
@@ -194,21 +194,21 @@ mod imp {
 
     impl Drop for Mapping {
         fn drop(&mut self) {
-            // First: what lies at this place afterwards is somebody else's.
+            // The guard is dropped first, because the address range may be reused after the unmapping.
             self.guard = None;
             #[allow(unsafe_code, reason = "the mapping's end")]
-            // SAFETY: it is the mapping that `make` made, whole, and no reference into it outlives `self`. An error would
-            // leave it mapped until the process ends.
+            // SAFETY: this is the complete mapping that `make` created, and no reference into it outlives `self`. After an error it stays
+            // mapped until the process ends.
             let _ = unsafe { munmap(self.start.as_ptr().cast(), self.length * WORD) };
         }
     }
 
     #[allow(unsafe_code, reason = "a pointer is not Send by itself")]
-    // SAFETY: the mapping belongs to the process and not to a thread, and is used by atomics only.
+    // SAFETY: the mapping belongs to the process, not to a thread, and is accessed by atomics only.
     unsafe impl Send for Mapping {}
 
     #[allow(unsafe_code, reason = "nor Sync")]
-    // SAFETY: a shared reference gives atomics and nothing else.
+    // SAFETY: a shared reference gives access to atomics only.
     unsafe impl Sync for Mapping {}
 }
 
@@ -216,7 +216,7 @@ mod imp {
 mod imp {
     use super::{AtomicU64, MemoryError, Path};
 
-    /// There is none.
+    /// Shared memory is not supported on this system.
     pub(super) enum Mapping {}
 
     impl Mapping {
@@ -271,14 +271,14 @@ mod tests {
             std::fs::write(&path, bytes).unwrap();
             Shared::make(&path, MARK, 8).is_ok()
         };
-        // Killed before the mark was written, with other words there already.
+        // Killed before the mark was written, with other words written already.
         let mut head = [0; 72];
         head[20] = 1;
         assert!(after(&head) && after(&[]) && after(&MARK.to_ne_bytes()));
         assert!(!after(&head[..71]) && !after(&[1; 72]));
     }
 
-    /// The system sends a process SIGBUS that touches what is no more.
+    /// The system sends SIGBUS to a process that accesses a page beyond the end of a file.
     #[test]
     fn memory_whose_file_was_made_shorter_is_zeros_and_known() {
         let folder = tempfile::tempdir().unwrap();

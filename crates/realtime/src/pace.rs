@@ -1,9 +1,9 @@
-//! The loop: one frame after each deadline, and how long everything took.
+//! The real-time loop: one frame after each deadline, with timing statistics.
 //!
-//! Deadlines lie at multiples of the period on the monotonic clock, not a period after the last frame: what delays one frame
-//! delays no other. Frame k is computed after its deadline, with the inputs that are there then, and says where the drive
-//! stands at the frame's end. Of each frame two times are taken: from the deadline until the loop woke (the machine's), and
-//! from then until the outputs were out (the program's). A frame that ends after the next deadline has overrun.
+//! Deadlines are multiples of the period on the monotonic clock. A delayed frame therefore does not delay later ones. Frame k is computed
+//! after its deadline with the inputs available at this time. Its outputs are the state at the end of the frame. Two durations are
+//! recorded: the latency from the deadline to the wake-up, and the execution time from then until the outputs are sent. A frame that ends
+//! after the next deadline is an overrun.
 
 use crate::histogram::Histogram;
 use crate::plant::{PlantError, STEPS, Work};
@@ -13,70 +13,70 @@ use crate::worst::{Slow, Worst};
 use std::path::PathBuf;
 use stickslip_drive::RunError;
 
-/// How far ahead the first deadline lies, ns.
+/// Time from the start to the first deadline, ns.
 const AHEAD: u64 = 2_000_000;
-/// Longest sleep before somebody who wants the loop to end is heard, ns.
+/// Maximum duration of a single sleep, ns. Interrupts are checked after each one.
 const NAP: u64 = 50_000_000;
 const NANO: f64 = 1e9;
-/// Numbers of steps of a frame that are told apart; from here on all are one.
+/// Number of bins for the steps per frame. The last bin contains all larger numbers.
 const MOST_STEPS: usize = 4096;
 
-/// What is done where a frame ends after the next deadline.
+/// Action after an overrun: a frame that ends after the next deadline.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Overrun {
-    /// Deadlines that have passed are left out: the next frame waits for the first that still lies ahead. All frames are
-    /// computed, each with the inputs of its own time; simulated time falls behind the clock by a period for each deadline
-    /// left out. Frames without waiting would catch up, but no controller would have seen what comes between them; one long
-    /// frame would, too, but it is not the frame that was asked for, and no replay would have it.
+    /// Missed deadlines are skipped, and the next frame waits for the next future deadline.
+    ///
+    /// All frames are computed with the inputs of their own time. Simulated time falls behind the clock by one period per skipped deadline.
+    /// Catching up is not attempted, because the controller would not see the frames in between.
     #[default]
     Skip,
     /// The loop ends.
     Stop,
 }
 
-/// When frames are computed.
+/// Timing of the frames.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Pace {
     /// Length of a frame, s.
     pub period: f64,
-    /// What is done where one ends after the next deadline; none: nothing waits for any deadline.
+    /// Action after an overrun. `None` runs frames as fast as possible, without deadlines.
     pub overrun: Option<Overrun>,
-    /// How long before each deadline the loop wakes and watches the clock, s: waking takes the system longer than a short
-    /// frame, and differs from time to time. 0 sleeps up to the deadline.
+    /// Time before each deadline at which the loop wakes and polls the clock, s. It should exceed the wake-up latency of the system. With 0
+    /// the loop sleeps until the deadline.
     pub spin: f64,
 }
 
-/// What is done in each frame.
+/// The work of the loop in each frame.
 pub trait Cycle {
-    /// Does the work of frame `frame`.
+    /// Computes a frame.
     ///
     /// # Errors
-    /// Why the loop ends here; the frame then does not count.
+    /// The reason why the loop ends. The frame then does not count.
     fn act(&mut self, frame: u64) -> Result<Work, Stop>;
 
-    /// Whether the loop is to go on; asked while it waits for a deadline that is far off.
+    /// Returns whether the loop continues. It is called while the loop waits for a distant deadline.
     fn goes_on(&self) -> bool {
         true
     }
 
-    /// Is told how long a frame took, and how many deadlines are left out after it; not part of any frame's time.
+    /// Receives the timing of a frame and the number of deadlines skipped after it. It does not count as time of a frame.
     fn timed(&mut self, frame: &Slow, left_out: u64) {
         let _ = (frame, left_out);
     }
 }
 
-/// Why a loop ended before its last frame.
+/// Reason for the end of a loop before its last frame.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Stop {
-    /// The plant.
+    /// The simulation failed.
     Plant(PlantError),
-    /// Somebody asked.
+    /// The user interrupted the loop.
     Interrupted,
-    /// A frame ended after the next deadline, and that was to be the end.
+    /// An overrun occurred, and its action is to stop.
     Overrun,
-    /// No input came for longer than was allowed.
+    /// No input was accepted for longer than allowed.
     Silence,
-    /// Another process made the file of the shared memory shorter.
+    /// Another process truncated the file of the shared memory.
     Cut(PathBuf),
 }
 
@@ -89,31 +89,31 @@ impl From<PlantError> for Stop {
     }
 }
 
-/// How long everything took.
+/// Timing statistics of a loop.
 #[derive(Debug, Clone)]
 pub struct Timing {
-    /// From deadlines until the loop woke, ns.
+    /// Latencies from deadline to wake-up, ns.
     pub latency: Histogram,
-    /// From then until the frames were done, ns.
+    /// Execution times from wake-up to the end of the frame, ns.
     pub execution: Histogram,
-    /// Frames that ended after the next deadline.
+    /// Number of overruns.
     pub overruns: u64,
-    /// Deadlines left out.
+    /// Number of skipped deadlines.
     pub left_out: u64,
-    /// Most deadlines left out in a row.
+    /// Maximum number of deadlines skipped in succession.
     pub longest_skip: u64,
-    /// Frames that took longest.
+    /// Frames with the longest execution times.
     pub slowest: Worst,
-    /// Frames that the loop woke for latest.
+    /// Frames with the longest latencies.
     pub latest: Worst,
-    /// From the first deadline until the last frame was done, ns.
+    /// Wall time from the first deadline to the end of the last frame, ns.
     pub wall: u64,
-    /// Frames by their numbers of steps.
+    /// Numbers of frames by their numbers of time steps.
     steps: Vec<u64>,
 }
 
 impl Timing {
-    /// Nothing yet, with all the room that is needed.
+    /// Creates empty statistics with all memory preallocated.
     pub fn new() -> Self {
         Self {
             latency: Histogram::new(),
@@ -128,8 +128,7 @@ impl Timing {
         }
     }
 
-    /// Steps of a usual frame: the least number that half of them keep. Where that is beyond all that is told apart, no frame
-    /// has more.
+    /// Returns the median number of time steps per frame. Returns `u64::MAX` if it is beyond the bins.
     pub fn usual(&self) -> u64 {
         let mut seen = 0;
         let half = self.frames().div_ceil(2);
@@ -140,7 +139,7 @@ impl Timing {
         place.filter(|place| *place < MOST_STEPS - 1).map_or(u64::MAX, |place| place as u64)
     }
 
-    /// Number of frames computed.
+    /// Returns the number of computed frames.
     pub fn frames(&self) -> u64 {
         self.execution.total()
     }
@@ -163,7 +162,7 @@ impl Default for Timing {
     }
 }
 
-/// Deadlines, ns on the clock.
+/// Deadlines on the clock, ns.
 #[derive(Debug, Clone, Copy)]
 struct Grid {
     start: u64,
@@ -172,13 +171,13 @@ struct Grid {
 }
 
 impl Grid {
-    /// The deadline of a slot.
+    /// Returns the deadline of a slot, ns.
     fn at(&self, slot: u64) -> u64 {
-        // To the ns in any loop that ends within a hundred days.
+        // Exact to 1 ns for loops of up to a hundred days.
         self.start + (slot as f64 * self.period).round() as u64
     }
 
-    /// The first slot whose deadline is not before a moment, at least `least`.
+    /// Returns the first slot, at least `least`, whose deadline is not before `moment`.
     fn after(&self, moment: u64, least: u64) -> u64 {
         let about = (moment.saturating_sub(self.start) as f64 / self.period) as u64;
         let mut slot = about.max(least);
@@ -189,7 +188,7 @@ impl Grid {
     }
 }
 
-/// Sleeps until a moment, by naps where that is far off.
+/// Sleeps until a time on the clock, ns, with breaks to check for interrupts.
 fn wait_until(moment: u64, cycle: &impl Cycle) -> Result<(), Stop> {
     while moment.saturating_sub(now()) > NAP {
         if !cycle.goes_on() {
@@ -201,11 +200,10 @@ fn wait_until(moment: u64, cycle: &impl Cycle) -> Result<(), Stop> {
     Ok(())
 }
 
-/// Runs frames until there are no more of them or something stops them. Besides what the cycle does, nothing is allocated, and
-/// nothing but the sleep is asked of the system.
+/// Runs frames until the last one or until a stop. Apart from the cycle, it allocates no memory and makes no system calls but the sleep.
 ///
 /// # Errors
-/// Why it ended before the last frame; `timing` has what was counted until then.
+/// The reason for an early end. `timing` contains the statistics up to it.
 pub fn run(pace: &Pace, frames: u64, cycle: &mut impl Cycle, timing: &mut Timing) -> Result<(), Stop> {
     let start = now() + if pace.overrun.is_some() { AHEAD } else { 0 };
     let grid = Grid { start, period: NANO * pace.period };
@@ -257,7 +255,7 @@ mod tests {
         for (moment, least, slot) in [(1_700, 1, 7), (1_701, 1, 8), (1_799, 1, 8), (1_800, 1, 8), (0, 3, 3)] {
             assert_eq!(grid.after(moment, least), slot, "{moment}");
         }
-        // A period that is no number of ns: deadlines do not drift.
+        // The period is not a whole number of ns. Deadlines do not drift.
         let odd = Grid { start: 0, period: 1e9 / 3.0 };
         assert_eq!(odd.at(3_000_000_000), 1_000_000_000_000_000_000);
     }
@@ -274,11 +272,11 @@ mod tests {
             timing.usual()
         };
         assert_eq!((usual(&[1, 9, 3, 3, 2, 40]), usual(&[7, 8])), (3, 7));
-        // Many more than are told apart: no frame has too many.
+        // More steps than the histogram distinguishes: no frame counts as unusual.
         assert_eq!(usual(&[1, 5_000, 6_000]), u64::MAX);
     }
 
-    /// Frames that sleep over their deadline, and what they log.
+    /// Frames that sleep beyond their deadline, with a log.
     struct Late(Vec<(u64, u64, u64)>);
 
     impl Cycle for Late {
@@ -302,7 +300,7 @@ mod tests {
         assert!(late.0.iter().map(|(frame, ..)| *frame).eq(0..20));
         let over: Vec<_> = late.0.iter().filter(|(_, time, _)| *time > 1_000_000).collect();
         assert!(over.len() >= 4 && over.len() as u64 == timing.overruns, "{over:?}");
-        // 2.5 ms from a deadline: two have passed, at least; a busy machine passes more.
+        // The frame takes 2.5 ms: at least two deadlines have passed, and more on a busy machine.
         assert!(over.iter().all(|(frame, _, left)| *left >= if frame % 5 == 2 { 2 } else { 1 }), "{over:?}");
         assert_eq!(timing.left_out, late.0.iter().map(|(.., left)| left).sum::<u64>());
         assert!(late.0.iter().all(|(_, time, left)| (*time > 1_000_000) == (*left > 0)));
@@ -313,11 +311,11 @@ mod tests {
         let pace = Pace { period: 1e-3, overrun: Some(Overrun::Stop), spin: 100e-6 };
         let (mut late, mut timing) = (Late(Vec::new()), Timing::new());
         assert_eq!(run(&pace, 20, &mut late, &mut timing), Err(Stop::Overrun));
-        // A busy machine may be late before.
+        // On a busy machine, earlier frames may be late, too.
         assert!(timing.frames() <= 3 && timing.overruns == 1, "{}", timing.frames());
     }
 
-    /// Frames of an hour, in whose wait somebody has had enough.
+    /// A loop of an hour that is interrupted while it waits.
     struct Enough(std::cell::Cell<u64>);
 
     impl Cycle for Enough {

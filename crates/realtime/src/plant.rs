@@ -1,4 +1,4 @@
-//! What is stepped a frame at a time.
+//! Simulated system that is advanced frame by frame.
 
 mod channels;
 mod commanded;
@@ -12,45 +12,46 @@ pub use drive::Drive;
 use stickslip_drive::{CommandError, InputError, Run, RunError};
 use thiserror::Error;
 
-/// What of the work of a frame is counted, by name.
+/// Names of the counted work of a frame.
 pub const WORK: [&str; 7] = ["steps", "rejected", "evaluations", "events", "detours", "knots", "merges"];
 
 /// Work of a frame, in the order of [`WORK`].
 pub type Work = [u64; WORK.len()];
 
-/// Place of the steps in them.
+/// Index of the time steps in [`WORK`].
 pub(crate) const STEPS: usize = 0;
 
-/// What was counted under a name of [`WORK`] in a frame.
+/// Returns the count with a name of [`WORK`]; 0 for unknown names.
 pub fn counted(work: &Work, name: &str) -> u64 {
     WORK.iter().position(|known| *known == name).map_or(0, |place| work[place])
 }
 
-/// Why a plant stops.
+/// Reason why a plant stops.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum PlantError {
-    /// Its run.
+    /// The run failed.
     #[error(transparent)]
     Run(#[from] RunError),
-    /// An input that was checked and still is not taken.
+    /// An input was rejected.
     #[error(transparent)]
     Input(#[from] InputError),
-    /// A command, the same.
+    /// A command was rejected.
     #[error(transparent)]
     Command(#[from] CommandError),
 }
 
-/// Something that goes on by frames of one length.
+/// A simulated system that advances in frames of equal length.
 pub trait Plant {
-    /// Goes on by one frame under these inputs, and says where it stands then and what it took. Nothing is allocated, locked,
-    /// logged or asked of the system.
+    /// Advances by one frame with the given inputs. Writes the outputs at its end and returns the work done.
+    ///
+    /// It allocates no memory, takes no lock, writes no log and makes no system calls.
     ///
     /// # Errors
-    /// What stops it; it stands where it came to.
+    /// The reason for a stop. The plant remains at the time reached.
     fn frame(&mut self, inputs: &[f64], outputs: &mut [f64]) -> Result<Work, PlantError>;
 }
 
-/// Nothing at all: the loop beside it shows what the machine alone does.
+/// Plant without any work, for measuring the timing of the machine alone.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Empty;
 
@@ -61,15 +62,14 @@ impl Plant for Empty {
     }
 }
 
-/// Work that a run has done so far: steps, evaluations and events, and turning points of contacts, those that came or went and those
-/// that found no room.
+/// Returns the work of a run so far: time steps, evaluations, events, detours, changed knots and merged knots of the slip memories.
 fn done(run: &Run<'_>) -> Work {
     let (counts, state) = (run.state().counts(), run.state());
     let merges = state.memories().iter().map(|memory| memory.merged().knots).sum();
     [counts.steps, counts.rejected, counts.evaluations, counts.events, counts.detours, run.touched(), merges]
 }
 
-/// Work done between two moments of a run.
+/// Returns the work between two times.
 fn between(before: &Work, after: &Work) -> Work {
     std::array::from_fn(|k| after[k] - before[k])
 }

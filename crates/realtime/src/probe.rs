@@ -1,4 +1,4 @@
-//! What a plant takes on this machine, before anything depends on it.
+//! Measurement of the frame time of a plant on this machine, before a real-time run.
 
 use crate::pace::{self, Cycle, Pace, Stop, Timing};
 use crate::plant::{Drive, Input, Output, Plant, Work};
@@ -7,31 +7,31 @@ use stickslip_drive::Watcher;
 use stickslip_drive::scene::{EngineChoice, Scene};
 use stickslip_drive::{Model, Plan, State, Stepper};
 
-/// Longest that a measurement takes, ns.
+/// Maximum duration of a measurement, ns.
 const LONGEST: u64 = 500_000_000;
-/// Numbers of springs of the rows that are measured.
+/// Numbers of springs of the measured spring rows.
 const ROWS: [usize; 2] = [64, 256];
-/// How often each row is measured, in turn: what disturbs one of them for a moment counts for neither.
+/// Number of repetitions for each row. The smallest result is used, so that short disturbances have no effect.
 const TURNS: usize = 3;
-/// Fewer frames say nothing of what 99 % of them keep.
+/// Minimum number of frames for a 99 % quantile.
 const LEAST: u64 = 100;
-/// What frames of an event stepper are replaced by, on rows: how many events come is another thing on each row.
+/// Accuracy of the frames that replace the event-driven integrator for spring rows. The number of events depends on the row.
 const ACCURACY: f64 = 1e-3;
 
-/// What frames took that nothing paced.
+/// Execution times of frames without pacing.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Probe {
-    /// How many.
+    /// Number of frames.
     pub frames: u64,
-    /// The shortest time, ns, that half of them kept.
+    /// Median execution time, ns.
     pub median: u64,
-    /// That 99 % of them kept.
+    /// 99 % quantile of the execution time, ns.
     pub most: u64,
-    /// The longest, ns; the first frame, which makes itself at home, is not counted.
+    /// Maximum execution time, ns, without the first frame.
     pub worst: u64,
 }
 
-/// The same inputs all the time.
+/// Cycle with constant inputs.
 struct Steady<'a, P> {
     plant: &'a mut P,
     inputs: &'a [f64],
@@ -49,8 +49,9 @@ impl<P: Plant> Cycle for Steady<'_, P> {
     }
 }
 
-/// Computes frames of a plant without waiting, until there are so many or it took long; none where not even one came, or the observer
-/// ended it.
+/// Computes frames of a plant without waiting, up to `frames` or the maximum duration.
+///
+/// Returns `None` if no frame was completed, or if the observer ended the measurement.
 pub fn probe<P: Plant>(
     plant: &mut P,
     inputs: &[f64],
@@ -60,12 +61,12 @@ pub fn probe<P: Plant>(
 ) -> Option<Probe> {
     let pace = Pace { period: 1.0, overrun: None, spin: 0.0 };
     let mut cycle = Steady { plant, inputs, outputs: vec![0.0; outputs], end: u64::MAX, observer };
-    // The first frame opens the run, and finds all its memory cold.
+    // The first frame starts the run with cold caches.
     pace::run(&pace, 1, &mut cycle, &mut Timing::new()).ok()?;
-    // However long that took: of frames that are longer than any measurement one is measured all the same.
+    // The time limit starts after the first frame, so that at least one frame is measured.
     cycle.end = now() + LONGEST;
     let mut timing = Timing::new();
-    // Whatever ends it, what was measured is measured.
+    // The measurement is valid up to any early end.
     let _ = pace::run(&pace, frames, &mut cycle, &mut timing);
     let execution = &timing.execution;
     (timing.frames() > 0 && observer.goes_on()).then(|| Probe {
@@ -76,18 +77,20 @@ pub fn probe<P: Plant>(
     })
 }
 
-/// How long frames take with rows of springs in the place of every contact's own engine.
+/// Execution times of frames with a row of springs in each contact.
 #[derive(Debug, Clone, PartialEq)]
 pub struct RowsProbe {
-    /// Springs of each row, and the time, ns, that 99 % of the frames kept.
+    /// Number of springs of each row, and the 99 % quantile of the execution time, ns.
     pub measured: Vec<(usize, u64)>,
-    /// The number for which a straight line through these comes to the period; none where it does not grow, or is beyond the
-    /// period before the first spring.
+    /// Number of springs whose frame time equals the period, by linear extrapolation.
+    ///
+    /// `None` if the frame time does not increase with the number of springs, or exceeds the period for any number.
     pub fits: Option<u64>,
 }
 
-/// Measures a scene on rows of two sizes, each the quietest of three turns, by steps whose number is known before; none where it has no
-/// contact, does not run on rows, or comes to too few frames.
+/// Measures the frame time of a model with spring rows of two sizes.
+///
+/// Returns `None` if the model has no contact, does not run with spring rows, or completes too few frames.
 pub fn rows(
     scene: &Scene,
     plan: &Plan,
@@ -128,7 +131,7 @@ pub fn rows(
     Some(RowsProbe { measured, fits })
 }
 
-/// Where a straight line through two points comes to a value, if it does after the first spring.
+/// Returns the position at which the line through two points has a value. Returns `None` if it is below 1.
 fn line(points: &[(usize, u64)], value: f64) -> Option<u64> {
     let [(n, a), (m, b)] = points[..] else { return None };
     let slope = (b as f64 - a as f64) / (m as f64 - n as f64);
@@ -140,7 +143,7 @@ fn line(points: &[(usize, u64)], value: f64) -> Option<u64> {
 mod tests {
     use super::*;
 
-    /// Frames that are longer than the measurement.
+    /// A plant whose frames exceed the duration of the measurement.
     struct Long;
 
     impl Plant for Long {

@@ -1,18 +1,18 @@
-//! Where inputs and outputs lie in shared memory.
+//! Layout of the shared memory with the inputs and outputs of a loop.
 //!
-//! | bytes | what |
+//! | bytes | content |
 //! | --- | --- |
 //! | 0–7 | `sslpshm1` |
-//! | 8–15 | scenario, u64 |
+//! | 8–15 | scenario number, u64 |
 //! | 16–23 | number of inputs n, u64 |
 //! | 24–31 | number of outputs m, u64 |
-//! | 32–39 | where the record of inputs begins, u64: 64 |
-//! | 40–47 | where the record of outputs begins, u64: a multiple of 64 |
+//! | 32–39 | offset of the input record, u64: 64 |
+//! | 40–47 | offset of the output record, u64: a multiple of 64 |
 //! | 48–55 | period, s, f64 |
 //! | 56–63 | 1 while a loop runs, 2 after its end, u64 |
 //!
-//! A record is a counter (u64), who writes (u64), and a packet (`wire`): the counter is odd while the rest is written and even
-//! when it is whole (`seqlock`). All words are in the machine's own order, which is little-endian wherever this was tried.
+//! A record consists of a counter (u64), the number of the writing client (u64) and a packet (`wire`). The lowest bit of the counter is 1
+//! while the record is written and 0 when it is complete (`seqlock`). All words have the byte order of the machine.
 
 use crate::memory::{MemoryError, Shared};
 use crate::plant::Output;
@@ -22,16 +22,16 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 
-/// How the memory begins.
+/// Mark at the start of the memory.
 const MARK: u64 = u64::from_le_bytes(*b"sslpshm1");
-/// Words of the head, and of a line of the cache: records begin at one.
+/// Number of words of the header, and of a cache line. Records start at a cache line.
 const LINE: usize = 8;
-/// Words of a record before its values.
+/// Number of words of a record before its values.
 const RECORD: usize = 2 + HEAD_WORDS;
-/// Places in the head.
+/// Index of the status word in the header.
 const STATUS: usize = 7;
 
-/// The memory of a loop.
+/// Shared memory of a loop.
 pub struct Region {
     shared: Shared,
     scenario: u64,
@@ -39,13 +39,13 @@ pub struct Region {
     outputs: usize,
 }
 
-/// Where memory of a name lies: a file of /dev/shm, or the path that it is.
+/// Returns the path of the shared memory: a file in /dev/shm, or the name itself if it contains a slash.
 pub fn path(name: &str) -> PathBuf {
     if name.contains('/') { PathBuf::from(name) } else { Path::new("/dev/shm").join(name) }
 }
 
 impl Region {
-    /// Makes it.
+    /// Creates the shared memory.
     ///
     /// # Errors
     /// As [`Shared::make`].
@@ -62,17 +62,17 @@ impl Region {
         let head = [scenario, inputs as u64, outputs as u64, places[0], places[1], period.to_bits(), 1];
         let words = region.shared.words();
         words[1..].iter().zip(head).for_each(|(word, value)| word.store(value, Ordering::Relaxed));
-        // Who finds the mark finds the rest.
+        // The mark is written last, so that a client that reads it finds a complete header.
         words[0].store(MARK, Ordering::Release);
         Ok(Arc::new(region))
     }
 
-    /// Where it lies.
+    /// Returns the path of the file.
     pub(crate) fn path(&self) -> &Path {
         self.shared.path()
     }
 
-    /// Whether nobody has made its file shorter.
+    /// Returns whether the file has not been truncated.
     pub(crate) fn is_whole(&self) -> bool {
         self.shared.is_whole()
     }
@@ -86,22 +86,22 @@ impl Region {
         &self.shared.words()[from..from + RECORD + self.outputs]
     }
 
-    /// Words of the record of inputs behind its counter.
+    /// Returns the number of words of the input record without its counter.
     pub(crate) fn input_words(&self) -> usize {
         RECORD - 1 + self.inputs
     }
 
-    /// Reads the record of inputs unless it is that of counter `seen`.
+    /// Reads the input record unless its counter is `seen`.
     pub(crate) fn read(&self, seen: u64, record: &mut [u64]) -> Found {
         seqlock::read(self.input(), seen, record)
     }
 
-    /// Frees the record of inputs from a writer that was killed; whether it did.
+    /// Releases the input record of a writer that was killed. Returns whether it was released.
     pub(crate) fn free(&self, counter: u64) -> bool {
         seqlock::free(self.input(), counter)
     }
 
-    /// Writes the record of outputs; `false` where somebody else does, who should not.
+    /// Writes the output record. Returns `false` if another process is writing it, which is not allowed.
     pub(crate) fn write(&self, stamp: Stamp, values: &[f64]) -> bool {
         let words = wire::words(self.scenario, stamp, values);
         seqlock::write(self.output(), std::iter::once(0).chain(words))
@@ -114,12 +114,12 @@ impl Drop for Region {
     }
 }
 
-/// The word at which the record of outputs begins.
+/// Returns the index of the first word of the output record.
 fn outputs_at(inputs: usize) -> usize {
     LINE + (RECORD + inputs).next_multiple_of(LINE)
 }
 
-/// Words of all.
+/// Returns the total number of words.
 fn length(inputs: usize, outputs: usize) -> usize {
     outputs_at(inputs) + (RECORD + outputs).next_multiple_of(LINE)
 }

@@ -1,4 +1,4 @@
-//! What a loop came to, for machines and for people.
+//! Report of a real-time loop in JSON and words.
 
 mod tables;
 mod words;
@@ -15,136 +15,139 @@ use crate::session::Ended;
 use schemars::JsonSchema;
 use serde::Serialize;
 
-/// What a loop came to.
+/// Report of a real-time loop.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct Report {
     /// name of the scenario
     pub scenario: String,
-    /// its number in packets, in hexadecimal digits
+    /// number of the scenario in packets, in hexadecimal digits
     pub scenario_number: String,
-    /// the stepper, in words
+    /// time integrator, in words
     pub stepper: String,
-    /// length of a frame
+    /// duration of a frame
     pub period_s: f64,
-    /// frames asked for
+    /// number of requested frames
     pub frames_asked: u64,
-    /// frames computed
+    /// number of computed frames
     pub frames: u64,
     /// simulated time
     pub simulated_s: f64,
-    /// on the wall from the first deadline on
+    /// wall-clock time from the first deadline to the end
     pub wall_s: f64,
-    /// whether frames waited for their deadlines
+    /// whether frames waited for their deadlines. false with `--unpaced`.
     pub paced: bool,
-    /// how long before each deadline the loop watched the clock
+    /// time before each deadline during which the loop polls the clock (`--spin`)
     pub spin_s: f64,
-    /// what was done about overruns, `skip` (deadlines that had passed were left out) or `stop`; null without a clock
+    /// reaction to overruns: `skip` (missed deadlines are skipped) or `stop`. null with `--unpaced`.
     pub overrun_policy: Option<&'static str>,
-    /// how it ended: `complete`, `interrupted`, `overrun`, `silence`, `memory` (another process made the shared memory
-    /// shorter), `stopped` or `no_input`
+    /// end of the loop: `complete`, `interrupted` (by the user), `overrun` (with the policy `stop`), `silence` (no
+    /// valid input for too long), `memory` (another process shortened the shared memory), `stopped` (error of the run,
+    /// see error) or `no_input` (no first input)
     pub ended: &'static str,
-    /// why the drive stopped itself, or what became of the shared memory; null where neither was
+    /// error that ended the loop, of the run or of the shared memory. null if there was none.
     pub error: Option<String>,
-    /// whether it is complete and no frame ended after the next deadline
+    /// whether all deadlines were met: the loop is complete, and no frame ended after the next deadline
     pub kept: bool,
-    /// frames that ended after the next deadline
+    /// number of overruns: frames that ended after the next deadline
     pub overruns: u64,
-    /// deadlines that had passed and were left out
+    /// number of deadlines that were skipped after overruns
     pub deadlines_skipped: u64,
-    /// most of them in a row
+    /// largest number of deadlines skipped in succession
     pub longest_skip: u64,
-    /// From waking until the outputs were out.
+    /// Execution times: from waking until the outputs are sent.
     pub execution: Times,
-    /// From the deadline until the loop woke.
+    /// Latencies: from the deadline until waking.
     pub latency: Option<Times>,
-    /// The same two of the empty loop of the same period.
+    /// Execution times of an empty loop with the same period.
     pub empty_execution: Option<Times>,
-    /// Wake-up latency of the empty loop.
+    /// Latencies of an empty loop with the same period.
     pub empty_latency: Option<Times>,
-    /// its frames
+    /// number of frames of the empty loop that ran before the start. 0 if none did.
     pub empty_frames: u64,
-    /// names of inputs, in the order of packets
+    /// names of inputs in the order of packets
     pub inputs: Vec<String>,
-    /// names of outputs, in the order of packets
+    /// names of outputs in the order of packets
     pub outputs: Vec<String>,
-    /// What came in.
+    /// Accepted and refused inputs.
     pub received: Received,
-    /// outputs that did not go out
+    /// number of outputs that could not be sent
     pub outputs_unsent: u64,
-    /// frames for which the log had no room
+    /// number of frames missing in the log because its buffer was full
     pub log_lost: u64,
-    /// frames for which the recording of inputs had no room
+    /// number of frames missing in the recording of inputs because its buffer was full
     pub recording_lost: u64,
-    /// what the system did not grant, in words
+    /// settings that the operating system refused, in words
     pub denied: Vec<String>,
-    /// What frames took before the start, unpaced.
+    /// Times of frames before the start, without a clock.
     pub probe: Option<ProbeTimes>,
-    /// The same on rows of springs.
+    /// Times of frames with rows of springs instead of the contacts.
     pub rows: Option<RowTimes>,
 }
 
-/// A histogram in a few numbers, µs.
+/// Distribution of times, µs.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
 pub struct Times {
-    /// median, µs: half were no longer. Of `execution` from waking until the outputs were out, of `latency` from the deadline until the
-    /// loop woke, null without a clock; `empty_execution` and `empty_latency` are those of an empty loop of the same period before the
-    /// start, null where none was run
+    /// median, µs, of the times of all frames. `execution`: from waking until the outputs are sent. `latency`: from the
+    /// deadline until waking. `empty_execution`, `empty_latency`: the same of an empty loop with this period before the
+    /// start. null without a clock or an empty loop.
     pub median_us: f64,
-    /// µs, 999 of 1 000 were no longer
+    /// 99.9 % quantile, µs, of the times described at median_us
     pub p99_9_us: f64,
-    /// µs, 9 999 of 10 000 were no longer
+    /// 99.99 % quantile, µs, of the times described at median_us
     pub p99_99_us: f64,
-    /// the longest, µs
+    /// maximum, µs, of the times described at median_us
     pub worst_us: f64,
-    /// mean, µs
+    /// mean, µs, of the times described at median_us
     pub mean_us: f64,
 }
 
-/// What frames took before the start.
+/// Times of frames before the start.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
 pub struct ProbeTimes {
-    /// frames that were tried before the start, without a clock; null where none were
+    /// number of frames computed before the start without a clock. `probe` is null if there were none.
     pub frames: u64,
-    /// half of them took no longer
+    /// median computing time of the frames before the start, µs
     pub median_us: f64,
-    /// 99 of 100 took no longer
+    /// 99 % quantile of the computing time of the frames before the start, µs
     pub p99_us: f64,
-    /// the longest
+    /// largest computing time of the frames before the start, µs
     pub worst_us: f64,
 }
 
-/// What frames took on rows of springs.
+/// Times of frames with rows of springs.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct RowTimes {
-    /// springs of the rows that were tried in place of the contacts; null where none were
+    /// numbers of springs of the rows that replaced the contacts in a measurement before the start. `rows` is null if
+    /// there was none.
     pub springs: Vec<usize>,
-    /// 99 of 100 frames on each took no longer
+    /// 99 % quantile of the computing time of a frame with each row, µs
     pub p99_us: Vec<f64>,
-    /// number of springs at which a straight line through these reaches the period; null where that is not to be seen from them
+    /// number of springs for which p99_us equals the period, by linear extrapolation. null if it cannot be
+    /// extrapolated.
     pub fit_in_period: Option<u64>,
 }
 
-/// What is known before a loop begins.
+/// Names and measurements before a loop begins.
 #[derive(Debug, Clone)]
 pub struct Subject {
     /// Name of the scenario.
     pub scenario: String,
-    /// Its number in packets.
+    /// Scenario number in packets.
     pub number: u64,
-    /// The stepper, in words.
+    /// Time integrator, in words.
     pub stepper: String,
     /// Names of inputs.
     pub inputs: Vec<String>,
     /// Names of outputs.
     pub outputs: Vec<String>,
-    /// What frames took before the start.
+    /// Times of frames before the start.
     pub probe: Option<Probe>,
-    /// The same on rows of springs.
+    /// Times of frames with rows of springs.
     pub rows: Option<RowsProbe>,
 }
 
 impl Report {
-    /// What a loop came to.
+    /// Creates the report of a loop.
     pub fn new(subject: Subject, pace: &Pace, frames_asked: u64, ended: &Ended) -> Self {
         let Timing { latency, execution, overruns, left_out, longest_skip, wall, .. } = &ended.timing;
         let (paced, empty) = (pace.overrun.is_some(), &ended.floor);
@@ -199,15 +202,15 @@ impl Report {
         }
     }
 
-    /// As a file of JSON.
+    /// Returns indented JSON.
     ///
     /// # Errors
-    /// None: all keys are strings, and no number is not finite.
+    /// None: all keys are strings, and all numbers are finite.
     pub fn pretty(&self) -> serde_json::Result<String> {
         Ok(serde_json::to_string_pretty(self)? + "\n")
     }
 
-    /// As a line of JSON.
+    /// Returns JSON in one line.
     ///
     /// # Errors
     /// As [`Self::pretty`].
@@ -216,7 +219,7 @@ impl Report {
     }
 }
 
-/// How a loop ended, in a word, and why where that says too little.
+/// Returns the word for the end of a loop, and the error if there was one.
 fn ending(ended: &Ended) -> (&'static str, Option<String>) {
     match &ended.outcome {
         Ok(()) if ended.waited_in_vain => ("no_input", None),

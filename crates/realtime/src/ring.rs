@@ -1,33 +1,33 @@
-//! Records of words from the loop to a thread that writes them down. Neither side ever waits for the other.
+//! Lock-free ring buffer for records from the loop to a writer thread. Neither side waits for the other.
 
 use std::sync::atomic::{AtomicU64, AtomicUsize, Ordering};
 
-/// Room for some records between one that pushes and one that takes.
+/// Ring buffer for one producer and one consumer.
 pub(crate) struct Ring {
     words: Box<[AtomicU64]>,
-    /// Words of a record.
+    /// Number of words of a record.
     width: usize,
-    /// Records that there is room for.
+    /// Capacity, in records.
     room: usize,
-    /// Records pushed and taken since the beginning.
+    /// Total numbers of records pushed and taken.
     pushed: AtomicUsize,
     taken: AtomicUsize,
 }
 
 impl Ring {
-    /// Room for at least so many records.
+    /// Creates a ring buffer for at least one and at most `records` records of `width` words.
     pub(crate) fn new(width: usize, records: usize) -> Self {
         let room = records.max(1);
         let words = (0..width * room).map(|_| AtomicU64::new(0)).collect();
         Self { words, width, room, pushed: AtomicUsize::new(0), taken: AtomicUsize::new(0) }
     }
 
-    /// Records that there is room for.
+    /// Returns the capacity, in records.
     pub(crate) fn room(&self) -> usize {
         self.room
     }
 
-    /// Whether a push would find no room. For the thread that pushes.
+    /// Returns whether the buffer is full. Only the producer may call it.
     #[inline]
     pub(crate) fn is_full(&self) -> bool {
         self.pushed.load(Ordering::Relaxed) - self.taken.load(Ordering::Acquire) == self.room
@@ -38,7 +38,7 @@ impl Ring {
         &self.words[from..from + self.width]
     }
 
-    /// Hands a record over; `false` where there is no room. For one thread.
+    /// Adds a record. Returns `false` if the buffer is full. Only one thread may call it.
     #[inline]
     pub(crate) fn push(&self, record: impl Iterator<Item = u64>) -> bool {
         if self.is_full() {
@@ -50,7 +50,7 @@ impl Ring {
         true
     }
 
-    /// Takes a record; `false` where there is none. For one thread.
+    /// Removes a record. Returns `false` if the buffer is empty. Only one thread may call it.
     pub(crate) fn take(&self, record: &mut [u64]) -> bool {
         let taken = self.taken.load(Ordering::Relaxed);
         if taken == self.pushed.load(Ordering::Acquire) {

@@ -1,16 +1,17 @@
-//! Memory that is there before it is needed.
+//! Preallocated memory whose pages have been touched.
 
-/// So many values, whose pages have been written to: the system hands out zeros when they are first touched, and that is a page
-/// fault, which no frame should have.
+/// Returns a vector of `count` values whose pages have been written to.
+///
+/// The first access to a page causes a page fault, which must not happen within a frame. `other` must differ from `value`.
 pub(crate) fn touched<T: Copy>(other: T, value: T, count: usize) -> Vec<T> {
     let mut values = vec![other; count];
-    // Whoever knows that both are overwritten could leave the first out.
+    // Otherwise the compiler could omit the first write.
     std::hint::black_box(&mut values);
     values.fill(value);
     values
 }
 
-/// Room for so many numbers, touched.
+/// Returns an empty vector with capacity for `count` numbers in touched pages.
 pub(crate) fn room(count: usize) -> Vec<f64> {
     let mut values = touched(1.0, 0.0, count);
     values.clear();

@@ -1,28 +1,28 @@
-//! A record of words that some write and another reads, none of whom ever waits.
+//! Sequence lock: a record of words with several writers and one reader, none of which waits.
 //!
-//! The first word is a counter: odd while the rest is being written, even when it is whole. A reader takes the counter, the
-//! rest, and the counter again: where both are the same and even, nobody wrote in between. A writer claims the record by making
-//! the counter odd, in one step with seeing that it is even: of two at once one is refused, and no record is a mixture. What one
-//! has claimed who was killed in between, the reader frees.
+//! The first word is a counter: its lowest bit is 1 while the record is written and 0 when it is complete. A reader reads the counter, the
+//! record and the counter again. If both counters are equal and even, the record is consistent. A writer claims the record by an atomic
+//! compare-exchange of the counter. If two writers try at once, one is refused. A reader can release a record whose writer was killed.
 
 use std::sync::atomic::{AtomicU64, Ordering, fence};
 
-/// How often a reader tries again before it leaves the record for the next frame: a writer takes nanoseconds, one that was
-/// killed in between for ever.
+/// Number of attempts of a reader in a frame. A writer takes nanoseconds, unless it was killed.
 const TRIES: usize = 4;
 
-/// What a reader found.
+/// Result of reading a record.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Found {
-    /// What it had read before, or nothing yet.
+    /// The record has not changed, or none was written yet.
     Same,
-    /// A new record; its counter.
+    /// A new record with its counter.
     New(u64),
-    /// Somebody was writing all the time; the counter at last.
+    /// A writer was active at every attempt; the last counter.
     Torn(u64),
 }
 
-/// Writes a record; `words` has one word more. `false` where somebody else is writing, or took this long for a killed writer.
+/// Writes a record. `words` has one word more, the counter.
+///
+/// Returns `false` if another writer is active, or if the reader released the record during the writing.
 pub(crate) fn write(words: &[AtomicU64], record: impl Iterator<Item = u64>) -> bool {
     let Some((counter, rest)) = words.split_first() else { return false };
     let free = counter.load(Ordering::Relaxed) & !1;
@@ -30,7 +30,7 @@ pub(crate) fn write(words: &[AtomicU64], record: impl Iterator<Item = u64>) -> b
     if counter.compare_exchange(free, busy, Ordering::Acquire, Ordering::Relaxed).is_err() {
         return false;
     }
-    // No word below comes before the counter is odd, and none after it is even.
+    // The fence keeps the writes between the two changes of the counter.
     fence(Ordering::Release);
     for (word, value) in rest.iter().zip(record) {
         word.store(value, Ordering::Relaxed);
@@ -38,8 +38,9 @@ pub(crate) fn write(words: &[AtomicU64], record: impl Iterator<Item = u64>) -> b
     counter.compare_exchange(busy, busy.wrapping_add(1), Ordering::Release, Ordering::Relaxed).is_ok()
 }
 
-/// Frees a record whose counter is this odd one: whoever claimed it was killed while it wrote. What lies in it is not to be read
-/// (as the record of the counter behind it); `false` where somebody was writing after all.
+/// Releases a record with the counter `busy`, whose writer was killed.
+///
+/// The record itself is invalid. Returns `false` if the writer was still active.
 pub(crate) fn free(words: &[AtomicU64], busy: u64) -> bool {
     words.first().is_some_and(|counter| {
         let whole = busy.wrapping_add(1);
@@ -47,7 +48,7 @@ pub(crate) fn free(words: &[AtomicU64], busy: u64) -> bool {
     })
 }
 
-/// Reads a record that is not that of counter `seen`.
+/// Reads a record unless its counter is `seen`.
 pub(crate) fn read(words: &[AtomicU64], seen: u64, record: &mut [u64]) -> Found {
     let Some((counter, rest)) = words.split_first() else { return Found::Same };
     let mut before = seen;
@@ -86,7 +87,7 @@ mod tests {
         assert_eq!(read(&words, 2, &mut record), Found::Same);
         words[0].store(3, Ordering::Relaxed);
         assert_eq!(read(&words, 2, &mut record), Found::Torn(3));
-        // Until it is freed nobody else writes; who had claimed it has lost it.
+        // Until it is released, no other writer can write. Its first writer has lost it.
         assert!(!write(&words, 5..9) && !free(&words, 1) && free(&words, 3) && !free(&words, 3));
         assert!(write(&words, 5..9));
         assert_eq!((read(&words, 4, &mut record), record), (Found::New(6), [5, 6, 7, 8]));
@@ -110,7 +111,7 @@ mod tests {
         });
     }
 
-    /// Both write as fast as they can; a record is read whenever one of them is done.
+    /// Both writers write as fast as possible, and the record is read after each write.
     #[test]
     fn no_record_of_two_writers_is_a_mixture() {
         let words: Vec<AtomicU64> = (0..65).map(|_| AtomicU64::new(0)).collect();
@@ -131,7 +132,7 @@ mod tests {
         let written: u64 = std::thread::scope(|scope| {
             written.map(|writer| scope.spawn(writer)).into_iter().map(|writer| writer.join().unwrap()).sum()
         });
-        // What was written was claimed, each for itself.
+        // All records were claimed before they were written.
         assert_eq!(words[0].load(Ordering::Relaxed), 2 * written);
     }
 }

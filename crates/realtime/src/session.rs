@@ -1,4 +1,4 @@
-//! A plant in its loop, with the outside world on both sides of it.
+//! Real-time session: a plant in its loop, connected to inputs and outputs.
 
 use crate::film::Film;
 use crate::intake::{Client, Intake};
@@ -14,26 +14,29 @@ use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::thread;
 use stickslip_drive::Watcher;
 
-/// How often the outputs of the start are sent until an input comes, ns.
+/// Interval at which the initial outputs are sent until the first input arrives, ns.
 const HELLO: u64 = 10_000_000;
 const NANO: f64 = 1e9;
 
-/// What goes in and out of a loop.
+/// Inputs and outputs of a loop.
 pub struct Wiring {
-    /// Where inputs come from …
+    /// Source of the inputs.
     pub source: Source,
-    /// … and who judges them.
+    /// Validator of the inputs.
     pub intake: Intake,
-    /// Where outputs go.
+    /// Destinations of the outputs.
     pub sinks: Vec<Sink>,
-    /// A record of frame, latency (ns), execution (ns) and deadlines left out, of every frame.
+    /// Log of every frame: frame, latency, ns, execution time, ns, and number of skipped deadlines.
     pub log: Option<Tape>,
-    /// The inputs applied in every frame.
+    /// Recording of the inputs of every frame.
     pub recording: Option<Tape>,
 }
 
 impl Wiring {
-    /// Fails where shared memory is not what it was made as.
+    /// Checks that the shared memory was not truncated.
+    ///
+    /// # Errors
+    /// [`Stop::Cut`] if it was.
     fn check_memory(&self) -> Result<(), Stop> {
         let read = if let Source::Memory(memory) = &self.source { Some(memory.region()) } else { None };
         let written = self.sinks.iter().filter_map(|sink| match sink {
@@ -44,49 +47,49 @@ impl Wiring {
         cut.map_or(Ok(()), |region| Err(Stop::Cut(region.path().to_owned())))
     }
 
-    /// From now on what is written down waits for room: nothing is due, so that nothing has to be lost.
+    /// Makes the loop wait until records can be written, so that none is lost. It is used without pacing.
     fn wait(&mut self) {
         self.sinks.iter_mut().for_each(Sink::wait);
         self.log.iter_mut().chain(&mut self.recording).for_each(Tape::wait);
     }
 }
 
-/// How a loop is run.
+/// Settings of a loop.
 #[derive(Debug, Clone, Copy)]
 pub struct Order {
-    /// When frames are computed.
+    /// Timing of the frames.
     pub pace: Pace,
-    /// How many.
+    /// Number of frames.
     pub frames: u64,
-    /// What is asked of the system.
+    /// Requested privileges of the loop thread.
     pub favours: Favours,
-    /// Frames of the empty loop before it.
+    /// Number of frames of the empty loop that is run before.
     pub floor: u64,
-    /// How long the first input is waited for, s; not at all where 0.
+    /// Maximum time to wait for the first input, s. 0 means no waiting.
     pub wait: f64,
 }
 
-/// What came of a loop.
+/// Results of a loop.
 pub struct Ended {
-    /// Why it ended before its last frame.
+    /// Reason for an early end.
     pub outcome: Result<(), Stop>,
-    /// Whether the first input never came, and nothing was computed.
+    /// Whether no first input arrived, so that no frame was computed.
     pub waited_in_vain: bool,
-    /// How long everything took.
+    /// Timing of the loop.
     pub timing: Timing,
-    /// The same of the empty loop.
+    /// Timing of the empty loop.
     pub floor: Timing,
-    /// What the system did not grant.
+    /// Privileges that the system denied.
     pub denied: Vec<Denied>,
-    /// What it looked like.
+    /// Reduced time history.
     pub film: Film,
-    /// What went in and out.
+    /// Inputs and outputs.
     pub wiring: Wiring,
-    /// Outputs that the system did not take or for which there was no room.
+    /// Number of outputs that were not sent.
     pub unsent: u64,
 }
 
-/// A frame of a plant: look for inputs, note them, compute, tell.
+/// Cycle of a plant: read the inputs, record them, compute the frame, send the outputs.
 struct Live<'a, P> {
     plant: &'a mut P,
     wiring: &'a mut Wiring,
@@ -133,7 +136,7 @@ impl<P: Plant> Cycle for Live<'_, P> {
     }
 }
 
-/// The empty loop.
+/// Cycle of the empty loop.
 struct Idle<'a>(&'a (dyn Watcher + Sync));
 
 impl Cycle for Idle<'_> {
@@ -149,9 +152,10 @@ impl Cycle for Idle<'_> {
     }
 }
 
-/// Runs a plant in a thread of its own, while this one writes down what comes; `start` has the outputs at t = 0. Favours are
-/// asked for that thread: locked memory alone stays after it. Without a pace the loop waits for what is written down, so every
-/// tape's reel must be among these.
+/// Runs a plant in its own thread, while the calling thread writes the tapes. `start` are the outputs at t = 0.
+///
+/// The privileges are requested for the loop thread; only locked memory persists. Without pacing the loop waits for the tapes. Therefore
+/// `reels` must contain the reels of all tapes.
 pub fn run<P: Plant + Send>(
     plant: &mut P,
     mut wiring: Wiring,
@@ -178,7 +182,7 @@ pub fn run<P: Plant + Send>(
     };
     let mut turn = || {
         let denied = order.favours.ask();
-        // The machine alone. An interruption ends it, and the loop that comes after it before its first frame.
+        // An interrupt ends the empty loop, and then the loop itself before its first frame.
         let empty = Pace { overrun: order.pace.overrun.map(|_| Overrun::Skip), ..order.pace };
         let _ = pace::run(&empty, order.floor, &mut Idle(observer), &mut floor);
         let heard = live.wait(order.wait);
@@ -188,7 +192,7 @@ pub fn run<P: Plant + Send>(
     };
     let (denied, outcome, waited_in_vain, unsent) = thread::scope(|scope| {
         let turn = scope.spawn(|| {
-            // However it ends, the one who writes down must not wait for ever.
+            // This ends the writing of the tapes, even after a panic.
             let _over = Over(&over);
             turn()
         });
@@ -199,7 +203,7 @@ pub fn run<P: Plant + Send>(
     Ended { outcome, waited_in_vain, timing, floor, denied, film, wiring, unsent }
 }
 
-/// Tells that the loop is over when it is dropped.
+/// Signals the end of the loop when it is dropped.
 struct Over<'a>(&'a AtomicBool);
 
 impl Drop for Over<'_> {
@@ -209,7 +213,9 @@ impl Drop for Over<'_> {
 }
 
 impl<P: Plant> Live<'_, P> {
-    /// Waits for the first good input and sends the outputs of the start meanwhile; whether one came, or none is needed.
+    /// Waits for the first accepted input and sends the initial outputs meanwhile.
+    ///
+    /// Returns whether an input arrived or none is needed.
     fn wait(&mut self, seconds: f64) -> bool {
         let waits = matches!(self.wiring.source, Source::Udp(_) | Source::Memory(_) | Source::Lines(_));
         if !waits || self.wiring.intake.width() == 0 || seconds <= 0.0 {
@@ -217,14 +223,14 @@ impl<P: Plant> Live<'_, P> {
         }
         let end = now().saturating_add((NANO * seconds) as u64);
         loop {
-            // What ends the wait without an input ends the loop before its first frame.
+            // If the wait ends for this reason, the loop ends before its first frame.
             if !self.observer.goes_on() || self.wiring.check_memory().is_err() {
                 return true;
             }
             let Wiring { source, intake, sinks, .. } = &mut *self.wiring;
             for sink in &mut *sinks {
                 let stamp = Stamp { sequence: 0, time: 0.0 };
-                // The file has frames only.
+                // The output file contains frames only.
                 if !matches!(sink, Sink::File(_)) {
                     sink.send(intake.scenario(), stamp, &self.outputs, None::<Client>);
                 }

@@ -1,4 +1,4 @@
-//! Where outputs go.
+//! Destinations of the outputs.
 
 use crate::intake::Client;
 use crate::region::Region;
@@ -7,36 +7,36 @@ use crate::wire::{self, MOST_VALUES, Stamp};
 use std::net::{SocketAddr, UdpSocket};
 use std::sync::Arc;
 
-/// Where outputs go; told once after each frame, and it never waits.
+/// Destination of the outputs. It receives one packet after each frame and never waits.
 pub enum Sink {
-    /// Packets over UDP to an address, or to whoever has the inputs.
+    /// UDP packets to an address, or to the client that owns the inputs.
     Udp {
-        /// Sent from here.
+        /// Socket that sends the packets.
         socket: UdpSocket,
-        /// To here.
+        /// Address of the receiver. `None` sends to the owner of the inputs.
         to: Option<SocketAddr>,
     },
-    /// The record of outputs in shared memory.
+    /// The output record in shared memory.
     Memory(Arc<Region>),
-    /// Packets, one after the other, in a file.
+    /// Consecutive packets in a file.
     File(Tape),
 }
 
 impl Sink {
-    /// From now on outputs wait until there is room for them, where they go into a file.
+    /// Makes outputs to a file wait until they can be written.
     pub(crate) fn wait(&mut self) {
         if let Self::File(tape) = self {
             tape.wait();
         }
     }
 
-    /// Sends where the drive stands; whether it went out.
+    /// Sends the outputs. Returns whether they were sent.
     pub fn send(&mut self, scenario: u64, stamp: Stamp, values: &[f64], owner: Option<Client>) -> bool {
         match self {
             Self::Udp { socket, to } => {
                 let to = match (*to, owner) {
                     (Some(to), _) | (None, Some(Client::Address(to))) => to,
-                    // Nobody has spoken yet.
+                    // No client has sent an input yet.
                     _ => return true,
                 };
                 let mut bytes = [0; wire::length(MOST_VALUES)];

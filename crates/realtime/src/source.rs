@@ -1,4 +1,4 @@
-//! Where inputs come from.
+//! Sources of the inputs.
 
 mod door;
 mod lines;
@@ -15,31 +15,31 @@ use std::io;
 use std::net::UdpSocket;
 use std::sync::Arc;
 
-/// Where inputs come from; asked once before each frame, and it never waits.
+/// Source of the inputs. It is polled once before each frame and never waits.
 pub enum Source {
-    /// From nowhere: the initial values stay.
+    /// No source: the initial values are used.
     None,
-    /// Packets over UDP; the newest counts.
+    /// UDP packets; the latest one counts.
     Udp(Door),
-    /// A record in shared memory.
+    /// The input record in shared memory.
     Memory(MemorySource),
     /// Lines of text.
     Lines(Lines),
-    /// What was recorded in another run.
+    /// The recorded inputs of another run.
     Recording(Recording),
 }
 
-/// The record of inputs of a [`Region`].
+/// Reader of the input record of a [`Region`].
 pub struct MemorySource {
     region: Arc<Region>,
     seen: u64,
     record: Vec<u64>,
-    /// The odd counter that was found last, and how often in a row.
+    /// The last counter of an incomplete record, and the number of times that it was found in succession.
     busy: (u64, u64),
 }
 
 impl MemorySource {
-    /// Reads from here.
+    /// Creates a reader.
     pub fn new(region: Arc<Region>) -> Self {
         let record = vec![0; region.input_words()];
         Self { region, seen: 0, record, busy: (0, 0) }
@@ -64,23 +64,23 @@ impl MemorySource {
         }
     }
 
-    /// Frees the record where the same client has been writing for longer than one may be silent until another takes over.
+    /// Releases the record if the same write has not been completed within the patience. Its writer was killed.
     fn free(&mut self, counter: u64, patience: u64) {
         let times = if self.busy.0 == counter { self.busy.1 + 1 } else { 1 };
         self.busy = (counter, times);
         if times >= patience && counter & 1 == 1 && self.region.free(counter) {
-            // Half written as it is.
+            // The released record is incomplete and must not be read.
             self.seen = counter.wrapping_add(1);
         }
     }
 }
 
-/// A socket that takes packets at an address and never waits.
+/// Opens a non-blocking UDP socket.
 ///
 /// # Errors
-/// What the system says, such as a port in use.
+/// The operating system returns an error, such as a port in use.
 pub fn socket(address: std::net::SocketAddr) -> io::Result<UdpSocket> {
-    // A port that the system chooses is lost when the socket is opened to all again: it is asked for by its number.
+    // A port chosen by the system would be lost when the socket is disconnected. Therefore the socket is bound to its number.
     let address = if address.port() == 0 { UdpSocket::bind(address)?.local_addr()? } else { address };
     let socket = UdpSocket::bind(address)?;
     socket.set_nonblocking(true)?;
@@ -88,7 +88,7 @@ pub fn socket(address: std::net::SocketAddr) -> io::Result<UdpSocket> {
 }
 
 impl Source {
-    /// Looks what has come, and has it judged.
+    /// Reads the received inputs and passes them to the validator.
     pub fn poll(&mut self, intake: &mut Intake) {
         match self {
             Self::None => {}

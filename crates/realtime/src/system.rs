@@ -1,48 +1,48 @@
-//! What is asked of the operating system: the clock, the sleep, and the favours that a loop in real time may be granted.
+//! Operating system services: clock, sleep and privileges of a real-time loop.
 //!
-//! On Linux the sleep has an absolute deadline on the monotonic clock, so that what passes between a look at the clock and the
-//! sleep delays nothing. Elsewhere it is that of the standard library, which is relative, and no favour is granted.
+//! On Linux the sleep has an absolute deadline on the monotonic clock. A delay between reading the clock and sleeping therefore has no
+//! effect. On other systems the sleep is relative, and no privilege is available.
 
 use thiserror::Error;
 
-/// Why a favour was not granted; the loop goes on without it.
+/// Reason why a privilege is missing. The loop runs without it.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 pub enum Denied {
-    /// By the system.
-    #[error("{favour}: {words}; going on without")]
+    /// The system refused it.
+    #[error("{favour}: {words}; the loop runs without it")]
     Refused {
-        /// What was asked for.
+        /// Name of the privilege.
         favour: String,
-        /// What the system says.
+        /// Error of the operating system.
         words: String,
     },
-    /// Not to be had on this system.
-    #[error("{favour}: not to be had on this system; going on without")]
+    /// It does not exist on this system.
+    #[error("{favour}: not available on this system; the loop runs without it")]
     Unknown {
-        /// What was asked for.
+        /// Name of the privilege.
         favour: String,
     },
 }
 
-/// What a loop in real time may ask for.
+/// Privileges that a real-time loop may request.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Favours {
-    /// The processor to stay on.
+    /// Processor to which the thread is pinned.
     pub cpu: Option<usize>,
-    /// The priority among real-time threads, 1 to 99, first in first out.
+    /// Priority of the first-in-first-out real-time scheduler, from 1 to 99.
     pub priority: Option<u8>,
-    /// Whether all memory stays in memory.
+    /// Whether all memory is locked, so that it is not swapped out.
     pub lock: bool,
 }
 
 pub use imp::{now, sleep_until};
 
 impl Favours {
-    /// Asks for each of them for the calling thread (memory: for the process); what was not granted comes back.
+    /// Requests the privileges for the calling thread, and memory locking for the process. Returns the privileges that were denied.
     #[must_use]
     pub fn ask(self) -> Vec<Denied> {
         let mut denied = Vec::new();
-        // Deadlines are met to 50 µs by default, for the sake of batteries; a thread with a real-time priority has no slack.
+        // The default timer slack is 50 µs. Threads with real-time priority have none.
         imp::sharpen();
         if self.lock {
             denied.extend(imp::lock().err());
@@ -68,23 +68,23 @@ mod imp {
 
     const SECOND: u64 = 1_000_000_000;
 
-    /// The monotonic clock, ns. Not a system call where the kernel lets the process read it.
+    /// Returns the time of the monotonic clock, ns. It usually needs no system call.
     #[inline]
     pub fn now() -> u64 {
         let time = rustix::time::clock_gettime(ClockId::Monotonic);
-        // The clock begins at 0 when the machine does.
+        // The clock starts at 0 at system start, so the time is not negative.
         time.tv_sec as u64 * SECOND + time.tv_nsec as u64
     }
 
-    /// Sleeps until a moment of [`now`]; not at all where that has passed.
+    /// Sleeps until a time of [`now`], ns. Returns at once if the time has passed.
     pub fn sleep_until(moment: u64) {
         let request = Timespec { tv_sec: (moment / SECOND) as _, tv_nsec: (moment % SECOND) as _ };
-        // A signal may wake it: the deadline is absolute, so it sleeps on.
+        // A signal may interrupt the sleep. The deadline is absolute, so the sleep is repeated.
         while now() < moment && clock_nanosleep_absolute(ClockId::Monotonic, &request).is_err() {}
     }
 
     pub(super) fn sharpen() {
-        // Without it deadlines are met later, and the histogram says so.
+        // If this fails, the latencies are larger.
         let _ = set_current_timer_slack(NonZeroU64::new(1));
     }
 
@@ -111,7 +111,7 @@ mod imp {
     pub(super) fn raise(priority: u8) -> Result<(), Denied> {
         let param = libc::sched_param { sched_priority: i32::from(priority) };
         #[allow(unsafe_code, reason = "rustix has no sched_setscheduler")]
-        // SAFETY: the pointer is to a whole sched_param on this stack, which the call only reads; 0 is the calling thread.
+        // SAFETY: the pointer refers to a complete sched_param on this stack, which the call only reads. 0 is the calling thread.
         let result = unsafe { libc::sched_setscheduler(0, libc::SCHED_FIFO, &raw const param) };
         if result == 0 {
             return Ok(());
@@ -129,13 +129,13 @@ mod imp {
 
     static BEGINNING: OnceLock<Instant> = OnceLock::new();
 
-    /// The monotonic clock, ns since it was first looked at.
+    /// Returns the time of the monotonic clock, ns since the first call.
     pub fn now() -> u64 {
-        // 584 years are enough.
+        // This overflows after 584 years.
         u64::try_from(BEGINNING.get_or_init(Instant::now).elapsed().as_nanos()).unwrap_or(u64::MAX)
     }
 
-    /// Sleeps until a moment of [`now`], by a relative sleep: what delays its beginning delays its end.
+    /// Sleeps until a time of [`now`], ns, by a relative sleep. A delay at its start delays its end.
     pub fn sleep_until(moment: u64) {
         std::thread::sleep(Duration::from_nanos(moment.saturating_sub(now())));
     }

@@ -1,4 +1,4 @@
-//! What is written down while the loop runs, by a thread of its own: memory stays flat, and the loop never writes.
+//! Files that a separate thread writes during a loop. The loop itself does no input or output, and the memory is limited.
 
 use crate::ring::Ring;
 use std::io::{self, Write};
@@ -6,30 +6,30 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 
-/// How often the thread looks.
+/// Polling interval of the writer thread.
 const LOOK: Duration = Duration::from_millis(2);
-/// Room between the loop and the thread, words in all: 4 MiB.
+/// Capacity of the buffer between loop and writer thread, in words: 4 MiB.
 const ROOM: usize = 1 << 19;
 
-/// How the words of a record are written.
+/// File format of the records.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Form {
-    /// As bytes, little-endian.
+    /// Binary words, little-endian.
     Binary,
-    /// As whole numbers with commas between them, a line for each record.
+    /// Comma-separated integers, one line per record.
     Csv,
 }
 
-/// The loop's end of a tape.
+/// Sender of records, used by the loop.
 pub struct Tape {
     ring: Arc<Ring>,
-    /// Records for which there was no room.
+    /// Number of lost records.
     lost: u64,
-    /// Whether a record waits for room.
+    /// Whether the loop waits if the buffer is full.
     waits: bool,
 }
 
-/// The other end.
+/// Receiver of records, used by the writer thread.
 pub struct Reel<'a> {
     ring: Arc<Ring>,
     width: usize,
@@ -38,7 +38,7 @@ pub struct Reel<'a> {
     failure: Option<io::Error>,
 }
 
-/// Makes a tape of records of so many words.
+/// Creates a tape for records of `width` words.
 pub fn tape<'a>(width: usize, form: Form, to: impl Write + Send + 'a) -> (Tape, Reel<'a>) {
     let ring = Arc::new(Ring::new(width, ROOM / width.max(1)));
     let reel = Reel { ring: Arc::clone(&ring), width, form, to: Box::new(to), failure: None };
@@ -46,12 +46,12 @@ pub fn tape<'a>(width: usize, form: Form, to: impl Write + Send + 'a) -> (Tape, 
 }
 
 impl Tape {
-    /// From now on a record waits until there is room: for a loop that no clock drives, and whose reel is being wound.
+    /// Makes the sender wait if the buffer is full. It is for unpaced loops whose reel is being written.
     pub(crate) fn wait(&mut self) {
         self.waits = true;
     }
 
-    /// Puts a record on; where there is no room it waits for some, or is counted.
+    /// Adds a record. If the buffer is full, it waits, or counts the record as lost.
     #[inline]
     pub fn put(&mut self, record: impl Iterator<Item = u64>) {
         while self.waits && self.ring.is_full() {
@@ -62,15 +62,16 @@ impl Tape {
         }
     }
 
-    /// Records for which there was no room.
+    /// Returns the number of lost records.
     pub fn lost(&self) -> u64 {
         self.lost
     }
 }
 
 impl Reel<'_> {
-    /// Writes down what there is, but no more than the ring holds: a loop that fills it meanwhile must not keep the others waiting.
-    /// Whether there may be more. After a failure what comes is thrown away: the loop goes on.
+    /// Writes the buffered records, at most one buffer capacity, and returns whether there may be more.
+    ///
+    /// The limit prevents a fast loop from blocking the other reels. After a write error, records are discarded.
     fn wind(&mut self, record: &mut Vec<u64>) -> bool {
         record.resize(self.width, 0);
         for _ in 0..self.ring.room() {
@@ -96,17 +97,17 @@ impl Reel<'_> {
         }
     }
 
-    /// Why not all was written.
+    /// Returns the first write error.
     pub fn failure(&self) -> Option<&io::Error> {
         self.failure.as_ref()
     }
 }
 
-/// Writes everything down until the loop is over and all of it is written; `look` is called now and then.
+/// Writes records until the loop has ended and all records are written. `look` is called regularly.
 pub(crate) fn write_down(reels: &mut [Reel<'_>], over: &AtomicBool, look: &dyn Fn()) {
     let mut record = Vec::new();
     loop {
-        // Asked first: what was put on before the end is found below.
+        // The flag is read first, so that records added before the end are written below.
         let is_over = over.load(Ordering::Acquire);
         let mut more = false;
         for reel in &mut *reels {
@@ -130,7 +131,7 @@ pub(crate) fn write_down(reels: &mut [Reel<'_>], over: &AtomicBool, look: &dyn F
 mod tests {
     use super::*;
 
-    /// A loop that puts a record on for each that is written, so many times.
+    /// A writer that adds a record to the ring for each record written, a given number of times.
     struct Refilled(Arc<Ring>, u64);
 
     impl Write for Refilled {
@@ -156,7 +157,7 @@ mod tests {
         while reel.wind(&mut record) {
             turns += 1;
         }
-        // A hundred and one records, eight a turn.
+        // A hundred and one records, eight per call.
         assert_eq!((turns, ring.take(&mut record)), (13, false));
     }
 }

@@ -1,56 +1,56 @@
-//! A packet, byte by byte: the same for inputs and outputs, everything little-endian.
+//! Packet format of inputs and outputs, little-endian.
 //!
-//! | bytes | what |
+//! | bytes | content |
 //! | --- | --- |
 //! | 0–3 | `sslp` |
 //! | 4–5 | version, u16: 1 |
 //! | 6–7 | number of values n, u16 |
-//! | 8–15 | scenario, u64: tells it from all others |
+//! | 8–15 | scenario number, u64 |
 //! | 16–23 | sequence number, u64 |
 //! | 24–31 | time stamp, f64: simulated time, s |
 //! | 32–… | n values, f64, SI |
 
 use std::iter;
 
-/// How every packet begins.
+/// First bytes of every packet.
 pub const MAGIC: [u8; 4] = *b"sslp";
-/// Version of the packets.
+/// Version of the packet format.
 pub const VERSION: u16 = 1;
-/// Bytes before the values.
+/// Size of the header, in bytes.
 pub const HEAD: usize = 32;
-/// Bytes of a word.
+/// Size of a word, in bytes.
 const WORD: usize = 8;
-/// Words before the values: magic with version and number, scenario, sequence, time.
+/// Number of words of the header: magic with version and number of values, scenario number, sequence number, time.
 pub(crate) const HEAD_WORDS: usize = HEAD / WORD;
-/// Most values of a packet: 1 232 bytes go over any network in one piece.
+/// Maximum number of values of a packet. Its size of 1 232 bytes needs no fragmentation in usual networks.
 pub const MOST_VALUES: usize = 150;
 
-/// What a packet says besides its values.
+/// Sequence number and time of a packet.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Stamp {
-    /// Counted by whoever sends.
+    /// Sequence number, counted by the sender.
     pub sequence: u64,
-    /// Of outputs: simulated time of the values, s. Of inputs: that of the outputs that they answer.
+    /// Simulated time, s. Outputs: time of the values. Inputs: time of the outputs to which they respond.
     pub time: f64,
 }
 
-/// Why bytes are no packet for this loop.
+/// Reason why a packet is not accepted.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Misfit {
-    /// Too long or too short for the values.
+    /// The length does not fit the number of values.
     Length,
-    /// It does not begin as packets do, has another version, or its own number of values is wrong.
+    /// The magic bytes, the version or the number of values is wrong.
     Foreign,
-    /// Another scenario's.
+    /// The scenario number is different.
     Scenario,
 }
 
-/// Bytes of a packet of so many values.
+/// Returns the size of a packet with `values` values, in bytes.
 pub const fn length(values: usize) -> usize {
     HEAD + WORD * values
 }
 
-/// Writes a packet into bytes of its [`length`].
+/// Writes a packet into a buffer of its [`length`].
 pub fn encode(bytes: &mut [u8], scenario: u64, stamp: Stamp, values: &[f64]) {
     let words = words(scenario, stamp, values);
     for (bytes, word) in bytes.chunks_exact_mut(WORD).zip(words) {
@@ -58,26 +58,26 @@ pub fn encode(bytes: &mut [u8], scenario: u64, stamp: Stamp, values: &[f64]) {
     }
 }
 
-/// Place of the sequence number among the words of a packet.
+/// Index of the sequence number in the words of a packet.
 pub(crate) const SEQUENCE: usize = 2;
 
-/// The words of a packet.
+/// Returns the words of a packet.
 pub(crate) fn words(scenario: u64, stamp: Stamp, values: &[f64]) -> impl Iterator<Item = u64> {
     let head = [first_word(values.len()), scenario, stamp.sequence, stamp.time.to_bits()];
     head.into_iter().chain(values.iter().map(|value| value.to_bits()))
 }
 
-/// Magic, version and number of values.
+/// Returns the word with magic bytes, version and number of values.
 fn first_word(values: usize) -> u64 {
     let magic = u64::from(u32::from_le_bytes(MAGIC));
-    // A loop has at most [`MOST_VALUES`].
+    // A packet has at most [`MOST_VALUES`] values.
     magic | u64::from(VERSION) << 32 | (values as u64 & 0xffff) << 48
 }
 
-/// Reads a packet of as many values as there is room for.
+/// Reads a packet with `values.len()` values.
 ///
 /// # Errors
-/// Whatever does not fit; `values` may have been written to.
+/// The packet does not fit. `values` may be partly overwritten.
 pub fn decode(bytes: &[u8], scenario: u64, values: &mut [f64]) -> Result<Stamp, Misfit> {
     if bytes.len() >= MAGIC.len() && bytes[..MAGIC.len()] != MAGIC {
         return Err(Misfit::Foreign);
@@ -93,7 +93,10 @@ pub fn decode(bytes: &[u8], scenario: u64, values: &mut [f64]) -> Result<Stamp, 
     read(iter::from_fn(|| words.next()), scenario, values)
 }
 
-/// The same from words, of which there are enough.
+/// Reads a packet from words.
+///
+/// # Errors
+/// As [`decode`].
 pub(crate) fn read(
     mut words: impl Iterator<Item = u64>,
     scenario: u64,
@@ -117,7 +120,7 @@ pub(crate) fn read(
 mod tests {
     use super::*;
 
-    /// Written by hand, from the table above.
+    /// The expected bytes are written by hand from the table above.
     #[test]
     fn a_packet_is_what_the_table_says() {
         let mut bytes = [0; length(2)];

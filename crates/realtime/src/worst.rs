@@ -1,15 +1,19 @@
-//! The worst frames of a loop, and what happened in them.
+//! The slowest frames of a loop and their causes.
 
 use crate::plant::{Work, counted};
 
-/// How many are kept.
+/// Number of frames that are kept.
 pub const KEPT: usize = 20;
 
-/// What happened in a frame, by what is counted of it; the first that fits.
+/// Causes of slow frames. The first one that applies is used.
 pub const KINDS: [&str; 5] = ["merge", "event", "turning point or growth", "corner or cut step", "plain"];
 
-/// What happened in a frame whose loop has so many steps in a usual one: a merge is what a memory without room forgot, an event what
-/// the event stepper located, a turning point or growth what a memory got or gave up, a corner or cut step what made steps more.
+/// Returns the cause of a slow frame. `usual` is the usual number of time steps per frame.
+///
+/// * merge: a full slip memory merged knots;
+/// * event: the event-driven integrator located an event;
+/// * turning point or growth: a slip memory gained or lost knots;
+/// * corner or cut step: the frame had more time steps than usual.
 pub fn kind(work: &Work, usual: u64) -> &'static str {
     let has = [
         counted(work, "merges") > 0,
@@ -20,20 +24,20 @@ pub fn kind(work: &Work, usual: u64) -> &'static str {
     KINDS[has.into_iter().position(|is| is).unwrap_or(KINDS.len() - 1)]
 }
 
-/// A frame that took long.
+/// Timing of a frame.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Slow {
-    /// Which, from 0.
+    /// Number of the frame, from 0.
     pub frame: u64,
-    /// From its deadline until the loop woke, ns; 0 where nothing is paced.
+    /// Latency from the deadline to the wake-up, ns; 0 without pacing.
     pub latency: u64,
-    /// From then until it was done, ns.
+    /// Execution time from the wake-up to the end of the frame, ns.
     pub execution: u64,
-    /// Work done in it.
+    /// Work of the frame.
     pub work: Work,
 }
 
-/// The [`KEPT`] worst by one of the two times, the worst first.
+/// The [`KEPT`] slowest frames by one of the two times, in descending order.
 #[derive(Debug, Clone)]
 pub struct Worst {
     by: fn(&Slow) -> u64,
@@ -41,12 +45,12 @@ pub struct Worst {
 }
 
 impl Worst {
-    /// None yet; `by` says which time counts.
+    /// Creates an empty list. `by` returns the time that is compared.
     pub fn new(by: fn(&Slow) -> u64) -> Self {
         Self { by, frames: Vec::with_capacity(KEPT) }
     }
 
-    /// Looks at a frame. Of equal ones the earlier stays.
+    /// Adds a frame if it is among the slowest. Among equal times, earlier frames are kept.
     #[inline]
     pub fn look(&mut self, frame: Slow) {
         let time = (self.by)(&frame);
@@ -61,7 +65,7 @@ impl Worst {
         self.frames.insert(place, frame);
     }
 
-    /// Those kept.
+    /// Returns the kept frames.
     pub fn frames(&self) -> &[Slow] {
         &self.frames
     }
@@ -85,7 +89,7 @@ mod tests {
     #[test]
     fn the_worst_are_kept_and_of_equal_ones_the_earlier() {
         let mut worst = Worst::new(|slow| slow.execution);
-        // A permutation of 0 … 996, each four times.
+        // A permutation of 0 … 996; each number occurs four times.
         for frame in 0..4 * 997_u64 {
             worst.look(Slow { frame, execution: frame * 31 % 997, ..Slow::default() });
         }

@@ -1,5 +1,6 @@
-//! A drive in its loop: paced and unpaced to the same bits, put down and taken up, without an allocation, and with clients that
-//! do what they should not. Over 127.0.0.1 and shared memory alone; no time on the wall is asserted.
+//! Tests of real-time loops: identical results with and without pacing, resumption, no allocations, faulty clients.
+//!
+//! They use only 127.0.0.1 and shared memory. No wall time is asserted.
 
 #![allow(
     clippy::unwrap_used,

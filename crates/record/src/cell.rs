@@ -1,32 +1,32 @@
-//! One field of a table: a number, a clock time, or nothing.
+//! Reads one field of a table: a number, a clock time or a missing value.
 
 use std::borrow::Cow;
 
-/// Words that stand for a missing value, in lower case.
+/// Words for a missing value, in lower case.
 const MISSING: [&str; 14] = [
     "nan", "na", "n/a", "#n/a", "null", "none", "over", "overload", "overflow", "ovfl", "inf", "-inf",
     "error", "err",
 ];
 pub(crate) const DAY: f64 = 86400.0;
 
-/// How numbers are written.
+/// Number format of a table.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct Digits {
     pub(crate) decimal: char,
     pub(crate) thousands: Option<char>,
 }
 
-/// A field.
+/// Content of one field.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Cell {
     Number(f64),
-    /// A clock time: days of a date, 0 without one, and seconds.
+    /// Clock time: days of the date (0 without a date) and seconds of the day.
     Clock(f64, f64),
     Missing,
     Word,
 }
 
-/// Instruments write 9.9e37 for infinity and 9.91e37 for what is no number (SCPI 1999).
+/// Magnitude from which a number counts as missing. Instruments write 9.9e37 for infinity and 9.91e37 for NaN (SCPI 1999).
 const OVERRANGE: f64 = 9.9e37;
 
 impl Cell {
@@ -47,18 +47,18 @@ impl Cell {
         }
     }
 
-    /// Whether it is a number or a clock time.
+    /// Returns whether the field is a number or a clock time.
     pub(crate) fn is_value(self) -> bool {
         matches!(self, Self::Number(_) | Self::Clock(..))
     }
 }
 
-/// A field without blanks and quotes about it.
+/// Returns a field without surrounding blanks and quotes.
 pub(crate) fn trimmed(field: &str) -> &str {
     field.trim().trim_matches('"').trim()
 }
 
-/// A finite number, with the exponent of Fortran as well.
+/// Reads a finite number. Exponents in Fortran notation (`D`) are accepted.
 fn number(field: &str, Digits { decimal, thousands }: Digits) -> Option<f64> {
     let first = field.chars().next()?;
     if !(first.is_ascii_digit()
@@ -88,7 +88,7 @@ fn number(field: &str, Digits { decimal, thousands }: Digits) -> Option<f64> {
     text.parse().ok().filter(|value: &f64| value.is_finite())
 }
 
-/// Whether groups of three digits stand between the signs.
+/// Returns whether the thousands separators divide the number into groups of three digits.
 fn is_grouped(field: &str, sign: char, decimal: char) -> bool {
     let whole = field.split(decimal).next().unwrap_or_default().trim_start_matches(['+', '-']);
     let mut groups = whole.split(sign);
@@ -97,7 +97,9 @@ fn is_grouped(field: &str, sign: char, decimal: char) -> bool {
         && groups.all(|group| group.len() == 3 && group.bytes().all(|b| b.is_ascii_digit()))
 }
 
-/// Days and seconds of `12:00:00.010`, `12:00`, `2020-01-01 12:00:00`, `01.02.2020 12:00:00,5`, `2020-01-01T12:00:00Z`.
+/// Reads a clock time such as `12:00:00.010`, `12:00`, `2020-01-01 12:00:00`, `01.02.2020 12:00:00,5` or `2020-01-01T12:00:00Z`.
+///
+/// Returns the days of the date and the seconds of the day.
 fn clock(field: &str) -> Option<(f64, f64)> {
     let field = field.trim_end_matches('Z');
     let (date, time) = match field.rsplit_once([' ', 'T']) {
@@ -116,7 +118,9 @@ fn clock(field: &str) -> Option<(f64, f64)> {
     is_time.then_some((days, seconds))
 }
 
-/// Days of a date since some day: year first or last, the month before the day where both could be either and slashes part them.
+/// Returns the number of days of a date since a fixed day. The year is first or last.
+///
+/// With slashes, an ambiguous date has the month before the day.
 fn days(date: &str) -> Option<f64> {
     let parts: Vec<i64> = date.split(['-', '.', '/']).map(|part| part.parse().ok()).collect::<Option<_>>()?;
     let [a, b, c] = parts[..] else { return None };
@@ -128,16 +132,16 @@ fn days(date: &str) -> Option<f64> {
     if !((1..=12).contains(&month) && (1..=31).contains(&day) && (0..10_000).contains(&year)) {
         return None;
     }
-    // Of a calendar that begins in March (C. F. Gauss): leap days come last.
+    // Calendar that begins in March (C. F. Gauss), so that leap days are at the end of the year.
     let (year, month) = if month > 2 { (year, month - 3) } else { (year - 1, month + 9) };
     Some((365 * year + year / 4 - year / 100 + year / 400 + (153 * month + 2) / 5 + day) as f64)
 }
 
-/// Clock times made to rise: past midnight without a date a day is added. Returns whether any was.
+/// Adds a day to clock times after midnight, so that they ascend. Returns whether a day was added.
 pub(crate) fn unwind(times: &mut [f64]) -> bool {
     let (mut days, mut last) = (0.0, f64::NEG_INFINITY);
     for time in times.iter_mut().filter(|time| !time.is_nan()) {
-        // More than half a day back is a new day; less is a clock that was set.
+        // A decrease of more than half a day is a new day; a smaller one is a correction of the clock.
         if *time + days < last - 0.5 * DAY {
             days += DAY;
         }

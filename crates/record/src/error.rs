@@ -1,98 +1,98 @@
-//! What is wrong with a table of an instrument.
+//! Errors of reading a table of an instrument.
 
 use crate::recipe::Role;
 use std::io;
 use thiserror::Error;
 
-/// Why a table is not read.
+/// Error of reading a table.
 #[derive(Debug, Error)]
 pub enum RecordError {
-    /// A spreadsheet that cannot be read.
-    #[error("{file}: no spreadsheet that can be read: {why}")]
+    /// The spreadsheet cannot be read.
+    #[error("{file}: not a readable spreadsheet: {why}")]
     Sheet {
-        /// The file.
+        /// Name of the file.
         file: String,
-        /// Why not.
+        /// Cause.
         why: String,
     },
-    /// The file.
+    /// The file cannot be read.
     #[error("{file}: cannot be read: {source}")]
     File {
-        /// Its name.
+        /// Name of the file.
         file: String,
-        /// Why.
+        /// Error of the operating system.
         source: io::Error,
     },
-    /// The recipe.
+    /// The file is not a valid recipe.
     #[error("{file}: not a recipe: {why}")]
     Recipe {
-        /// Its name.
+        /// Name of the file.
         file: String,
-        /// Why.
+        /// Cause.
         why: String,
     },
-    /// Nothing that looks like rows of numbers.
+    /// The file contains no rows of numbers.
     #[error(
-        "{file}: no rows of numbers were found{why}\n   help: a recipe says how the file is to be read: `stickslip import FILE --out RECIPE.json`"
+        "{file}: no rows of numbers were found{why}\n   help: describe the file with a recipe: `stickslip import FILE --out RECIPE.json`"
     )]
     NoRows {
-        /// Its name.
+        /// Name of the file.
         file: String,
-        /// What is there instead.
+        /// Description of the content of the file.
         why: String,
     },
-    /// A column that is not there.
+    /// A requested column does not exist.
     #[error("{file}: there is no column {wanted} for the {}\n   help: its columns are {known}", .role.word())]
     NoColumn {
-        /// The file.
+        /// Name of the file.
         file: String,
-        /// What it was to be.
+        /// Role of the column.
         role: Role,
-        /// Its name or number.
+        /// Name or number of the column.
         wanted: String,
-        /// All columns.
+        /// All columns of the file.
         known: String,
     },
-    /// No column that would do.
-    #[error("{file}: no column is a {} by its name or unit\n   help: name it with --{0}, by name or number and with a unit, such as --{0} \"3:{1}\"; the columns are {known}", .role.word(), .role.si())]
+    /// No column has this role by its name or unit.
+    #[error("{file}: no column is the {} by its name or unit\n   help: select it with --{0}, by name or number and with a unit, such as --{0} \"3:{1}\"; the columns are {known}", .role.word(), .role.si())]
     Unknown {
-        /// The file.
+        /// Name of the file.
         file: String,
-        /// What is missing.
+        /// The missing role.
         role: Role,
-        /// All columns.
+        /// All columns of the file.
         known: String,
     },
-    /// A unit that is none, or of something else.
-    #[error("{file}: \"{unit}\" is no unit of a {}\n   help: units here: {known}", .role.word())]
+    /// The unit is unknown or does not fit the role.
+    #[error("{file}: \"{unit}\" is not a unit of a {}\n   help: possible units: {known}", .role.word())]
     Unit {
-        /// The file.
+        /// Name of the file.
         file: String,
-        /// What the column is.
+        /// Role of the column.
         role: Role,
-        /// The unit.
+        /// The invalid unit.
         unit: String,
-        /// Units that would do.
+        /// Possible units.
         known: String,
     },
-    /// One column for two things.
-    #[error("{file}: column {column} stands for the {} and for the {}", .roles[0].word(), .roles[1].word())]
+    /// One column is selected for two roles.
+    #[error("{file}: column {column} is selected for the {} and for the {}", .roles[0].word(), .roles[1].word())]
     Twice {
-        /// The file.
+        /// Name of the file.
         file: String,
-        /// Its number.
+        /// Number of the column, from 1.
         column: usize,
-        /// What it was to be.
+        /// The two roles.
         roles: [Role; 2],
     },
-    /// A column without numbers.
-    #[error("{file}: column {column} has no number in any row: the {} cannot be read", .role.word())]
+    /// A column contains no numbers.
+    #[error("{file}: column {column}, the {}, has no number in any row", .role.word())]
     NoNumbers {
-        /// The file.
+        /// Name of the file.
         file: String,
-        /// Its number.
+        /// Number of the column, from 1.
         column: usize,
-        /// What it was to be.
+        /// Role of the column.
         role: Role,
     },
 }

@@ -1,10 +1,10 @@
-//! How a file is laid out, told from its beginning: encoding, delimiter, decimal sign, head lines, first row.
+//! Detects the layout of a table from the beginning of a file: delimiter, decimal sign, heading lines and first row.
 
 use crate::cell::{Cell, DAY, Digits, trimmed};
 use crate::recipe::{Encoding, Recipe};
 use crate::unit;
 
-/// Delimiters with the decimal signs that may go with them, in the order in which they are tried: the first of equally good ones counts.
+/// Combinations of delimiter and decimal sign, in the order in which they are tried. Among equally good ones the first is used.
 const WAYS: [(char, char); 9] = [
     ('\t', '.'),
     (';', '.'),
@@ -16,55 +16,57 @@ const WAYS: [(char, char); 9] = [
     ('|', ','),
     (' ', ','),
 ];
-/// Signs between groups of three digits that are tried where hardly any number is found without.
+/// Thousands separators that are tried.
 const GROUPS: [Option<char>; 5] = [None, Some('.'), Some(','), Some('\''), Some('\u{a0}')];
-/// Share of rows of which a column must be numbers, to be one of numbers.
+/// Minimum fraction of numbers in the rows of a numeric column.
 const MOSTLY: f64 = 0.8;
-/// Most head lines that names and units are taken from.
+/// Maximum number of heading lines from which names and units are read.
 const HEADS: usize = 2;
 
-/// A column by its head.
+/// A column with the information of its heading.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Column {
-    /// Its name; empty without one.
+    /// Name of the column; empty if there is none.
     pub name: String,
-    /// Its unit as it is written, where its head has one.
+    /// Unit as written in the heading.
     pub unit: Option<String>,
-    /// Whether it has numbers, or clock times.
+    /// Whether the column contains numbers or clock times.
     pub is_number: bool,
-    /// Whether these are clock times.
+    /// Whether the column contains clock times.
     pub is_clock: bool,
-    /// Whether its numbers rise from row to row, where the file was looked at.
+    /// Whether the values ascend strictly in the examined part of the file.
     pub rises: bool,
 }
 
-/// How a file is laid out.
+/// Layout of a table in a text file.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Layout {
-    /// Its encoding.
+    /// Encoding of the text.
     pub encoding: Encoding,
-    /// Sign between fields; a blank stands for any number of them.
+    /// Delimiter between fields. A blank stands for any number of blanks and tabs.
     pub delimiter: char,
     /// Decimal sign.
     pub decimal: char,
-    /// Sign between groups of three digits.
+    /// Thousands separator.
     pub thousands: Option<char>,
-    /// Lines before the first row.
+    /// Number of lines before the first row.
     pub skip: usize,
-    /// Sign at the beginning of lines that are passed over.
+    /// Prefix of comment lines, which are skipped.
     pub comment: Option<String>,
-    /// Words that are missing values.
+    /// Additional words for missing values.
     pub missing: Vec<String>,
-    /// The columns.
+    /// Columns of the table.
     pub columns: Vec<Column>,
-    /// Time of the first row and from row to row, s, where the head or the recipe tells.
+    /// Time of the first row and interval of the rows, s, if the heading or the recipe gives them.
     pub pace: Option<[f64; 2]>,
-    /// The first rows as they are written.
+    /// The first three rows as text.
     pub rows: Vec<Vec<String>>,
 }
 
 impl Layout {
-    /// The layout of a file that begins with these lines; none where no rows of numbers are there. What the recipe says counts.
+    /// Detects the layout from the first lines of a file. Settings of the recipe override the detection.
+    ///
+    /// Returns `None` if there are no rows of numbers.
     pub(crate) fn guess(lines: &[&str], encoding: Encoding, recipe: &Recipe) -> Option<Self> {
         let comment = recipe.comment.clone();
         let missing = recipe.missing.clone().unwrap_or_default();
@@ -115,7 +117,7 @@ impl Layout {
         Digits { decimal: self.decimal, thousands: self.thousands }
     }
 
-    /// Its columns in words: `1 "t [s]", 2 "disp"`.
+    /// Returns the numbers, names and units of the columns as text: `1 "t [s]", 2 "disp"`.
     #[must_use]
     pub fn words(&self) -> String {
         let one = |(place, column): (usize, &Column)| {
@@ -129,7 +131,9 @@ impl Layout {
     }
 }
 
-/// The fields of a line; quotes may hold the delimiter. An empty line has none, and what ends with the delimiter no last one.
+/// Splits a line into fields. A delimiter within quotes does not split.
+///
+/// An empty line has no fields. Empty fields at the end of a line are dropped.
 pub(crate) fn fields(line: &str, delimiter: char) -> Vec<String> {
     if line.trim().is_empty() {
         return Vec::new();
@@ -152,9 +156,9 @@ pub(crate) fn fields(line: &str, delimiter: char) -> Vec<String> {
     fields
 }
 
-/// The delimiter and how numbers are written: with which most fields are numbers and fewest are words.
+/// Returns the delimiter and the number format with the most numbers and the fewest words.
 fn way(lines: &[&str], recipe: &Recipe, missing: &[String]) -> Option<(char, Digits)> {
-    // Towards the end there are rows for sure.
+    // The later half of the lines certainly contains rows.
     let lines = &lines[(lines.len() / 2).min(lines.len().saturating_sub(1))..];
     let score = |delimiter: char, digits: Digits| {
         let of = |line: &&str| {
@@ -197,7 +201,7 @@ fn way(lines: &[&str], recipe: &Recipe, missing: &[String]) -> Option<(char, Dig
     best.map(|(_, way)| way)
 }
 
-/// Which columns are numbers, of the later half of some lines, in which rows are for sure.
+/// Returns which columns are numeric, judged by the later half of the lines.
 fn number_columns(all: &[Vec<Cell>]) -> Option<Vec<bool>> {
     let later = &all[all.len() / 2..];
     let with_numbers: Vec<&Vec<Cell>> =
@@ -212,13 +216,13 @@ fn number_columns(all: &[Vec<Cell>]) -> Option<Vec<bool>> {
     Some(numbers[..=last].to_vec())
 }
 
-/// Whether a line is a row: what are numbers elsewhere are numbers or missing here, and one of them is a number.
+/// Returns whether a line is a row: the numeric columns contain numbers or missing values, and at least one number.
 pub(crate) fn is_row(cells: &[Cell], numbers: &[bool]) -> bool {
     let own = || cells.iter().zip(numbers).filter(|(_, is_number)| **is_number).map(|(cell, _)| cell);
     own().any(|cell| cell.is_value()) && own().all(|cell| *cell != Cell::Word)
 }
 
-/// The head lines above the rows, the uppermost first: as many as stand together with enough fields.
+/// Returns the heading lines directly above the rows, in order from top to bottom.
 fn heads(above: &[&str], delimiter: char, width: usize) -> Vec<Vec<String>> {
     let filled = above.iter().rev().skip_while(|line| line.trim().is_empty());
     let lines = filled.take_while(|line| !line.trim().is_empty()).map(|line| {
@@ -234,7 +238,7 @@ fn column(place: usize, heads: &[Vec<String>], rows: &[&Vec<Cell>], numbers: &[b
     let (mut names, mut unit) = (Vec::new(), None);
     for cell in heads.iter().filter_map(|fields| fields.get(place)).filter(|cell| !cell.is_empty()) {
         let (name, own) = unit::part(cell);
-        // The lower line has the units, where both seem to.
+        // If both lines contain a unit, the lower one counts.
         unit = own.or(unit);
         if !name.is_empty() {
             names.push(name);
@@ -258,7 +262,7 @@ fn column(place: usize, heads: &[Vec<String>], rows: &[&Vec<Cell>], numbers: &[b
     }
 }
 
-/// Start and increment, which scopes write into the line below these words.
+/// Returns the start time and the increment, which oscilloscopes write in the line below these words.
 fn pace(heads: &[Vec<String>], digits: Digits) -> Option<[f64; 2]> {
     let [names, values] = heads else { return None };
     let of = |words: &[&str]| {

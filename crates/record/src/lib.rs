@@ -1,8 +1,12 @@
-//! Tables of instruments: logs of rigs, scopes and tribometers, lines of profilometers.
+//! Reads tables of instruments: rigs, oscilloscopes, tribometers and profilometers.
 //!
-//! In reading order: [`Recipe`] (how a file is to be read; what it does not say is guessed), `cell` (numbers, clock times, missing values),
-//! `unit` (units in heads), `layout` (delimiter, decimal sign, head lines, first row, from the beginning of a file), `roles` (which
-//! column is the time, the displacement, the force), [`Record`] (the columns, in SI, with all that was passed over).
+//! In reading order:
+//!
+//! * [`Recipe`] – how to read a file; missing settings are detected from the file;
+//! * `cell` – numbers, clock times and missing values; `unit` – units in headings;
+//! * `layout` – delimiter, decimal sign, heading lines and first row;
+//! * `roles` – which column is the time, the displacement or the force;
+//! * [`Record`] – the columns in SI units and the number of skipped lines.
 
 mod cell;
 mod error;

@@ -1,7 +1,9 @@
-//! Noise of measured values, and values without it.
+//! Noise estimation and smoothing of measured values.
 
-/// Standard deviation of the noise of samples at equal distances, by their fourth differences, in which hardly anything is left of what is smooth:
-/// the median of their magnitudes, which turns do not move, as that of normal noise.
+/// Returns the standard deviation of the noise of equally spaced samples.
+///
+/// It is estimated from fourth differences, which remove smooth signals. The median of their magnitudes is used, because single jumps do
+/// not affect it. The noise is assumed to be normal.
 #[must_use]
 pub fn noise(values: &[f64]) -> f64 {
     let fourth = |five: &[f64]| (five[0] - 4.0 * five[1] + 6.0 * five[2] - 4.0 * five[3] + five[4]).abs();
@@ -11,11 +13,13 @@ pub fn noise(values: &[f64]) -> f64 {
     }
     let middle = all.len() / 2;
     let (_, median, _) = all.select_nth_unstable_by(middle, f64::total_cmp);
-    // Of normal noise the median magnitude is 0.6745 σ, and the sum of the squares of the binomials 70.
+    // For normal noise, the median magnitude is 0.6745 σ. The sum of the squared binomial coefficients is 70.
     *median / 0.674_49 / 70.0_f64.sqrt()
 }
 
-/// Values at ascending times without their noise: each by the parabola through those at most half a window away that leaves the least squares.
+/// Smooths values at ascending times by local parabolas.
+///
+/// Each value is replaced by the least-squares parabola through the points within half a `window` before and after it.
 #[must_use]
 pub fn smoothed(points: &[[f64; 2]], window: f64) -> Vec<f64> {
     let half = 0.5 * window;
@@ -24,7 +28,7 @@ pub fn smoothed(points: &[[f64; 2]], window: f64) -> Vec<f64> {
         let first = points.partition_point(|point| point[0] < time - half);
         let last = points.partition_point(|point| point[0] <= time + half);
         let part = &points[first..last];
-        // About the point itself the parabola's value is its first coefficient.
+        // In coordinates relative to the point, the value of the parabola is its constant coefficient.
         let mut sums = [0.0; 5];
         let mut right = [0.0; 3];
         for [t, v] in part {

@@ -1,4 +1,4 @@
-//! How a file is read: what a recipe says. All that it leaves out is guessed.
+//! Recipe for reading a table. Settings that it omits are detected from the file.
 
 use crate::error::RecordError;
 use crate::unit;
@@ -103,24 +103,24 @@ pub enum Place {
     Name(String),
 }
 
-/// Columns as somebody names them in words: a name or a number, with a unit after a colon, such as `3:mm`.
+/// Columns selected by the user. Each text is a name or a number with an optional unit after a colon, such as `3:mm`.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct Named {
-    /// Of times.
+    /// Column of the times.
     pub time: Option<String>,
-    /// Of displacements.
+    /// Column of the displacements.
     pub displacement: Option<String>,
-    /// Of tangential forces.
+    /// Column of the tangential forces.
     pub force: Option<String>,
-    /// Of normal forces.
+    /// Column of the normal forces.
     pub normal: Option<String>,
 }
 
 impl Role {
-    /// Those of a measured loop.
+    /// Roles of a measured loop.
     pub const ALL: [Self; 4] = [Self::Time, Self::Displacement, Self::Force, Self::Normal];
 
-    /// Its word.
+    /// Returns the name of the role.
     #[must_use]
     pub fn word(self) -> &'static str {
         match self {
@@ -133,7 +133,7 @@ impl Role {
         }
     }
 
-    /// SI unit of its numbers.
+    /// Returns the SI unit of the role; empty if it has none.
     #[must_use]
     pub fn si(self) -> &'static str {
         match self {
@@ -145,12 +145,12 @@ impl Role {
     }
 }
 
-/// The JSON Schema of recipes, version 1; a copy lies in `schema/recipe-1.json`.
+/// Returns the JSON Schema of recipes, version 1. A copy is in `schema/recipe-1.json`.
 #[must_use]
 pub fn recipe_schema() -> String {
     let schema =
         schemars::generate::SchemaSettings::draft2020_12().into_generator().into_root_schema_for::<Recipe>();
-    // A schema is words and lists: there is nothing that JSON could refuse.
+    // Serialisation of a schema cannot fail.
     serde_json::to_string_pretty(&schema).unwrap_or_default() + "\n"
 }
 
@@ -158,23 +158,23 @@ impl Recipe {
     /// Reads a recipe from a file.
     ///
     /// # Errors
-    /// A file that cannot be read, or is no recipe.
+    /// The file cannot be read or is not a valid recipe.
     pub fn load(path: &Path) -> Result<Self, RecordError> {
         let failed = |why: String| RecordError::Recipe { file: path.display().to_string(), why };
         let text = std::fs::read_to_string(path).map_err(|error| failed(error.to_string()))?;
         Self::from_text(&text, &path.display().to_string())
     }
 
-    /// Reads a recipe from its text; `name` is that of its file.
+    /// Reads a recipe from a text. `name` is the name of the file for errors.
     ///
     /// # Errors
-    /// A text that is no recipe.
+    /// The text is not a valid recipe.
     pub fn from_text(text: &str, name: &str) -> Result<Self, RecordError> {
         serde_json::from_str(text)
             .map_err(|error| RecordError::Recipe { file: name.to_owned(), why: error.to_string() })
     }
 
-    /// With a column for a role by its name, or else its number, and perhaps a unit after a colon.
+    /// Sets the column of a role. `text` is a number or a name with an optional unit after a colon.
     #[must_use]
     pub fn with_column(mut self, role: Role, text: &str) -> Self {
         let (column, unit) = match text.rsplit_once(':') {
@@ -189,7 +189,7 @@ impl Recipe {
         self
     }
 
-    /// With columns as somebody names them in words, which count before what the recipe says.
+    /// Sets the columns selected by the user. They override the recipe.
     #[must_use]
     pub fn with(mut self, named: &Named) -> Self {
         let all = [&named.time, &named.displacement, &named.force, &named.normal];

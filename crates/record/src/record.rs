@@ -1,4 +1,4 @@
-//! The columns of a file, read line by line: what is kept are numbers.
+//! Reads the numeric columns of a file line by line.
 
 use crate::cell::{Cell, DAY, Digits, unwind};
 use crate::error::RecordError;
@@ -14,49 +14,49 @@ use std::fs::File;
 use std::io::{self, BufRead, BufReader, Read};
 use std::path::Path;
 
-/// Bytes from the beginning of a file by which its layout is told.
+/// Size of the beginning of a file from which the layout is detected, in bytes.
 const SAMPLE: u64 = 1 << 18;
-/// Most lines of them.
+/// Maximum number of lines for the detection.
 const LINES: usize = 600;
-/// Lines of words in a row between rows that begin another block.
+/// Number of consecutive text lines that separate two blocks of rows.
 const HEAD: usize = 2;
 
-/// Lines that were passed over.
+/// Numbers of skipped lines.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Passed {
     /// Empty lines below the first row.
     pub empty: usize,
-    /// Comments.
+    /// Comment lines.
     pub comments: usize,
-    /// Lines of words: heads of blocks, footers.
+    /// Text lines, such as headings of blocks and footers.
     pub words: usize,
-    /// Rows in which a number is missing.
+    /// Rows with a missing value.
     pub missing: usize,
 }
 
-/// Columns of a table, in SI.
+/// Columns of a table in SI units.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Record {
-    /// How the file is laid out.
+    /// Layout of the file.
     pub layout: Layout,
-    /// The columns by what they are, all of one length. Without times there are none.
+    /// Columns by role, all of equal length. Times are absent if the file contains none.
     pub columns: BTreeMap<Role, Vec<f64>>,
     /// Number of rows.
     pub rows: usize,
-    /// Where blocks begin, among the rows; the first is 0.
+    /// Index of the first row of each block. The first index is 0.
     pub blocks: Vec<usize>,
-    /// Lines that were passed over.
+    /// Numbers of skipped lines.
     pub passed: Passed,
-    /// What was done that nobody has asked for, in sentences.
+    /// Notes on assumptions and skipped lines, as sentences.
     pub notes: Vec<String>,
     readings: BTreeMap<Role, Reading>,
 }
 
 impl Record {
-    /// Reads a file. What a recipe leaves out is guessed; roles that are not `wanted` may be missing.
+    /// Reads a file. Settings that the recipe omits are detected. Only the roles in `wanted` are required.
     ///
     /// # Errors
-    /// A file that cannot be read or has no rows of numbers; columns that are not there, or that nothing tells.
+    /// The file cannot be read, contains no rows of numbers, or lacks a required column.
     pub fn read(path: &Path, recipe: &Recipe, wanted: &[Role]) -> Result<Self, RecordError> {
         let name = path.display().to_string();
         let failed = |source| RecordError::File { file: name.clone(), source };
@@ -68,10 +68,10 @@ impl Record {
         Self::from(&name, &sample, file, recipe, wanted)
     }
 
-    /// Reads the bytes of a file that is in memory; the name is for errors.
+    /// Reads the bytes of a file in memory. `name` is used in errors.
     ///
     /// # Errors
-    /// As of a file.
+    /// As for [`Record::read`].
     pub fn of(name: &str, bytes: &[u8], recipe: &Recipe, wanted: &[Role]) -> Result<Self, RecordError> {
         let text = if sheet::is_sheet(name) { Some(sheet::text(name, bytes)?) } else { None };
         let bytes = text.as_ref().map_or(bytes, |text| text.as_bytes());
@@ -91,7 +91,7 @@ impl Record {
         let codec = codec(encoding, sample);
         let mut text = String::new();
         decoded(sample, codec).read_to_string(&mut text).map_err(failed)?;
-        // The last line of a long file may be cut.
+        // The last line of a partly read file may be incomplete.
         let end =
             if sample.len() as u64 == SAMPLE { text.rfind('\n').unwrap_or(text.len()) } else { text.len() };
         let lines: Vec<&str> = text[..end].lines().take(LINES).collect();
@@ -117,7 +117,7 @@ impl Record {
         Ok(record)
     }
 
-    /// The recipe with all that was guessed.
+    /// Returns a recipe that contains all detected settings.
     #[must_use]
     pub fn recipe(&self) -> Recipe {
         let column = |(role, reading): (&Role, &Reading)| {
@@ -146,14 +146,14 @@ impl Record {
         }
     }
 
-    /// What the unit of a role is of, where it is known.
+    /// Returns the kind of quantity of a role's unit. Returns `None` if the column is absent or its unit was assumed.
     #[must_use]
     pub fn kind(&self, role: Role) -> Option<Kind> {
         let reading = self.readings.get(&role).filter(|reading| !reading.is_assumed)?;
         unit::find(&reading.unit).map(|(kind, _)| kind)
     }
 
-    /// What a column, by its place, is read as, with its unit.
+    /// Returns the role and the unit of a column by its index.
     #[must_use]
     pub fn role(&self, place: usize) -> Option<(Role, &str)> {
         let found = self.readings.iter().find(|(_, reading)| reading.place == place);
@@ -187,7 +187,7 @@ impl Record {
                 continue;
             }
             let read = match readings.is_empty() {
-                // Where no column is read a row is what looks like one.
+                // If no column is read, rows are recognised by their form.
                 true => self.is_row(text).then_some(true),
                 false => read_row(text, (delimiter, digits, &missing), &readings, (&mut row, &mut first)),
             };
@@ -217,7 +217,7 @@ impl Record {
         is_row(&cells, &layout.columns.iter().map(|column| column.is_number).collect::<Vec<_>>())
     }
 
-    /// What is to be said of the columns, once they are all there.
+    /// Completes the columns after reading: clock times become times from 0, missing times are added and notes are collected.
     fn finish(&mut self, name: &str) -> Result<(), RecordError> {
         for (role, column) in &self.columns {
             if column.is_empty() {
@@ -228,7 +228,7 @@ impl Record {
         let is_clock = self.readings.get(&Role::Time).is_some_and(|reading| reading.is_clock);
         if is_clock && let Some(times) = self.columns.get_mut(&Role::Time) {
             if unwind(times) {
-                self.notes.push("clock times go over midnight: a day is added".to_owned());
+                self.notes.push("clock times pass midnight: a day is added".to_owned());
             }
             let first = times.first().copied().unwrap_or(0.0);
             times.iter_mut().for_each(|time| *time -= first);
@@ -240,7 +240,10 @@ impl Record {
             .map(|(role, reading)| format!("column {} ({}) in {}", reading.place + 1, role.word(), role.si()))
             .collect();
         if !assumed.is_empty() {
-            self.notes.push(format!("without a unit, read in SI: {}", assumed.join(", ")));
+            self.notes.push(format!(
+                "without a unit, read in SI: {}; a unit may follow a column, such as 2:um",
+                assumed.join(", ")
+            ));
         }
         if let (Some([start, increment]), false) = (self.layout.pace, self.columns.contains_key(&Role::Time))
         {
@@ -260,16 +263,16 @@ impl Record {
             .map(|(count, what)| format!("{count} {what}"))
             .collect();
         if !told.is_empty() {
-            self.notes.push(format!("passed over: {}", told.join(", ")));
+            self.notes.push(format!("skipped: {}", told.join(", ")));
         }
         if self.blocks.len() > 1 {
-            self.notes.push(format!("{} blocks of rows, parted by lines of words", self.blocks.len()));
+            self.notes.push(format!("{} blocks of rows, separated by lines of words", self.blocks.len()));
         }
         Ok(())
     }
 }
 
-/// Reads a row; false where a number is missing, none where it is no row.
+/// Reads a row. Returns `Some(false)` if a value is missing and `None` if the line is not a row.
 fn read_row(
     text: &str,
     (delimiter, digits, missing): (char, Digits, &[String]),
@@ -283,7 +286,7 @@ fn read_row(
         {
             match field.map_or(Cell::Missing, |field| Cell::read(field, digits, missing)) {
                 Cell::Number(number) if !reading.is_clock => *value = reading.si(number),
-                // Days since the first row: since Christ they would leave microseconds.
+                // Days are counted from the first row to keep the resolution of the times.
                 Cell::Clock(days, seconds) if reading.is_clock => {
                     *value = DAY * (days - *first.get_or_insert(days)) + seconds;
                 }
@@ -311,11 +314,11 @@ fn read_row(
     for place in count..=last {
         take(place, None)?;
     }
-    // A line of words alone has no number.
+    // A text line contains no digits.
     (any || text.chars().any(|c| c.is_ascii_digit())).then_some(is_whole)
 }
 
-/// The beginning of a file.
+/// Reads the beginning of a file.
 fn sample(path: &Path) -> io::Result<Vec<u8>> {
     if path.canonicalize().is_ok_and(|named| !named.is_file()) {
         let kind = if path.is_dir() { io::ErrorKind::IsADirectory } else { io::ErrorKind::InvalidInput };
@@ -326,7 +329,7 @@ fn sample(path: &Path) -> io::Result<Vec<u8>> {
     Ok(bytes)
 }
 
-/// The encoding of bytes: by their mark, by the zeros of UTF-16, or by whether they are UTF-8.
+/// Detects the encoding from the byte order mark, the zero bytes of UTF-16, or the validity as UTF-8.
 fn encoding(bytes: &[u8]) -> Encoding {
     let zeros = bytes.iter().take(1000).filter(|byte| **byte == 0).count();
     if bytes.starts_with(&[0xff, 0xfe])
@@ -337,24 +340,24 @@ fn encoding(bytes: &[u8]) -> Encoding {
     }
     match std::str::from_utf8(bytes) {
         Ok(_) => Encoding::Utf8,
-        // A character may be cut at the end.
+        // The last character may be incomplete.
         Err(error) if error.error_len().is_none() && bytes.len() as u64 == SAMPLE => Encoding::Utf8,
         Err(_) => Encoding::Latin1,
     }
 }
 
-/// How bytes that begin with these become a text.
+/// Returns the decoder of an encoding. `sample` decides the byte order of UTF-16.
 fn codec(encoding: Encoding, sample: &[u8]) -> &'static encoding_rs::Encoding {
     match encoding {
         Encoding::Utf8 => UTF_8,
         Encoding::Latin1 => WINDOWS_1252,
-        // The zeros of Latin letters come first.
+        // In UTF-16 big-endian, the zero byte of a Latin letter comes first.
         Encoding::Utf16 if sample.first() == Some(&0) => UTF_16BE,
         Encoding::Utf16 => UTF_16LE,
     }
 }
 
-/// A text as UTF-8; a mark of byte order counts first.
+/// Decodes a text to UTF-8. A byte order mark overrides the encoding.
 fn decoded<R: Read>(from: R, codec: &'static encoding_rs::Encoding) -> DecodeReaderBytes<R, Vec<u8>> {
     DecodeReaderBytesBuilder::new().encoding(Some(codec)).bom_override(true).build(from)
 }

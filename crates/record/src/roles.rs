@@ -1,4 +1,4 @@
-//! Which column is the time, the displacement, the force: by what the recipe says, by their names, by their units, by their places.
+//! Assigns roles (time, displacement, force) to columns, in this order: by the recipe, by name, by unit, by position.
 
 use crate::error::RecordError;
 use crate::layout::{Column, Layout};
@@ -6,31 +6,31 @@ use crate::recipe::{ColumnRecipe, Place, Recipe, Role};
 use crate::unit;
 use std::collections::BTreeMap;
 
-/// A column that is read.
+/// A column that is read, with its conversion to SI units.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Reading {
     pub(crate) place: usize,
     pub(crate) is_clock: bool,
     pub(crate) gain: f64,
     pub(crate) offset: f64,
-    /// SI units in its unit.
+    /// Number of SI units per unit of the column.
     pub(crate) factor: f64,
-    /// The unit that counts, and whether it was merely assumed.
+    /// Unit of the column, and whether it was assumed.
     pub(crate) unit: String,
     pub(crate) is_assumed: bool,
 }
 
 impl Reading {
-    /// A cell in SI.
+    /// Converts a number of the column to SI units.
     pub(crate) fn si(&self, cell: f64) -> f64 {
         let value = self.gain * cell + self.offset;
-        // A millionth is no number of two: its inverse is, and nothing is rounded twice.
+        // Division by an integer inverse avoids a second rounding: 1e-6 is not a binary fraction, but 1e6 is.
         let inverse = self.factor.recip().round();
         if (inverse * self.factor - 1.0).abs() < f64::EPSILON { value / inverse } else { value * self.factor }
     }
 }
 
-/// Words of names by which a column goes, the likeliest first.
+/// Usual names of columns with this role, in order of preference.
 fn words(role: Role) -> &'static [&'static str] {
     match role {
         Role::Time => &[
@@ -87,7 +87,10 @@ fn words(role: Role) -> &'static [&'static str] {
     }
 }
 
-/// The columns of all roles that there are. Time and normal force may be missing, and what is not `wanted`.
+/// Returns the columns of all roles that the file contains.
+///
+/// # Errors
+/// A column of the recipe does not exist or is used twice, a `wanted` role has no column, or a unit is invalid.
 pub(crate) fn readings(
     file: &str,
     layout: &Layout,
@@ -115,7 +118,7 @@ pub(crate) fn readings(
         }
         places.insert(*role, place);
     }
-    // The normal force first: a "normal force" is a force by its other word.
+    // The normal force comes first, because "normal force" also contains a name of the tangential force.
     let usual = if wanted.contains(&Role::Value) { &[] } else { &[Role::Displacement, Role::Force][..] };
     let special = [Role::Position, Role::Value].into_iter().filter(|role| wanted.contains(role));
     for role in [Role::Normal, Role::Time].into_iter().chain(usual.iter().copied()).chain(special) {
@@ -139,7 +142,7 @@ pub(crate) fn readings(
 fn find(layout: &Layout, place: &Place) -> Option<usize> {
     match place {
         Place::Number(number) => {
-            // Scopes call channels by numbers.
+            // Oscilloscopes use numbers as channel names.
             let named = layout.columns.iter().position(|column| column.name == number.to_string());
             named.or_else(|| number.checked_sub(1).filter(|place| *place < layout.columns.len()))
         }
@@ -152,7 +155,7 @@ fn find(layout: &Layout, place: &Place) -> Option<usize> {
                     || is(unit)
                     || (!bare.is_empty() && column.name.eq_ignore_ascii_case(&bare) && name.contains(unit))
             };
-            // The first of two head lines.
+            // The name may be the first of two heading lines.
             let start = format!("{} ", name.trim().to_lowercase());
             let begins = |column: &Column| column.name.to_lowercase().starts_with(&start);
             layout.columns.iter().position(whole).or_else(|| layout.columns.iter().position(begins))
@@ -160,7 +163,7 @@ fn find(layout: &Layout, place: &Place) -> Option<usize> {
     }
 }
 
-/// The column that goes by a usual name and may have the role by its unit, or else the first by its unit.
+/// Returns the first free column with a usual name and a possible unit. If there is none, the unit alone decides.
 fn guess(layout: &Layout, role: Role, taken: &BTreeMap<Role, usize>) -> Option<usize> {
     let free = || {
         let all = layout.columns.iter().enumerate();
@@ -187,14 +190,16 @@ fn guess(layout: &Layout, role: Role, taken: &BTreeMap<Role, usize>) -> Option<u
         let fits = |column: &Column| {
             column.unit.as_deref().and_then(unit::find).is_some_and(|(kind, _)| unit::fits(role, kind))
         };
-        // A second force is no normal force by its unit alone; what is measured stands behind where.
+        // The unit alone does not identify a normal force. A measured value comes after its position.
         let mut fitting = free().filter(|(_, column)| role != Role::Normal && fits(column));
         let found = if role == Role::Value { fitting.next_back() } else { fitting.next() };
         found.map(|(place, _)| place)
     })
 }
 
-/// In tables that tell nothing: a column that rises is the time where there are three, then come displacement and force.
+/// Assigns roles by position in tables without names and units.
+///
+/// In tables of three or more columns, an ascending column is the time. Displacement and force follow.
 fn by_place(layout: &Layout, places: &mut BTreeMap<Role, usize>, wanted: &[Role]) {
     let is_silent = |column: &Column| column.is_number && column.unit.is_none();
     let free = |places: &BTreeMap<Role, usize>| -> Vec<usize> {
@@ -241,7 +246,7 @@ fn reading(
     let said = own.unit.as_ref().or(column.unit.as_ref()).filter(|_| !is_clock);
     let factor = match said {
         None => Some(1.0),
-        // A value may be of anything: a unit that nobody knows is none.
+        // A value may have any unit. An unknown unit counts as none.
         Some(unit) => unit::of_role(role, unit).or(Some(1.0).filter(|_| role == Role::Value)),
     };
     let refused = |unit: &String| RecordError::Unit {
@@ -252,7 +257,7 @@ fn reading(
     };
     let factor = match (factor, said) {
         (Some(factor), _) => factor,
-        // What a head has in brackets may be no unit at all.
+        // Brackets in a heading may contain something other than a unit.
         (None, Some(unit)) => return Err(refused(unit)),
         (None, None) => 1.0,
     };

@@ -1,4 +1,4 @@
-//! Spreadsheets: the first sheet that has cells, as a text of fields between tabs.
+//! Reads the first non-empty sheet of a spreadsheet as tab-separated text.
 
 use crate::error::RecordError;
 use calamine::{Data, Reader, open_workbook_auto_from_rs};
@@ -6,16 +6,19 @@ use std::fmt::Write;
 use std::io::Cursor;
 use std::path::Path;
 
-/// Endings of files that are spreadsheets.
+/// File name extensions of spreadsheets.
 const ENDINGS: [&str; 5] = ["xlsx", "xlsm", "xlsb", "xls", "ods"];
 
-/// Whether a file is a spreadsheet, by its name.
+/// Returns whether a file is a spreadsheet, by its extension.
 pub(crate) fn is_sheet(name: &str) -> bool {
     let ending = Path::new(name).extension().map(|ending| ending.to_string_lossy().to_lowercase());
     ending.is_some_and(|ending| ENDINGS.contains(&ending.as_str()))
 }
 
-/// The text of a spreadsheet.
+/// Returns the first non-empty sheet as tab-separated text.
+///
+/// # Errors
+/// The file is not a readable spreadsheet or has no cells.
 pub(crate) fn text(name: &str, bytes: &[u8]) -> Result<String, RecordError> {
     let failed = |why: &dyn ToString| RecordError::Sheet { file: name.to_owned(), why: why.to_string() };
     let mut book = open_workbook_auto_from_rs(Cursor::new(bytes)).map_err(|error| failed(&error))?;
@@ -28,7 +31,7 @@ pub(crate) fn text(name: &str, bytes: &[u8]) -> Result<String, RecordError> {
         for row in sheet.rows() {
             for (place, cell) in row.iter().enumerate() {
                 let start = if place == 0 { "" } else { "\t" };
-                // A number as it is kept, not as it is shown.
+                // The stored number is used, not its displayed form.
                 let _ = match cell {
                     Data::Float(number) => write!(text, "{start}{number}"),
                     other => write!(text, "{start}{}", other.to_string().replace(['\t', '\n', '\r'], " ")),
@@ -38,5 +41,5 @@ pub(crate) fn text(name: &str, bytes: &[u8]) -> Result<String, RecordError> {
         }
         return Ok(text);
     }
-    Err(failed(&"it has no cells"))
+    Err(failed(&"the sheet has no cells"))
 }

@@ -1,19 +1,19 @@
-//! Units in the heads of measured tables: those of scenarios, and those that instruments write.
+//! Units in headings of measured tables: units of scenarios and usual units of instruments.
 
 use crate::recipe::Role;
 
-/// What a unit is of.
+/// Kind of quantity that a unit measures.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Kind {
-    /// Times.
+    /// Time.
     Time,
-    /// Lengths.
+    /// Length.
     Length,
-    /// Forces.
+    /// Force.
     Force,
-    /// Grams and kilograms: scales show forces as masses.
+    /// Mass. Scales display forces as masses.
     Mass,
-    /// Voltages.
+    /// Voltage.
     Voltage,
 }
 
@@ -21,7 +21,7 @@ pub enum Kind {
 const G: f64 = 9.80665;
 const POUND: f64 = 0.453_592_37;
 
-/// Units by their spellings. Those of masses count as forces under standard gravity.
+/// Units with their spellings and SI factors. Masses are converted to forces by standard gravity.
 const UNITS: &[(&[&str], Kind, f64)] = &[
     (&["ns"], Kind::Time, 1e-9),
     (&["us", "microsecond", "microseconds"], Kind::Time, 1e-6),
@@ -53,16 +53,16 @@ const UNITS: &[(&[&str], Kind, f64)] = &[
     (&["V", "volt", "volts"], Kind::Voltage, 1.0),
 ];
 
-/// A unit by how it is written, and how many SI units it is.
+/// Finds a unit by its spelling. Returns its kind and its number of SI units.
 pub(crate) fn find(text: &str) -> Option<(Kind, f64)> {
     let plain: String =
         text.trim().chars().map(|c| if matches!(c, '\u{b5}' | '\u{3bc}') { 'u' } else { c }).collect();
     let is = |spelling: &&&str| match spelling.len() {
-        // Of symbols the case counts: mN and MN.
+        // The case of symbols matters: mN and MN differ.
         0..=3 => **spelling == plain,
         _ => spelling.eq_ignore_ascii_case(&plain),
     };
-    // Words such as "Sec" and "MM" are written in any case where that leaves no doubt.
+    // Some spellings, such as "Sec" and "MM", are unambiguous in any case.
     let exact = UNITS.iter().find(|(spellings, ..)| spellings.iter().any(|one| is(&one)));
     let loose = || {
         let lower = plain.to_lowercase();
@@ -73,13 +73,13 @@ pub(crate) fn find(text: &str) -> Option<(Kind, f64)> {
     exact.or_else(loose).map(|(_, kind, factor)| (*kind, *factor))
 }
 
-/// How many SI units of a role a unit is; none where it is of something else.
+/// Returns the number of SI units of a unit. Returns `None` if the unit does not fit the role.
 pub(crate) fn of_role(role: Role, text: &str) -> Option<f64> {
     let (kind, factor) = find(text)?;
     fits(role, kind).then_some(factor)
 }
 
-/// Whether a column of such a unit may have a role.
+/// Returns whether a column with this kind of unit can have the role.
 pub(crate) fn fits(role: Role, kind: Kind) -> bool {
     match role {
         Role::Time => kind == Kind::Time,
@@ -89,13 +89,13 @@ pub(crate) fn fits(role: Role, kind: Kind) -> bool {
     }
 }
 
-/// Symbols of a role.
+/// Returns the unit symbols of a role.
 pub(crate) fn symbols(role: Role) -> String {
     let all = UNITS.iter().filter(|(_, kind, _)| fits(role, *kind)).map(|(spellings, ..)| spellings[0]);
     all.collect::<Vec<_>>().join(", ")
 }
 
-/// A head parted into its name and its unit: `disp [um]`, `disp (um)`, `disp / um`, `disp_um`, `t in ms`, `Lateral um`, or a unit alone.
+/// Splits a heading into name and unit: `disp [um]`, `disp (um)`, `disp / um`, `disp_um`, `t in ms`, `Lateral um`, or a unit alone.
 pub(crate) fn part(head: &str) -> (String, Option<String>) {
     let head = head.trim().trim_matches('"').trim();
     let is_unit = |text: &str| find(text).is_some();
@@ -111,7 +111,7 @@ pub(crate) fn part(head: &str) -> (String, Option<String>) {
     }
     for between in [" in ", "/", ",", "_", " "] {
         let Some((name, unit)) = head.rsplit_once(between) else { continue };
-        // The least of something far more often than its minutes.
+        // "min" usually means a minimum, not minutes.
         let is_least = unit.trim() == "min" && between != " in ";
         if is_unit(unit) && !is_least && !name.trim().is_empty() {
             return (name.trim().to_owned(), Some(unit.trim().to_owned()));

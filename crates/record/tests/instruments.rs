@@ -1,4 +1,4 @@
-//! Files as instruments write them: one loop in nine of them, and what others hold.
+//! Reading of tables that instruments have written: nine forms of the same loop, and other cases.
 
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
@@ -24,7 +24,7 @@ fn read(name: &str, recipe: &Recipe) -> Record {
     Record::read(&file(name), recipe, &LOOP).unwrap_or_else(|error| panic!("{error}"))
 }
 
-/// Nine writings of one loop have its numbers, to the digits that each has: three need to be told units or columns.
+/// The nine forms of one loop give equal values within their digits. Three forms need units or columns from the user.
 #[test]
 fn nine_writings_of_one_loop_are_one() {
     let wanted = read("04_semicolon_decimal_comma.csv", &Recipe::default());
@@ -56,14 +56,10 @@ fn nine_writings_of_one_loop_are_one() {
     }
     let gaps = read("07_gaps_nan_blank.csv", &plain);
     assert_eq!((gaps.rows, gaps.passed.missing), (239, 2));
-    assert!(
-        gaps.notes.iter().any(|note| note == "passed over: 2 rows with a missing value"),
-        "{:?}",
-        gaps.notes
-    );
+    assert!(gaps.notes.iter().any(|note| note == "skipped: 2 rows with a missing value"), "{:?}", gaps.notes);
 }
 
-/// What is written as a recipe reads the same, and can be changed key by key.
+/// A written recipe gives the same record, and its settings can be changed.
 #[test]
 fn a_recipe_that_was_written_reads_the_same() {
     for name in [
@@ -101,7 +97,7 @@ fn columns_are_found_by_their_names_in_other_languages_and_by_their_units() {
     assert_eq!(blocks.columns[&Role::Force][2], 100.0 * (1e-3 * 9.80665));
 }
 
-/// Scopes write start and increment beside the first row; volts are what somebody says they are.
+/// Oscilloscopes write start and increment next to the first row. The unit of a voltage must be given by the user.
 #[test]
 fn scopes_have_their_times_and_volts_need_a_unit() {
     for name in ["29_scope_start_increment.csv", "30_scope_ragged_head.csv"] {
@@ -136,7 +132,7 @@ fn lines_of_profilometers_are_read() {
     assert_eq!(Record::read(&file("25_profile_two_columns.asc"), &plain, &[]).unwrap().rows, 300);
 }
 
-/// `STICKSLIP_WRITE=1` renews the copy.
+/// `STICKSLIP_WRITE=1` updates the copy.
 #[test]
 fn the_schema_lies_in_the_tree() {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../schema/recipe-1.json");
@@ -146,7 +142,7 @@ fn the_schema_lies_in_the_tree() {
     assert_eq!(std::fs::read_to_string(&path).unwrap(), stickslip_record::recipe_schema());
 }
 
-/// Whatever the bytes are there is an answer.
+/// Any bytes give a record or an error, never a panic.
 #[test]
 fn any_bytes_get_an_answer() {
     let root = tempfile::tempdir().unwrap();
@@ -174,7 +170,7 @@ fn any_bytes_get_an_answer() {
     assert!(matches!(Record::read(root.path(), &Recipe::default(), &LOOP), Err(RecordError::File { .. })));
 }
 
-/// Fortran's exponents, words for what is missing, a comma at the end of lines, a footer, times over midnight.
+/// Fortran exponents, words for missing values, a trailing comma, a footer, times after midnight.
 #[test]
 fn what_stands_in_the_way_is_passed_over_and_counted() {
     let root = tempfile::tempdir().unwrap();
@@ -191,7 +187,7 @@ fn what_stands_in_the_way_is_passed_over_and_counted() {
     assert_eq!((passed.missing, passed.words, passed.empty, passed.comments), (2, 2, 1, 1));
 }
 
-/// The first sheet that has cells, behind an empty one, as numbers are kept in it.
+/// The first non-empty sheet is read, with the stored values of its numbers.
 #[test]
 fn spreadsheets_are_read() {
     let found = read("sheet.xlsx", &Recipe::default());
@@ -202,5 +198,5 @@ fn spreadsheets_are_read() {
     let path = folder.path().join("broken.xlsx");
     std::fs::write(&path, "no sheet").unwrap();
     let error = Record::read(&path, &Recipe::default(), &LOOP).unwrap_err().to_string();
-    assert!(error.contains("broken.xlsx: no spreadsheet that can be read"), "{error}");
+    assert!(error.contains("broken.xlsx: not a readable spreadsheet"), "{error}");
 }

@@ -1,5 +1,7 @@
-//! What the library costs over a bare loop: a hundred variants of the quickstart by [`Job::run`], and the same models by
-//! `stickslip_drive::run` with a record that keeps the same rows and nothing else. Both take turns in one process.
+//! Overhead of the library compared with a bare loop.
+//!
+//! A hundred variants of the quickstart run by [`Job::run`], and by `stickslip_drive::run` with a minimal record of the same rows. Both
+//! alternate in one process.
 //!
 //! `cargo bench -p stickslip-run --bench variants`
 #![allow(clippy::print_stdout, reason = "a measurement is to be read")]
@@ -15,7 +17,7 @@ const QUICKSTART: &str = include_str!("../../../scenarios/quickstart.json");
 const VARIANTS: u32 = 100;
 const TURNS: usize = 15;
 
-/// Keeps the columns that the library keeps, of the same rows and moments after events.
+/// A record of the columns that the library keeps, for rows and states after events.
 struct Bare<'a> {
     places: &'a [usize],
     columns: Vec<Vec<f64>>,
@@ -46,7 +48,7 @@ fn variant(number: u32) -> Result<Job, Box<dyn Error>> {
     Ok(Job::new(scenario, stroke, "".into())?)
 }
 
-/// One turn of the bare loop; numbers kept.
+/// Runs all variants in the bare loop and returns the number of stored values.
 fn bare(jobs: &[Job], places: &[Vec<usize>]) -> usize {
     let run = |(job, places): (&Job, &Vec<usize>)| {
         let mut record = Bare { places, columns: vec![Vec::new(); places.len()] };
@@ -57,7 +59,7 @@ fn bare(jobs: &[Job], places: &[Vec<usize>]) -> usize {
     jobs.iter().zip(places).map(run).sum()
 }
 
-/// One turn of the library; numbers kept.
+/// Runs all variants by the library and returns the number of stored values.
 fn library(jobs: &[Job]) -> usize {
     jobs.iter().map(|job| black_box(job.run(&())).kept.series.size() as usize).sum()
 }

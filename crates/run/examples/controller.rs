@@ -1,4 +1,4 @@
-//! A controller in a loop: it reads where the slider is and chooses the next stroke, until the slider is where it is wanted.
+//! A position controller: it reads the position of the slider and chooses the next stroke until the target is reached.
 //!
 //! `cargo run --release -p stickslip-run --example controller`
 #![allow(clippy::print_stdout, reason = "an example shows what comes out")]
@@ -8,16 +8,16 @@ use std::path::Path;
 use stickslip_drive::Run;
 use stickslip_run::Job;
 
-/// Where the slider is to go, m.
+/// Target position, m.
 const TARGET: f64 = 1e-6;
 /// Period and flyback of a stroke, s.
 const PERIOD: f64 = 10e-3;
 const FLYBACK: f64 = 10e-6;
-/// Longest stroke, m.
+/// Maximum stroke, m.
 const LONGEST: f64 = 300e-9;
 
 fn main() -> Result<(), Box<dyn Error>> {
-    // The sawtooth of the example becomes an input: from here on this loop is the drive's electronics.
+    // The sawtooth of the example becomes an input, which this loop sets.
     let input = r#"{"input": {"initial": 0, "range": ["-300 nm", "300 nm"], "interpolation": "linear"}}"#;
     let set = [("waveforms.drive", input), ("run.duration", "1 s")];
     let set = set.map(|(path, value)| (path.to_owned(), value.to_owned()));
@@ -25,7 +25,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let job = Job::prepare(&file, &set, Path::new(""))?;
     let (drive, slider) = (0, 1);
     let mut run = Run::new(&job.model, &job.scenario.plan, job.start.clone())?;
-    // What of a stroke the springs of the contact take: not known to the controller, which learns it.
+    // The part of a stroke that the contact springs take up. The controller learns it.
     let mut lost = 0.0;
     for step in 0..50 {
         let start = f64::from(step) * PERIOD;

@@ -1,4 +1,4 @@
-//! An input fed from a table: times and values as an oscilloscope or a controller wrote them, one row at a time.
+//! An input that follows a table of times and values, as an oscilloscope or a controller writes it.
 //!
 //! `cargo run --release -p stickslip-run --example fed_from_table`
 #![allow(clippy::print_stdout, reason = "an example shows what comes out")]
@@ -8,7 +8,7 @@ use std::path::Path;
 use stickslip_drive::Run;
 use stickslip_run::Job;
 
-/// Time in ms, displacement of the foot in nm.
+/// Times in ms, displacements of the foot in nm.
 const TABLE: &str = "\
 9.99   200
 10.00  0

@@ -1,7 +1,6 @@
-//! Scenarios over very many periods: whether each ends, and whether its last tenth costs as much as its first.
+//! Runs scenarios over many periods and checks whether the last tenth takes as long as the first one.
 //!
-//! `cargo run --release -p stickslip-run --example long_runs -- 10000 [FILE…]`; without files all examples that say
-//! for how many cycles they run.
+//! `cargo run --release -p stickslip-run --example long_runs -- 10000 [FILE…]`. Without files, all examples with a number of cycles run.
 #![allow(clippy::print_stdout, reason = "an example shows what comes out")]
 
 use std::error::Error;
@@ -10,7 +9,7 @@ use std::time::Instant;
 use stickslip_drive::Run;
 use stickslip_run::Job;
 
-/// Parts of a run that are timed each for itself.
+/// Number of parts of a run that are timed separately.
 const PARTS: u32 = 10;
 
 fn main() -> Result<(), Box<dyn Error>> {
@@ -33,7 +32,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-/// One scenario, its run cut into parts.
+/// Runs one scenario in parts.
 fn go(file: &Path, cycles: u32) -> Result<(), Box<dyn Error>> {
     let set = [("run.cycles".to_owned(), cycles.to_string()), ("output.every".to_owned(), "1e3".to_owned())];
     let job = Job::prepare(file, &set, Path::new(""))?;

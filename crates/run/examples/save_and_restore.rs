@@ -1,4 +1,4 @@
-//! A run put down as bytes and taken up: half of it here, the other half from a file, to the same bits.
+//! Saves a run as bytes and restores it: the second half continues from a file with identical results.
 //!
 //! `cargo run --release -p stickslip-run --example save_and_restore`
 #![allow(clippy::print_stdout, reason = "an example shows what comes out")]
@@ -20,7 +20,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let saved = std::env::temp_dir().join("stickslip-example.state");
     std::fs::write(&saved, first.state().to_bytes(&job.model, &key))?;
 
-    // Elsewhere, later: the same scenario, and the bytes.
+    // Later, in another process: the same scenario and the bytes.
     let bytes = std::fs::read(&saved)?;
     let state = State::from_bytes(&job.model, &key, &bytes)?;
     let mut second = Run::resume(&job.model, plan, state)?;

@@ -1,4 +1,4 @@
-//! Runs a scenario in memory and prints its whole report: the program's `summary.json` without what only files and clocks know.
+//! Runs a scenario in memory and prints its summary, without values about files and wall time.
 //!
 //! `cargo run --release -p stickslip-run --example summary -- scenarios/p1.json`
 #![allow(clippy::print_stdout, reason = "an example shows what comes out")]

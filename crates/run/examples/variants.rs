@@ -1,4 +1,4 @@
-//! A hundred variants of the quickstart run in memory: the step of the drive over its stroke, as a table.
+//! Runs a hundred variants of the quickstart in memory and prints a table of step length versus stroke.
 //!
 //! `cargo run --release -p stickslip-run --example variants`
 #![allow(clippy::print_stdout, reason = "an example shows what comes out")]
@@ -10,7 +10,7 @@ use stickslip_scenario::Scenario;
 const QUICKSTART: &str = include_str!("../../../scenarios/quickstart.json");
 const VARIANTS: u32 = 100;
 
-/// The quickstart with a stroke of its own, ready to run.
+/// Returns the quickstart with another stroke, ready to run.
 fn variant(number: u32) -> Result<Job, Box<dyn Error>> {
     let stroke = format!("{} nm", 50 + 10 * number);
     let overrides = [("waveforms.drive.sawtooth.stroke", stroke.as_str()), ("plots", "[]")];

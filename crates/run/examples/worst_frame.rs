@@ -1,8 +1,8 @@
-//! The work of frames, counted: the median and the worst of many, and one of these alone again, for a profiler.
+//! Counts the work of frames and repeats the median or the worst frame alone, for a profiler.
 //!
-//! `cargo run --release -p stickslip-run --example worst_frame -- worst scenarios/p1.json 20e-6 10000000`
-//! `valgrind --tool=callgrind --toggle-collect='worst_frame::again' target/release/examples/worst_frame worst …` counts the
-//! instructions of the worst frame; `median` in its place those of a frame of median work.
+//! `cargo run --release -p stickslip-run --example worst_frame -- worst scenarios/p1.json 20e-6 10000000` `valgrind --tool=callgrind
+//! --toggle-collect='worst_frame::again' target/release/examples/worst_frame worst …` counts the instructions of the worst frame. With
+//! `median` instead of `worst`, it counts those of a frame of median work.
 #![allow(clippy::print_stdout, reason = "an example shows what comes out")]
 
 use std::error::Error;
@@ -10,17 +10,17 @@ use std::path::Path;
 use stickslip_drive::{Plan, Run, RunError, Stepper};
 use stickslip_run::Job;
 
-/// What of a run a frame's work is counted in: evaluations, and turning points made or given up.
+/// Returns the counted work of a run: evaluations, and knots of the slip memories that were added or removed.
 fn counted(run: &Run<'_>) -> [u64; 2] {
     [run.state().counts().evaluations, run.touched()]
 }
 
-/// Of a frame, by what its run came to before and after it: each at about its price.
+/// Returns the work of a frame, weighted by approximate cost, from the counts before and after it.
 fn work(before: [u64; 2], now: [u64; 2]) -> u64 {
     (now[0] - before[0]) + 2 * (now[1] - before[1])
 }
 
-/// One frame, which a profiler collects.
+/// Advances one frame, which a profiler measures.
 #[inline(never)]
 fn again(run: &mut Run<'_>, until: f64) -> Result<(), RunError> {
     run.advance(until, &mut ())
@@ -63,7 +63,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     replay(&job, &plan, length, if which == "worst" { worst } else { median }, frames)
 }
 
-/// Looks for the first frame of this work, and takes it again alone.
+/// Finds the first frame with this work and repeats it alone.
 fn replay(job: &Job, plan: &Plan, length: f64, asked: u64, frames: u64) -> Result<(), Box<dyn Error>> {
     let mut run = Run::new(&job.model, plan, job.model.start(plan)?)?;
     let mut before = counted(&run);
@@ -71,7 +71,7 @@ fn replay(job: &Job, plan: &Plan, length: f64, asked: u64, frames: u64) -> Resul
         let (start, until) = (run.state().clone(), (k + 1) as f64 * length);
         run.advance(until, &mut ())?;
         let now = counted(&run);
-        // Later than the first frames, in which nothing is warm.
+        // The first frames are skipped, because caches are cold.
         if work(before, now) == asked && k > 20 {
             let mut alone = Run::resume(&job.model, plan, start.clone())?;
             alone.advance(start.time(), &mut ())?;

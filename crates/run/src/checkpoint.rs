@@ -1,13 +1,11 @@
-//! Runs that can go on after they were ended, whatever ended them.
+//! Checkpoints: interrupted runs can be resumed.
 //!
-//! Beside its results such a run keeps a folder [`FOLDER`] with three files: the scenario, resolved; the `journal`, all
-//! that the record was told so far; and the state (in a `stub`), which counts it off and is replaced as a whole. To go on,
-//! a run reads the state, tells the journal to a fresh recorder up to where the state counts, cuts off the rest and steps on:
-//! nothing of its results knows that it was ever interrupted. The state is taken between two steps, where a run may stand as
-//! long as it likes; none is forced for its sake.
+//! A run with checkpoints has a folder [`FOLDER`] in its results folder. It contains the resolved scenario, the `journal` with all recorded
+//! data so far, and the state with the length of the journal (`stub`). The state file is replaced atomically. A resumed run reads the
+//! state, replays the journal up to this length to a new recorder, truncates the rest and continues. Its results do not differ from those
+//! of an uninterrupted run. The state is stored between two time steps; no step is shortened for it.
 //!
-//! [`Keeper`] is the run that keeps them, [`Resumption`] the one that goes on; [`model_key`] says which scenarios have states
-//! in common.
+//! [`Keeper`] writes checkpoints, [`Resumption`] reads them. [`model_key`] identifies scenarios whose states are compatible.
 
 mod course;
 mod error;
@@ -31,45 +29,45 @@ use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
-/// Folder of the checkpoint in that of the results.
+/// Name of the checkpoint folder in the results folder.
 pub const FOLDER: &str = "checkpoint";
-/// The state and what else a run needs to go on: the last file to be written, replaced as a whole.
+/// File with the state. It is written last and replaced atomically.
 const STATE: &str = "state";
-/// What the record was told.
+/// File with all recorded data.
 const JOURNAL: &str = "journal";
 
-/// Where the checkpoint of results lies.
+/// Returns the path of the checkpoint folder.
 fn place(results: &Path) -> PathBuf {
     results.join(FOLDER)
 }
 
-/// Whether there is one in a folder of results.
+/// Returns whether a results folder contains a checkpoint.
 pub(crate) fn exists(results: &Path) -> bool {
     place(results).join(STATE).is_file()
 }
 
-/// Refuses what is there and no plain file: a pipe would be waited for, a device read without end.
+/// Checks that a path is a regular file. Reading a pipe would block, and a device may have no end.
 fn plain(path: &Path) -> io::Result<()> {
     let kind = fs::metadata(path)?.file_type();
     match (kind.is_file(), kind.is_dir()) {
         (true, _) => Ok(()),
         (_, true) => Err(io::ErrorKind::IsADirectory.into()),
-        _ => Err(io::Error::new(io::ErrorKind::InvalidInput, "it is not a plain file")),
+        _ => Err(io::Error::new(io::ErrorKind::InvalidInput, "not a regular file")),
     }
 }
 
-/// Removes the checkpoint of a folder of results, if there is one; whatever else lies beside its files stays.
+/// Removes the checkpoint of a results folder, if there is one. Other files in its folder are kept.
 ///
 /// # Errors
-/// What the system says.
+/// The operating system returns an error.
 pub fn remove(results: &Path) -> io::Result<()> {
     let place = place(results);
-    // A folder of that name may be somebody else's.
+    // A folder of this name without these files is not a checkpoint.
     if ![STATE, JOURNAL].iter().any(|name| place.join(name).is_file()) {
         return Ok(());
     }
     sweep(&place, &[STATE, SCENARIO]);
-    // Without its state the rest is nothing that could be gone on from.
+    // The state is removed first, because a checkpoint is only valid with it.
     for name in [STATE, JOURNAL, SCENARIO] {
         match fs::remove_file(place.join(name)) {
             Err(error) if error.kind() != io::ErrorKind::NotFound => return Err(error),

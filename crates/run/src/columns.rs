@@ -1,52 +1,52 @@
-//! The columns of the tables.
+//! Columns of the tables.
 
 use stickslip_drive::Channel;
 
-/// The columns of a table: places among a model's channels.
+/// Columns of a table, as indices among the channels of a model.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct Columns {
     chosen: Vec<(usize, Channel)>,
 }
 
 impl Columns {
-    /// All channels.
+    /// Returns all channels as columns.
     pub fn all(channels: &[Channel]) -> Self {
         Self { chosen: channels.iter().cloned().enumerate().collect() }
     }
 
-    /// The channels at these places, in this order, after the time.
+    /// Returns the time and the channels with these indices as columns, in this order.
     pub fn chosen(channels: &[Channel], places: &[usize]) -> Self {
         let rest = places.iter().copied().filter(|place| *place > 0);
         let chosen = std::iter::once(0).chain(rest);
         Self { chosen: chosen.filter_map(|place| Some((place, channels.get(place)?.clone()))).collect() }
     }
 
-    /// Number of columns.
+    /// Returns the number of columns.
     pub fn len(&self) -> usize {
         self.chosen.len()
     }
 
-    /// Whether there are none: even the time is left out.
+    /// Returns whether there are no columns, not even the time.
     pub fn is_empty(&self) -> bool {
         self.chosen.is_empty()
     }
 
-    /// The chosen of all channels' values. What is missing is NaN.
+    /// Iterates over the values of the columns in a row of all channels. Missing values are NaN.
     pub fn of<'a>(&'a self, values: &'a [f64]) -> impl Iterator<Item = (f64, &'a Channel)> {
         self.chosen.iter().map(|(place, channel)| (values.get(*place).copied().unwrap_or(f64::NAN), channel))
     }
 
-    /// The channels, the time first.
+    /// Returns the channels of the columns, the time first.
     pub fn channels(&self) -> Vec<Channel> {
         self.chosen.iter().map(|(_, channel)| channel.clone()).collect()
     }
 
-    /// Names of the columns, the time first.
+    /// Returns the names of the columns, the time first.
     pub(crate) fn names(&self) -> impl Iterator<Item = &str> {
         self.chosen.iter().map(|(_, channel)| channel.name.as_str())
     }
 
-    /// Places among all channels, with the channel there.
+    /// Returns the channels with their indices among all channels.
     pub(crate) fn places(&self) -> &[(usize, Channel)] {
         &self.chosen
     }

@@ -1,8 +1,8 @@
-//! What the operating system complains of, in its words alone.
+//! Text of operating system errors.
 
 use std::io;
 
-/// Without what libraries add for those who call them: the number of the error, the name of a temporary file.
+/// Returns the text of an error without the additions of libraries, such as error numbers and names of temporary files.
 pub fn words(error: &io::Error) -> String {
     let said = error.to_string();
     let end = [" (os error ", " at path \""].iter().filter_map(|added| said.find(added)).min();

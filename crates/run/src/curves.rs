@@ -1,30 +1,31 @@
-//! `memory.csv` read back: the memory curves of the contacts at some moments.
+//! Reads the memory curves of `memory.csv`.
 
 use crate::frame::FrameError;
 use crate::rows::Rows;
 use crate::seal::SealedTable;
 use stickslip_quantity::columns::MEMORY;
 
-/// The curve of a contact at a moment.
+/// Memory curve of a contact at one time.
 #[derive(Debug, Clone, PartialEq)]
 pub struct MemoryCurve {
     /// Name of the contact.
     pub contact: String,
-    /// Moment, s.
+    /// Time, s.
     pub time: f64,
-    /// The apex (d, u), m.
+    /// Indentation d and displacement u, m.
     pub apex: (f64, f64),
-    /// Heights of the corners, m, from the centre to the edge.
+    /// Heights h of the corners of the curve, m, from the centre to the edge of the contact.
     pub h: Vec<f64>,
-    /// Anchors p(h), m.
+    /// Rest positions p(h), m.
     pub p: Vec<f64>,
 }
 
-/// Reads the table: one line per corner. Of more than `most` curves only those of some moments, evenly chosen, the first
-/// and the last among them.
+/// Reads the table, one line per corner. Of more than `most` curves, only those at evenly chosen times are read.
+///
+/// The first and the last time are included.
 ///
 /// # Errors
-/// A file that cannot be read, other columns, or a cell that is no number.
+/// The file cannot be read, has other columns, or contains a cell that is not a number.
 pub fn read(table: &SealedTable, most: usize) -> Result<Vec<MemoryCurve>, FrameError> {
     let (times, curves) = survey(table)?;
     let each = curves.div_ceil(times.len().max(1)).max(1);
@@ -49,7 +50,7 @@ pub fn read(table: &SealedTable, most: usize) -> Result<Vec<MemoryCurve>, FrameE
     Ok(curves)
 }
 
-/// How many curves the table has.
+/// Returns the number of curves in the table.
 ///
 /// # Errors
 /// As [`read`].
@@ -57,7 +58,7 @@ pub fn count(table: &SealedTable) -> Result<usize, FrameError> {
     Ok(survey(table)?.1)
 }
 
-/// All moments, s, and the number of curves.
+/// Returns all times, s, and the number of curves.
 fn survey(table: &SealedTable) -> Result<(Vec<f64>, usize), FrameError> {
     let mut corners = Corners::open(table)?;
     let (mut times, mut curves, mut last) = (Vec::new(), 0, (f64::NAN, String::new()));
@@ -74,7 +75,7 @@ fn survey(table: &SealedTable) -> Result<(Vec<f64>, usize), FrameError> {
     Ok((times, curves))
 }
 
-/// At most `most` of some moments, evenly chosen, the first (of more than one) and the last among them.
+/// Returns at most `most` evenly chosen times, including the last one, and the first one if there is more than one.
 pub fn chosen(times: &[f64], most: usize) -> Vec<f64> {
     if times.len() <= most {
         return times.to_vec();
@@ -84,7 +85,7 @@ pub fn chosen(times: &[f64], most: usize) -> Vec<f64> {
     (0..most).filter_map(|k| times.get(place(k)).copied()).collect()
 }
 
-/// The open table.
+/// The table, opened for reading.
 struct Corners {
     rows: Rows,
 }
@@ -100,7 +101,7 @@ impl Corners {
         self.rows.number(0, MEMORY.names[0])
     }
 
-    /// d, u, h and p, m.
+    /// Returns d, u, h and p of the current row, m.
     fn corner(&self) -> Result<[f64; 4], FrameError> {
         let mut corner = [0.0; 4];
         for (i, value) in corner.iter_mut().enumerate() {

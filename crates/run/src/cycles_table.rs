@@ -1,4 +1,4 @@
-//! `cycles.csv`: every cycle of the contacts that come back along u.
+//! `cycles.csv`: all cycles of contacts whose displacement u returns.
 
 use crate::sheet::{Sheet, Written};
 use std::io;
@@ -6,10 +6,11 @@ use stickslip_measure::contact_cycles::JudgedCycle;
 use stickslip_quantity::columns::CYCLES;
 use tempfile::NamedTempFile;
 
-/// Place of `closed` among the values, after both times.
+/// Index of the column `closed` among the values.
 const CLOSED: usize = 2;
-/// The table as its run goes on: cycles in the order in which they end. Forces and work are those of all identical contacts
-/// together; what a cycle does not have is left empty.
+/// Writer of the table. Cycles are written in the order in which they end.
+///
+/// Forces and energies are those of all identical contacts together. Missing values are empty.
 pub(crate) struct CyclesTable {
     sheet: Sheet,
     is_empty: bool,
@@ -20,7 +21,7 @@ impl CyclesTable {
         Self { sheet: Sheet::new(file, CYCLES.names.iter().copied()), is_empty: true }
     }
 
-    /// Writes a cycle of a contact by name, with its number, from 1.
+    /// Writes a cycle of a contact, with its number from 1.
     pub(crate) fn write(&mut self, (name, number): (&str, usize), cycle: &JudgedCycle) {
         self.is_empty = false;
         self.sheet.text(name);
@@ -36,18 +37,18 @@ impl CyclesTable {
         self.sheet.end_line();
     }
 
-    /// Whether its file takes no more.
+    /// Returns whether a write has failed.
     pub(crate) fn has_failed(&self) -> bool {
         self.sheet.has_failed()
     }
 
-    /// The written file; none where no contact has a cycle.
+    /// Returns the written file. Returns `None` if there was no cycle.
     pub(crate) fn finish(self) -> io::Result<Option<Written>> {
         if self.is_empty { Ok(None) } else { self.sheet.finish().map(Some) }
     }
 }
 
-/// The numbers of a cycle, in the order of the columns; in the place of `closed` none.
+/// Returns the values of a cycle in the order of the columns, with `None` for `closed`.
 fn values(JudgedCycle { figures, .. }: &JudgedCycle) -> [Option<f64>; 17] {
     let cycle = figures.cycle;
     [

@@ -1,36 +1,35 @@
-//! SHA-256 of what is written, block by block, computed beside the run.
+//! SHA-256 of a table, computed in a separate thread while the table is written.
 //!
-//! A processor that has no instructions for it executes more to hash a table of many rows than the whole run does to compute
-//! and write it. So the blocks of a table that is longer than one go to a thread of their own, which the run does not wait for
-//! until it ends.
+//! On processors without SHA instructions, hashing takes longer than the simulation. Therefore the blocks of a table with more than one
+//! block are hashed by a separate thread. The run waits for it at its end only.
 
 use crate::seal::Digester;
 use std::io;
 use std::sync::mpsc::{Receiver, SyncSender, channel, sync_channel};
 use std::thread::{Builder, JoinHandle};
 
-/// Blocks that wait to be hashed before the run waits for the hash.
+/// Maximum number of blocks in the queue. If it is full, the run waits.
 const WAITING: usize = 8;
 
-/// The digest of a table that is being written.
+/// Digest of a table that is being written.
 #[derive(Debug, Default)]
 pub(crate) struct Digest {
-    /// Of the blocks before there was a thread.
+    /// Digest of the blocks before the thread was started.
     here: Digester,
     beside: Option<Beside>,
 }
 
-/// A thread that hashes.
+/// The hashing thread.
 #[derive(Debug)]
 struct Beside {
     full: SyncSender<Vec<u8>>,
-    /// Blocks that were hashed, to be filled again.
+    /// Hashed blocks, which are reused.
     hashed: Receiver<Vec<u8>>,
     thread: JoinHandle<Digester>,
 }
 
 impl Digest {
-    /// Takes the next block; gives an empty one. The last block of a table may stay here, the others go beside.
+    /// Hashes a block and returns an empty one. A table with a single block is hashed without a thread.
     pub(crate) fn take(&mut self, mut block: Vec<u8>, is_last: bool) -> Vec<u8> {
         if self.beside.is_none() && !is_last {
             self.beside = Beside::begin(self.here.clone());
@@ -38,11 +37,11 @@ impl Digest {
         match &self.beside {
             Some(beside) => {
                 let next = beside.hashed.try_recv().unwrap_or_else(|_| Vec::with_capacity(block.capacity()));
-                // A thread that is gone is noticed at the end.
+                // If the thread has ended, `finish` reports it.
                 let _ = beside.full.send(block);
                 next
             }
-            // Where no thread can be had the run takes longer.
+            // If no thread can be started, the block is hashed here.
             None => {
                 self.here.update(&block);
                 block.clear();
@@ -51,10 +50,10 @@ impl Digest {
         }
     }
 
-    /// Number of bytes, and their digest in hexadecimal digits.
+    /// Returns the number of bytes and their digest in hexadecimal digits.
     ///
     /// # Errors
-    /// A thread that came to a bad end.
+    /// The thread has panicked.
     pub(crate) fn finish(self) -> io::Result<(u64, String)> {
         let Some(Beside { full, hashed, thread }) = self.beside else { return Ok(self.here.finish()) };
         drop((full, hashed));
@@ -64,7 +63,7 @@ impl Digest {
 }
 
 impl Beside {
-    /// Goes on from a digest.
+    /// Starts a thread that continues a digest.
     fn begin(mut digester: Digester) -> Option<Self> {
         let (full, blocks) = sync_channel::<Vec<u8>>(WAITING);
         let (back, hashed) = channel();
@@ -72,7 +71,7 @@ impl Beside {
             for mut block in blocks {
                 digester.update(&block);
                 block.clear();
-                // Nobody fills it any more once the table has come to its end.
+                // The receiver may have been dropped at the end of the table.
                 let _ = back.send(block);
             }
             digester

@@ -1,4 +1,4 @@
-//! What publishing asks of the file system, so that tests can have one that fails.
+//! File system operations of the publishing of results, as a trait for tests with failing file systems.
 
 use std::fmt::Debug;
 use std::fs::{self, File};
@@ -6,21 +6,21 @@ use std::io::{self, Write};
 use std::path::Path;
 use tempfile::NamedTempFile;
 
-/// A file system.
+/// File system operations.
 pub(crate) trait Disk: Debug + Send {
-    /// Writes into a draft.
+    /// Writes bytes to a temporary file.
     fn write(&self, file: &mut NamedTempFile, bytes: &[u8]) -> io::Result<()>;
-    /// Writes a file's bytes through.
+    /// Flushes a file to disk.
     fn sync(&self, file: &File) -> io::Result<()>;
-    /// Writes a folder's names through.
+    /// Flushes the entries of a folder to disk.
     fn sync_folder(&self, path: &Path) -> io::Result<()>;
-    /// Gives a draft its name, in the place of whatever has it.
+    /// Renames a temporary file and replaces an existing file.
     fn rename(&self, file: NamedTempFile, path: &Path) -> io::Result<()>;
     /// Removes a file.
     fn remove(&self, path: &Path) -> io::Result<()>;
 }
 
-/// That of the operating system.
+/// File system of the operating system.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct System;
 
@@ -34,7 +34,7 @@ impl Disk for System {
     }
 
     fn sync_folder(&self, path: &Path) -> io::Result<()> {
-        // Elsewhere a folder is no file that could be opened.
+        // On other systems, a folder cannot be opened as a file.
         if cfg!(unix) { File::open(path)?.sync_all() } else { Ok(()) }
     }
 

@@ -1,4 +1,4 @@
-//! The limit of memory: what a run would keep, before it starts, and what it keeps while it goes on.
+//! Memory limit of a run (`run.limits.memory`): checked before the start and during the run.
 
 use crate::info::Expectation;
 use crate::job::Job;
@@ -8,34 +8,37 @@ use stickslip_quantity::quantity;
 use stickslip_scenario::{PlotName, ScenarioError};
 use thiserror::Error;
 
-/// What to try where a run keeps too much.
-pub(crate) const ADVICE: &str = "raise run.limits.memory, draw fewer pictures (plots), or write fewer rows and events (output.every, window, events)";
+/// Advice for runs that exceed the memory limit.
+pub(crate) const ADVICE: &str = "increase run.limits.memory, draw fewer plots, or write fewer rows and events (output.every, window, events)";
 
-/// A run that keeps more than it may.
+/// Error: a run exceeds its memory limit.
 #[derive(Debug, Clone, Copy, PartialEq, Error)]
-#[error("at t = {t:?} s the run keeps {} of rows, events and cycles in memory, more than the {} of run.limits.memory", quantity(Real(*.kept), "B"), quantity(Real(*.limit), "B"))]
+#[error("at t = {t:?} s the run keeps {} of rows, events and cycles in memory, more than run.limits.memory, {}", quantity(Real(*.kept), "B"), quantity(Real(*.limit), "B"))]
 pub struct Excess {
     /// Time reached, s.
     pub t: f64,
-    /// What it keeps, B.
+    /// Memory used, B.
     pub kept: f64,
-    /// What it may keep, B.
+    /// Memory limit, B.
     pub limit: f64,
 }
 
 impl Excess {
-    /// What to try.
+    /// Returns advice on reducing the memory.
     pub fn advice(&self) -> &'static str {
         ADVICE
     }
 }
 
-/// Refuses a run that would keep more than it may.
+/// Checks the expected memory of a run before its start.
+///
+/// # Errors
+/// The expected memory exceeds the limit.
 pub(crate) fn check(job: &Job) -> Result<(), ScenarioError> {
     let Some(limit) = job.scenario.memory_limit else { return Ok(()) };
     let expected = Expectation::of(job);
     let kept = expected.kept.0;
-    // Whatever cannot be estimated is bounded while the run goes on.
+    // Memory that cannot be estimated is checked during the run.
     let is_more = kept > limit;
     if !is_more {
         return Ok(());
@@ -44,7 +47,7 @@ pub(crate) fn check(job: &Job) -> Result<(), ScenarioError> {
     let plots: Vec<&str> = plots.copied().map(PlotName::name).collect();
     let (rows, events, size) = (expected.rows.0, expected.events_written.0, quantity(Real(kept), "B"));
     let message = format!(
-        "the run would keep {size} in memory, expected at most {}: {rows:.3e} rows and some {events:.1e} events for its pictures ({})",
+        "the run would keep {size} in memory, expected at most {}: {rows:.3e} rows and about {events:.1e} events for its plots ({})",
         quantity(Real(limit), "B"),
         plots.join(", ")
     );

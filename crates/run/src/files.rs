@@ -1,4 +1,4 @@
-//! Names of the files of a run, and the columns of those with the same columns in every run.
+//! Names of the files of results, and the columns of tables that are the same in every run.
 
 use crate::folder::Folder;
 use crate::seal::SealedTable;
@@ -6,46 +6,46 @@ use stickslip_quantity::{Columns, columns};
 
 /// Rows over time.
 pub const TRACE: &str = columns::TRACE.file;
-/// Events, with the row after each.
+/// Events, each with the row after it.
 pub const EVENTS: &str = columns::EVENTS.file;
-/// What every spring does over time, where that is asked for.
+/// States of all springs over time, if requested.
 pub const SPRINGS: &str = columns::SPRINGS.file;
-/// The memory curves at some moments, where they are asked for.
+/// Memory curves at requested times.
 pub const MEMORY: &str = columns::MEMORY.file;
-/// Stress and displacement under the contacts at some moments, where they are asked for.
+/// Stresses and displacements in the contacts at requested times.
 pub const FIELDS: &str = columns::FIELDS.file;
-/// Where friction has done its work by then, over the radius.
+/// Friction work per area versus radius at requested times.
 pub const FRICTION: &str = columns::FRICTION.file;
-/// What goes on inside the contacts, each where it is asked for.
+/// Tables about the interior of contacts, which are written on request.
 pub const INSIDES: [&str; 4] = [SPRINGS, MEMORY, FIELDS, FRICTION];
-/// Every cycle of contacts that come back.
+/// Cycles of contacts whose displacement u returns.
 pub const CYCLES: &str = columns::CYCLES.file;
-/// Every step of a drive.
+/// Steps of a drive.
 pub const STEPS: &str = columns::STEPS.file;
-/// The scenario as it was run.
+/// Resolved scenario of the run.
 pub const SCENARIO: &str = "scenario.json";
-/// What the run came to.
+/// Summary of the run.
 pub const SUMMARY: &str = "summary.json";
-/// What the points of a curve of a machine came to.
+/// Points of a curve of a drive.
 pub const CURVE: &str = "curve.json";
-/// The same of a curve that was interrupted: a finished one stays beside it.
+/// Points of an interrupted curve. A finished curve is kept.
 pub const PARTIAL_CURVE: &str = "curve-partial.json";
-/// By how much figures change with the numbers of a scenario.
+/// Sensitivities of results to parameters of the scenario.
 pub const SENSITIVITY: &str = "sensitivity.json";
-/// The same where that was interrupted: what was finished stays beside it.
+/// Sensitivities of an interrupted computation. Finished ones are kept.
 pub const PARTIAL_SENSITIVITY: &str = "sensitivity-partial.json";
-/// A result over two numbers of a scenario.
+/// Map of a result over two parameters.
 pub const MAP: &str = "map.json";
-/// The steady motion of a drive, found without a run.
+/// Periodic orbit of a drive, computed without a run.
 pub const STEADY: &str = "steady.json";
-/// Where a result is largest or smallest.
+/// Maximum or minimum of a result.
 pub const OPTIMUM: &str = "optimum.json";
-/// Steady motions one after another, as a number of a scenario changes.
+/// Branch of periodic orbits as a function of a parameter.
 pub const BRANCH: &str = "branch.json";
-/// The same of a branch that was interrupted: a finished one stays beside it.
+/// Points of an interrupted branch. A finished branch is kept.
 pub const PARTIAL_BRANCH: &str = "branch-partial.json";
 
-/// The tables whose columns are the same in every run; of `events.csv` the columns before those of the trace.
+/// Tables whose columns are the same in every run. Those of `events.csv` precede the columns of the trace.
 pub const TABLES: [Columns; 7] = [
     columns::EVENTS,
     columns::SPRINGS,
@@ -56,24 +56,24 @@ pub const TABLES: [Columns; 7] = [
     columns::STEPS,
 ];
 
-/// Where the tables of the insides lie, if they were written.
+/// Paths of the tables about the interior of contacts.
 #[derive(Debug, Clone)]
 pub struct InsideTables {
-    /// [`SPRINGS`].
+    /// Path of [`SPRINGS`].
     pub springs: SealedTable,
-    /// [`MEMORY`].
+    /// Path of [`MEMORY`].
     pub memory: SealedTable,
-    /// [`FIELDS`].
+    /// Path of [`FIELDS`].
     pub fields: SealedTable,
-    /// [`FRICTION`].
+    /// Path of [`FRICTION`].
     pub friction: SealedTable,
 }
 
 impl InsideTables {
-    /// Each of the tables as its name says.
+    /// Finds the tables by their names.
     ///
     /// # Errors
-    /// What the finder says.
+    /// The error of `place`.
     pub fn find<E>(mut place: impl FnMut(&str) -> Result<SealedTable, E>) -> Result<Self, E> {
         Ok(Self {
             springs: place(SPRINGS)?,
@@ -83,7 +83,7 @@ impl InsideTables {
         })
     }
 
-    /// Those of a folder under construction.
+    /// Returns the tables of a folder under construction.
     pub fn drafted(folder: &Folder) -> Self {
         let at = |name: &str| folder.place(name).into();
         Self { springs: at(SPRINGS), memory: at(MEMORY), fields: at(FIELDS), friction: at(FRICTION) }

@@ -1,5 +1,6 @@
-//! Fingerprints of the tables of a run: for every column, a digest of each block of rows. Two runs with the same
-//! fingerprint wrote the same tables; where they did not, the first block that differs says from when.
+//! Fingerprints of the tables of a run: a digest of every block of rows in every column.
+//!
+//! Runs with equal fingerprints have equal tables. Otherwise the first different block gives the time of the first difference.
 
 mod sketch;
 
@@ -9,16 +10,16 @@ use thiserror::Error;
 
 pub use sketch::Sketch;
 
-/// Hexadecimal digits of a digest.
+/// Number of hexadecimal digits of a digest.
 const DIGITS: usize = 16;
 
 /// Fingerprint of a run.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Fingerprint {
-    /// Of the trace.
+    /// Fingerprint of the trace.
     pub trace: TablePrint,
-    /// Of the events.
+    /// Fingerprint of the events.
     pub events: TablePrint,
 }
 
@@ -28,11 +29,11 @@ pub struct Fingerprint {
 pub struct TablePrint {
     /// Number of rows.
     pub rows: u64,
-    /// Rows of a block, a power of two; the last block may have fewer.
+    /// Number of rows per block, a power of two. The last block may have fewer.
     block: u64,
     /// Time of the first row of each block, s.
     starts: Vec<f64>,
-    /// Its columns, the time first.
+    /// Columns, the time first.
     pub columns: Vec<ColumnPrint>,
 }
 
@@ -41,57 +42,56 @@ pub struct TablePrint {
 #[serde(deny_unknown_fields)]
 pub struct ColumnPrint {
     name: String,
-    /// Sixteen hexadecimal digits for each block.
+    /// Sixteen hexadecimal digits per block.
     digests: String,
 }
 
-/// Where two tables differ.
+/// A difference of two tables.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Difference {
-    /// What differs.
+    /// Kind of the difference.
     pub what: Differing,
-    /// The first difference lies at this time, s, or in the rows of its block after it.
+    /// Time of the first row of the first different block, s.
     pub from: f64,
-    /// Rows of that block.
+    /// Number of rows of this block.
     pub within: u64,
 }
 
-/// What differs.
+/// Kind of a difference.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Differing {
-    /// The values of a column.
+    /// The values of a column differ.
     Column(String),
-    /// The second table does not have this column.
+    /// The second table lacks this column.
     Missing(String),
     /// Only the second table has this column.
     Added(String),
-    /// The number of rows.
+    /// The numbers of rows differ.
     Rows(u64, u64),
 }
 
-/// Why a text is no fingerprint.
+/// Error of reading a fingerprint.
 #[derive(Debug, Error)]
 pub enum FingerprintError {
-    /// Not the form.
+    /// The text does not have the format of a fingerprint.
     #[error("{0}")]
     Form(#[from] serde_json::Error),
-    /// Numbers that contradict each other.
-    #[error("its numbers do not fit together")]
+    /// The numbers are inconsistent.
+    #[error("its numbers are inconsistent")]
     Numbers,
 }
 
 impl Fingerprint {
-    /// As a text.
+    /// Returns the fingerprint as JSON text.
     pub fn text(&self) -> String {
-        // Strings and finite numbers: there is nothing to refuse. A time that is not finite would be null, and damaged
-        // when read.
+        // Serialisation cannot fail. A time that is not finite becomes null, which is an error when it is read.
         serde_json::to_string(self).unwrap_or_default()
     }
 
-    /// Reads [`Self::text`].
+    /// Reads a fingerprint from [`Self::text`].
     ///
     /// # Errors
-    /// A text of another form, or numbers that contradict each other.
+    /// The text has another format, or its numbers are inconsistent.
     pub fn parse(text: &str) -> Result<Self, FingerprintError> {
         let print: Self = serde_json::from_str(text)?;
         if print.trace.is_sound() && print.events.is_sound() {
@@ -114,13 +114,13 @@ impl TablePrint {
             && self.columns.iter().all(fits)
     }
 
-    /// What differs in another table, the earliest first.
+    /// Returns the differences from another table, the earliest first.
     pub fn differences(&self, other: &Self) -> Vec<Difference> {
         let block = self.block.max(other.block);
         let [(starts, ours), (other_starts, others)] = [self, other].map(|print| print.in_blocks_of(block));
         let length =
             |rows: u64, place: usize| rows.saturating_sub((place as u64).saturating_mul(block)).min(block);
-        // Blocks of both that have the same number of rows.
+        // Number of leading blocks with equal numbers of rows in both tables.
         let common = (0..starts.len().min(other_starts.len()))
             .take_while(|&place| length(self.rows, place) == length(other.rows, place))
             .count();
@@ -150,7 +150,7 @@ impl TablePrint {
         found
     }
 
-    /// Starts of blocks of so many rows, at least as many as those written down, and each column's digests.
+    /// Returns the start times and the digests of all columns for blocks of `rows` rows, which is at least the block size.
     fn in_blocks_of(&self, rows: u64) -> (Vec<f64>, Vec<Vec<u64>>) {
         let mut starts = self.starts.clone();
         let digit = |column: &ColumnPrint| -> Vec<u64> {
@@ -182,7 +182,7 @@ mod tests {
     use crate::columns::Columns;
     use stickslip_drive::Channel;
 
-    /// Fingerprint of rows of a time, a position and a state.
+    /// Returns the fingerprint of rows with a time, a position and a state.
     fn print(rows: &[[f64; 3]]) -> TablePrint {
         let names = ["time_s", "slider.x_m", "ball.state"];
         let channel = |name: &str| Channel { name: name.to_owned(), is_state: name.ends_with("state") };
@@ -224,7 +224,7 @@ mod tests {
     fn changes_that_could_cancel_do_not() {
         let whole = rows(2000);
         let before = print(&whole);
-        // Two signs of one block; two values changed places; zeros of either sign.
+        // Two signs changed in one block, two values exchanged, zeros of either sign.
         let mut signs = whole.clone();
         (signs[40][1], signs[41][1]) = (-signs[40][1], -signs[41][1]);
         assert_eq!(before.differences(&print(&signs)), column("slider.x_m", 16.0, 32));
@@ -238,7 +238,7 @@ mod tests {
 
     #[test]
     fn runs_of_other_lengths_are_compared_as_far_as_they_go() {
-        // Blocks of 16 rows against blocks of 1, 2, 4 and 8, the last of them short.
+        // Blocks of 16 rows compared with blocks of 1, 2, 4 and 8 rows, the last ones incomplete.
         let whole = rows(1000);
         let long = print(&whole);
         for count in [1, 50, 64, 100, 129, 333, 511] {

@@ -1,8 +1,7 @@
-//! The folder of a run: its files appear together, each whole.
+//! Atomic publishing of a results folder.
 //!
-//! No system call gives several files their names at once, and a folder cannot take the place of one that holds other
-//! people's files. So the summary seals the rest: it goes first and comes last. At every moment a folder of results is the
-//! old one, the new one, or without a summary, and without one nobody reads it.
+//! No system call renames several files at once. Therefore the summary acts as a seal: it is removed first and written last. At any time
+//! the folder contains the old results, the new results, or no summary. A folder without a summary is not read.
 
 mod drafts;
 
@@ -20,8 +19,7 @@ use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use tempfile::NamedTempFile;
 
-/// Files that say that all others are there: of a run, of a contact by itself, of a steady motion, and of a branch of them, a curve of a
-/// machine, a map and derivatives, whole or not.
+/// Files that are published last and show that all other files of a result are complete.
 const SUMMARIES: [&str; 10] = [
     SUMMARY,
     CONTACT,
@@ -35,39 +33,42 @@ const SUMMARIES: [&str; 10] = [
     PARTIAL_SENSITIVITY,
 ];
 
-/// A folder under construction. Every file is written under a temporary name beside its place, flushed, and renamed at
-/// the end: after a crash there is the old file or the whole new one.
+/// A results folder under construction.
+///
+/// Every file is written under a temporary name in the folder, flushed to disk, and renamed at the end. After a crash either the old file
+/// or the complete new one exists.
 #[derive(Debug)]
 pub struct Folder {
     path: PathBuf,
-    /// Those that were not there before, itself the first and what it lies in after it.
+    /// Folders that were created: the folder itself first, then its parents.
     made: Vec<PathBuf>,
     staged: Vec<(String, NamedTempFile)>,
-    /// Files of an earlier run that must not be taken for this one's.
+    /// Files of an earlier run that are removed at the end.
     stale: Vec<String>,
-    /// Whether that holds of its checkpoint as well.
+    /// Whether the checkpoint of an earlier run is removed, too.
     stale_checkpoint: bool,
-    /// Room on the disk that is given back when there is no other.
+    /// Reserved disk space, which is released when the disk is full.
     reserve: Option<File>,
-    /// The folder itself, locked: two commands that write into it would mix their files. None where folders are not locked.
+    /// Lock of the folder against other commands. `None` if the file system has no locks.
     lock: Option<File>,
     disk: Box<dyn Disk>,
 }
 
 impl Folder {
-    /// Makes the folder if it is not there, and keeps other commands from writing into it.
+    /// Creates the folder if necessary and locks it against other commands.
     ///
     /// # Errors
-    /// `ResourceBusy` where another command is writing into it; what the system says.
+    /// `ResourceBusy` if another command is writing to the folder, or an error of the operating system.
     pub fn make(path: &Path) -> io::Result<Self> {
         Self::on(path, Box::new(System))
     }
 
-    /// The same for work whose results come much later: a folder that nothing can be written into is told before. So many bytes are
-    /// kept for them, until [`Self::release`]. If nothing comes, nothing is left of a folder that was not there.
+    /// Creates a folder for results that are written much later, and checks that it is writable.
+    ///
+    /// `bytes` of disk space are reserved until [`Self::release`]. A folder that was created is removed again if nothing is written.
     ///
     /// # Errors
-    /// What the system says.
+    /// An error of the operating system.
     pub fn ready(path: &Path, bytes: usize) -> io::Result<Self> {
         let mut folder = Self::make(path)?;
         folder.reserve(bytes)?;
@@ -84,16 +85,16 @@ impl Folder {
         Ok(Self { path, made, staged, stale, stale_checkpoint, reserve, lock, disk })
     }
 
-    /// Where the files go.
+    /// Returns the path of the folder.
     #[must_use]
     pub fn path(&self) -> &Path {
         &self.path
     }
 
-    /// From now on everything goes to another folder, what is staged as well; this one stays as it is.
+    /// Moves the staged files and all later ones to another folder. This folder remains unchanged.
     ///
     /// # Errors
-    /// As of [`Self::make`].
+    /// As [`Self::make`].
     pub fn divert(&mut self, path: &Path) -> io::Result<()> {
         let mut other = Self::make(path)?;
         (self.path, self.made) = (path.to_owned(), std::mem::take(&mut other.made));
@@ -101,50 +102,49 @@ impl Folder {
         Ok(())
     }
 
-    /// Keeps so many bytes of the disk for the files that come last. The file that holds them has no name: nothing is left
-    /// of it, however the program ends.
+    /// Reserves disk space for the files that are written last. The unnamed file that holds it disappears with the program.
     ///
     /// # Errors
-    /// What the system says, where there is no such room.
+    /// The disk space is not available, or another error of the operating system.
     pub fn reserve(&mut self, bytes: usize) -> io::Result<()> {
         self.reserve = Some(self.spare(bytes)?);
         Ok(())
     }
 
-    /// The same for whoever holds the file: the room is there again when it is dropped.
+    /// Reserves disk space and returns the file that holds it. Dropping the file releases the space.
     pub(crate) fn spare(&self, bytes: usize) -> io::Result<File> {
         let mut file = tempfile::tempfile_in(&self.path)?;
         file.write_all(&vec![0; bytes])?;
         Ok(file)
     }
 
-    /// Gives back what was reserved.
+    /// Releases the reserved disk space.
     pub fn release(&mut self) {
         self.reserve = None;
     }
 
-    /// Files that go when the others appear, unless they are among them.
+    /// Marks files that are removed when the results are published, unless the results contain them.
     pub fn forget(&mut self, names: Vec<String>) {
         self.stale = names;
     }
 
-    /// The checkpoint of an earlier run goes, too, once all else is in its place.
+    /// Marks the checkpoint of an earlier run for removal when the results are published.
     pub fn forget_checkpoint(&mut self) {
         self.stale_checkpoint = true;
     }
 
-    /// An empty file beside the place of `name`.
+    /// Creates an empty temporary file for the file `name`.
     ///
     /// # Errors
-    /// What the system says.
+    /// An error of the operating system.
     pub fn draft(&self, name: &str) -> io::Result<NamedTempFile> {
         draft(&self.path, name)
     }
 
-    /// Takes a written draft as the file `name`; it appears with [`Self::publish`].
+    /// Stages a temporary file as the file `name`. It is renamed by [`Self::publish`].
     ///
     /// # Errors
-    /// What the system says of writing it through.
+    /// The file cannot be flushed to disk.
     pub fn stage(&mut self, name: &str, mut file: NamedTempFile) -> io::Result<()> {
         file.flush()?;
         self.disk.sync(file.as_file())?;
@@ -152,36 +152,37 @@ impl Folder {
         Ok(())
     }
 
-    /// Writes a whole file; it appears with [`Self::publish`].
+    /// Writes and stages a complete file. It is renamed by [`Self::publish`].
     ///
     /// # Errors
-    /// What the system says.
+    /// An error of the operating system.
     pub fn write(&mut self, name: &str, bytes: &[u8]) -> io::Result<()> {
         let mut file = self.draft(name)?;
         self.disk.write(&mut file, bytes)?;
         self.stage(name, file)
     }
 
-    /// Where a file lies now: its draft, or else its place.
+    /// Returns the current path of a file: its temporary file if it is staged, or else its final path.
     pub fn place(&self, name: &str) -> PathBuf {
         let draft = self.staged.iter().find(|(staged, _)| staged == name);
         draft.map_or_else(|| self.path.join(name), |(_, file)| file.path().to_owned())
     }
 
-    /// Names staged so far.
+    /// Returns the names of the staged files.
     pub fn names(&self) -> Vec<String> {
         self.staged.iter().map(|(name, _)| name.clone()).collect()
     }
 
-    /// Gives all files their names. Where there is a summary among them, the one that was there goes before the first, and
-    /// the new one comes last, when all others are on the disk under their names.
+    /// Renames all staged files to their final names.
+    ///
+    /// An existing summary is removed first. The new summary is renamed last, when all other files are on disk.
     ///
     /// # Errors
-    /// What the system says; some of the files have their names then, but no summary says so.
+    /// An error of the operating system. Some files may have been renamed, but there is no summary.
     pub fn publish(mut self) -> io::Result<()> {
         let is_summary = |(name, _): &(String, NamedTempFile)| SUMMARIES.contains(&name.as_str());
         let summary = self.staged.iter().position(is_summary).map(|place| self.staged.remove(place));
-        // What a power cut leaves of the old summary must not be the whole of it beside new tables.
+        // After a power failure, the old summary must not exist together with new tables.
         if let Some((name, _)) = &summary
             && self.remove(name)?
         {
@@ -203,7 +204,7 @@ impl Folder {
         if self.stale_checkpoint { checkpoint::remove(&self.path) } else { Ok(()) }
     }
 
-    /// Removes a file; whether there was one.
+    /// Removes a file. Returns whether it existed.
     fn remove(&self, name: &str) -> io::Result<bool> {
         match self.disk.remove(&self.path.join(name)) {
             Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(false),
@@ -216,35 +217,35 @@ impl Drop for Folder {
     fn drop(&mut self) {
         if !self.made.is_empty() {
             self.staged.clear();
-            // One that holds something the system leaves, and so those that it lies in.
+            // Folders that contain other files are kept.
             let _ = self.made.iter().try_for_each(fs::remove_dir);
         }
     }
 }
 
-/// Locks a folder for as long as it is open; none where the system locks none.
+/// Locks a folder. Returns `None` if the file system has no locks.
 fn lock(path: &Path) -> io::Result<Option<File>> {
     let Ok(folder) = File::open(path) else { return Ok(None) };
     match folder.try_lock() {
         Ok(()) => Ok(Some(folder)),
         Err(TryLockError::WouldBlock) => {
-            Err(io::Error::new(io::ErrorKind::ResourceBusy, "another command is writing into it"))
+            Err(io::Error::new(io::ErrorKind::ResourceBusy, "another command is writing into this folder"))
         }
         Err(TryLockError::Error(_)) => Ok(None),
     }
 }
 
-/// Whether a folder has the results of a run that came to its end.
+/// Returns whether a folder contains the results of a completed run.
 #[must_use]
 pub fn is_complete(path: &Path) -> bool {
     let summary = crate::guard::json(&path.join(SUMMARY));
     summary.is_ok_and(|summary| summary.get("status").and_then(serde_json::Value::as_str) == Some("done"))
 }
 
-/// Writes one whole file.
+/// Writes one file atomically.
 ///
 /// # Errors
-/// What the system says; the file is then as it was.
+/// An error of the operating system. The previous file is then unchanged.
 pub fn write(path: &Path, bytes: &[u8]) -> io::Result<()> {
     let folder = path.parent().filter(|parent| !parent.as_os_str().is_empty()).unwrap_or(Path::new("."));
     let mut file = draft(folder, &path.file_name().unwrap_or_default().to_string_lossy())?;
@@ -305,7 +306,7 @@ mod tests {
         assert!(listing(root.path()).is_empty());
     }
 
-    /// A disk that fails at one of the things that are asked of it, and at all after it, as if there were no more power.
+    /// A file system that fails at one operation and at all later ones, like after a power failure.
     #[derive(Debug)]
     struct Failing {
         left: Cell<u32>,
@@ -321,7 +322,7 @@ mod tests {
 
     impl Disk for Failing {
         fn write(&self, file: &mut NamedTempFile, bytes: &[u8]) -> io::Result<()> {
-            // Half of it is there already.
+            // Half of the bytes have been written.
             System.write(file, &bytes[..bytes.len() / 2])?;
             self.count()?;
             System.write(file, &bytes[bytes.len() / 2..])
@@ -344,7 +345,6 @@ mod tests {
         }
     }
 
-    /// Once a fault between two renames left a new trace beside an old summary.
     #[test]
     fn whatever_fails_a_folder_is_the_old_one_the_new_one_or_without_a_summary() {
         let names = ["trace.csv", "events.csv", "scenario.json", SUMMARY];
@@ -377,7 +377,7 @@ mod tests {
                 read("loop.png").is_some(),
                 end == 0 || listing(&path).contains(&"loop.png".to_owned())
             );
-            // Until its run is published a checkpoint stays; nothing else is left of what was not.
+            // Until the run is published, its checkpoint is kept. Created folders are removed.
             assert!(end == 2 || journal.exists(), "after {left}");
             assert!(!listing(&path).iter().any(|name| name.starts_with('.')), "{:?}", listing(&path));
             ends[end] += 1;
@@ -387,7 +387,7 @@ mod tests {
             }
             left += 1;
         }
-        // Two for each of four files, the old summary and the folder, two stale files, four names, the folder twice.
+        // Two operations for each of four files, then the old summary and the folder, two stale files, four names, the folder twice.
         assert_eq!((left, ends), (18, [9, 8, 2]));
     }
 
@@ -410,7 +410,7 @@ mod tests {
         folder.write("trace.csv", b"t\n").unwrap();
         drop(folder);
         assert!(!path.exists());
-        // One that was there stays, and what was published.
+        // An existing folder and published files are kept.
         drop(Folder::ready(root.path(), 1).unwrap());
         assert!(root.path().exists());
         let mut folder = Folder::ready(&path, 1).unwrap();

@@ -1,4 +1,4 @@
-//! A table of results read back from its file: columns of numbers or words.
+//! Tables of results, read into memory as columns of numbers or words.
 
 use crate::complaint::words;
 use crate::limits::MOST_VALUES;
@@ -11,10 +11,10 @@ use std::path::PathBuf;
 use stickslip_drive::state_name;
 use thiserror::Error;
 
-/// Quantities whose columns hold words; all others hold numbers.
+/// Quantities whose columns contain words. All other columns contain numbers.
 const WORDS: [&str; 4] = ["state", "source", "kind", "contact"];
 
-/// Most different words of a column: names of contacts and waveforms.
+/// Maximum number of different words of a column.
 const MOST_WORDS: usize = 100_000;
 
 /// A table in memory.
@@ -29,84 +29,83 @@ pub struct Frame {
 pub struct Column {
     /// Name with its SI unit, such as `slider.x_m`.
     pub name: String,
-    /// What it holds.
+    /// Values of the column.
     pub values: Values,
 }
 
-/// What a column holds.
+/// Values of a column.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Values {
-    /// A number in each row, in the SI unit of the name.
+    /// One number per row, in the SI unit of the name.
     Numbers(Vec<f64>),
-    /// A word in each row.
+    /// One word per row.
     Words(Words),
 }
 
-/// Words of a column: few different ones, each kept once.
+/// Words of a column, stored with a dictionary.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Words {
-    /// The different words, in order of appearance.
+    /// Different words in order of first occurrence.
     pub dictionary: Vec<String>,
-    /// Place of each row's word in the dictionary.
+    /// Index of the word of each row in the dictionary.
     pub codes: Vec<u32>,
 }
 
-/// Why a table cannot be read.
+/// Error of reading a table.
 #[derive(Debug, Error)]
 pub enum FrameError {
-    /// The file.
+    /// The file cannot be read.
     #[error("{}: cannot be read: {}", .path.display(), words(.source))]
     Read {
-        /// Which file.
+        /// Path of the file.
         path: PathBuf,
-        /// What the system says.
+        /// Error of the operating system.
         source: io::Error,
     },
-    /// Another table than the one that the summary beside it seals.
-    #[error("{}: is not the table that its run wrote: its SHA-256 is not that in summary.json\n   help: it was changed after the run, or is that of another run; run the scenario again", .0.display())]
+    /// The SHA-256 of the table differs from that in the summary.
+    #[error("{}: is not the table of its run: its SHA-256 differs from that in summary.json\n   help: the file was changed after the run, or is of another run; run the scenario again", .0.display())]
     Changed(PathBuf),
-    /// Something that is no number.
+    /// A cell is not a number.
     #[error("{}:{line}  {column}: expected a number, got \"{}\"", .path.display(), .text.escape_debug())]
     Number {
-        /// Which file.
+        /// Path of the file.
         path: PathBuf,
-        /// Line, from 1.
+        /// Line number, from 1.
         line: u64,
         /// Name of the column.
         column: String,
-        /// What stands there.
+        /// Text of the cell.
         text: String,
     },
-    /// A column where another is expected.
+    /// A column has an unexpected name.
     #[error("{}:1  column {place}: expected {expected}, got {got}", .path.display())]
     Head {
-        /// Which file.
+        /// Path of the file.
         path: PathBuf,
-        /// Place of the column, from 1.
+        /// Number of the column, from 1.
         place: usize,
-        /// The column that belongs there.
+        /// Expected name.
         expected: String,
-        /// The one that stands there.
+        /// Actual name.
         got: String,
     },
-    /// A line that says what cannot be.
+    /// The contents of a line are invalid.
     #[error("{}:{line}  {message}", .path.display())]
     Content {
-        /// Which file.
+        /// Path of the file.
         path: PathBuf,
-        /// Line, from 1.
+        /// Line number, from 1.
         line: u64,
-        /// What is wrong with it.
+        /// Description of the error.
         message: String,
     },
 }
 
 impl Frame {
-    /// Reads a CSV with one line of names.
+    /// Reads a CSV file with one heading line.
     ///
     /// # Errors
-    /// A file that cannot be read or is not the sealed one, two columns of one name, a cell that is no number where one is
-    /// expected, more numbers or different words than a run writes.
+    /// The file cannot be read, differs from its seal or is too large, two columns have the same name, or a cell is not a number.
     pub fn read(table: &SealedTable) -> Result<Self, FrameError> {
         let mut rows = Rows::open(table)?;
         let mut columns: Vec<Filling> = rows.head().iter().map(|name| Filling::new(name)).collect();
@@ -135,17 +134,17 @@ impl Frame {
         Ok(Self { columns: columns.into_iter().map(Filling::into_column).collect(), rows: count })
     }
 
-    /// Number of rows.
+    /// Returns the number of rows.
     pub fn rows(&self) -> usize {
         self.rows
     }
 
-    /// All columns in order.
+    /// Returns all columns in order.
     pub fn columns(&self) -> &[Column] {
         &self.columns
     }
 
-    /// A column of numbers by name; none where there is no such column, or one of words.
+    /// Returns a column of numbers by its name. Returns `None` if it does not exist or contains words.
     pub fn numbers(&self, name: &str) -> Option<&[f64]> {
         self.columns.iter().find(|column| column.name == name).and_then(|column| match &column.values {
             Values::Numbers(values) => Some(values.as_slice()),
@@ -153,7 +152,7 @@ impl Frame {
         })
     }
 
-    /// A column of words by name.
+    /// Returns a column of words by its name. Returns `None` if it does not exist or contains numbers.
     pub fn words(&self, name: &str) -> Option<&Words> {
         self.columns.iter().find(|column| column.name == name).and_then(|column| match &column.values {
             Values::Words(words) => Some(words),
@@ -163,7 +162,7 @@ impl Frame {
 }
 
 impl Words {
-    /// Takes the word of the next row; `false` where it is one too many.
+    /// Adds the word of the next row. Returns `false` if there are too many different words.
     fn push(&mut self, word: &str, known: &mut HashMap<String, u32>) -> bool {
         let code = known.get(word).copied().unwrap_or_else(|| {
             let code = self.dictionary.len() as u32;
@@ -175,14 +174,14 @@ impl Words {
         self.dictionary.len() <= MOST_WORDS
     }
 
-    /// The word of a row.
+    /// Returns the word of a row.
     pub fn get(&self, row: usize) -> Option<&str> {
         let code = *self.codes.get(row)?;
         self.dictionary.get(code as usize).map(String::as_str)
     }
 }
 
-/// The word of a cell: a state may stand there as its number.
+/// Returns the word of a cell. States may be written as numbers.
 fn word<'a>(column: &str, text: &'a str) -> &'a str {
     if !column.ends_with(".state") {
         return text;
@@ -193,7 +192,7 @@ fn word<'a>(column: &str, text: &'a str) -> &'a str {
     }
 }
 
-/// A column while it is read.
+/// A column that is being read.
 struct Filling {
     name: String,
     values: Values,

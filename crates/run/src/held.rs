@@ -1,4 +1,4 @@
-//! A run that owns its job: for callers who hold it for long and hand it from thread to thread.
+//! A run that owns its job, for callers that store it or move it between threads.
 
 use crate::checkpoint::model_key;
 use crate::job::Job;
@@ -19,7 +19,7 @@ self_cell!(
     }
 );
 
-/// A run that stands between two calls at any time its caller wants: [`Run`] with the job that it is of.
+/// A [`Run`] with shared ownership of its job. The caller advances it step by step.
 ///
 /// ```no_run
 /// # use std::{path::Path, sync::Arc};
@@ -35,29 +35,29 @@ pub struct Held {
     cell: Cell,
 }
 
-/// Why a run does not go on from bytes.
+/// Error of creating a run from a stored state.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum HeldError {
-    /// The bytes.
+    /// The stored state is invalid.
     #[error(transparent)]
     Bytes(#[from] BytesError),
-    /// The run.
+    /// The run cannot start.
     #[error(transparent)]
     Run(#[from] RunError),
 }
 
-/// A waveform that the caller feeds or commands.
+/// A waveform that the caller sets or commands.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Port {
     /// Name of the waveform.
     pub name: String,
-    /// Its place among the waveforms: what [`Held::hold`], [`Held::lead`] and [`Held::command`] ask for.
+    /// Index among the waveforms, the argument of [`Held::hold`], [`Held::lead`] and [`Held::command`].
     pub place: usize,
-    /// SI unit of what follows it first.
+    /// SI unit of the first quantity that follows the waveform.
     pub unit: &'static str,
-    /// Least and largest value that it takes, in that unit; of a generator those of the stroke.
+    /// Minimum and maximum value, in this unit. For a generator it is the range of the stroke.
     pub range: (f64, f64),
-    /// What it is, in a sentence.
+    /// Description.
     pub text: String,
 }
 
@@ -66,14 +66,14 @@ pub struct Port {
 pub struct Quantity {
     /// Name with its SI unit, such as `slider.x_m`.
     pub name: String,
-    /// Its SI unit; empty where it has none.
+    /// SI unit; empty if the channel has none.
     pub unit: &'static str,
-    /// What it is, in a sentence.
+    /// Description.
     pub text: &'static str,
 }
 
 impl Held {
-    /// A run from the start of its job.
+    /// Creates a run from the initial state of its job.
     ///
     /// # Errors
     /// As [`Run::new`].
@@ -82,7 +82,7 @@ impl Held {
         Self::from_state(job, start)
     }
 
-    /// A run that goes on from a state, such as one of [`State::from_bytes`].
+    /// Creates a run from a state, such as one from [`State::from_bytes`].
     ///
     /// # Errors
     /// As [`Run::new`].
@@ -90,72 +90,72 @@ impl Held {
         Cell::try_new(job, |job| Run::new(&job.model, &job.scenario.plan, state)).map(|cell| Self { cell })
     }
 
-    /// What it is of.
+    /// Returns the job of the run.
     #[must_use]
     pub fn job(&self) -> &Arc<Job> {
         self.cell.borrow_owner()
     }
 
-    /// Where it stands, and all that its future depends on.
+    /// Calls `ask` with the current state and returns its result.
     pub fn with_state<T>(&self, ask: impl FnOnce(&State) -> T) -> T {
         self.cell.with_dependent(|_, run| ask(run.state()))
     }
 
-    /// When it stands, s.
+    /// Returns the simulated time, s.
     #[must_use]
     pub fn time(&self) -> f64 {
         self.with_state(State::time)
     }
 
-    /// Its state, as bytes from which another process goes on by [`Self::from_bytes`].
+    /// Returns the state in binary form. Another process can continue from it by [`Self::from_bytes`].
     #[must_use]
     pub fn to_bytes(&self) -> Vec<u8> {
         let job = self.job();
         self.with_state(|state| state.to_bytes(&job.model, &model_key(&job.scenario)))
     }
 
-    /// A run that goes on from bytes that one of the same motion has put down.
+    /// Creates a run from a stored state of a run with the same motion.
     ///
     /// # Errors
-    /// Bytes of another motion, or damaged ones.
+    /// The bytes are damaged or belong to another motion.
     pub fn from_bytes(job: Arc<Job>, bytes: &[u8]) -> Result<Self, HeldError> {
         let state = State::from_bytes(&job.model, &model_key(&job.scenario), bytes)?;
         Ok(Self::from_state(job, state)?)
     }
 
-    /// [`Run::advance`].
+    /// Advances the run, see [`Run::advance`].
     ///
     /// # Errors
-    /// As there.
+    /// As [`Run::advance`].
     pub fn advance(&mut self, until: f64, record: &mut dyn Record) -> Result<(), RunError> {
         self.cell.with_dependent_mut(|_, run| run.advance(until, record))
     }
 
-    /// [`Run::hold`].
+    /// Sets an input that holds its value, see [`Run::hold`].
     ///
     /// # Errors
-    /// As there.
+    /// As [`Run::hold`].
     pub fn hold(&mut self, input: usize, value: f64) -> Result<(), InputError> {
         self.cell.with_dependent_mut(|_, run| run.hold(input, value))
     }
 
-    /// [`Run::lead`].
+    /// Sets an input that is interpolated, see [`Run::lead`].
     ///
     /// # Errors
-    /// As there.
+    /// As [`Run::lead`].
     pub fn lead(&mut self, input: usize, until: f64, value: f64) -> Result<(), InputError> {
         self.cell.with_dependent_mut(|_, run| run.lead(input, until, value))
     }
 
-    /// [`Run::command`].
+    /// Commands a generator, see [`Run::command`].
     ///
     /// # Errors
-    /// As there.
+    /// As [`Run::command`].
     pub fn command(&mut self, generator: usize, command: Command) -> Result<(), CommandError> {
         self.cell.with_dependent_mut(|_, run| run.command(generator, command))
     }
 
-    /// Values of all channels where it stands.
+    /// Returns the current values of all channels.
     #[must_use]
     pub fn row(&self) -> Vec<f64> {
         let mut row = Vec::new();
@@ -163,7 +163,7 @@ impl Held {
         row
     }
 
-    /// The channels of a row, in order.
+    /// Returns the channels of a row in order.
     #[must_use]
     pub fn channels(&self) -> Vec<Quantity> {
         let known = |channel: Channel| Quantity {
@@ -174,24 +174,24 @@ impl Held {
         self.job().model.channels().into_iter().map(known).collect()
     }
 
-    /// Waveforms that the caller feeds: kind `input`.
+    /// Returns the waveforms of kind `input`, whose values the caller sets.
     #[must_use]
     pub fn inputs(&self) -> Vec<Port> {
         self.ports(|shape| match shape {
             Shape::Input { initial, range, .. } => {
-                Some((*range, format!("given by the caller, {initial} until then")))
+                Some((*range, format!("given by the caller, initially {initial}")))
             }
             _ => None,
         })
     }
 
-    /// Waveforms that the caller commands: kind `generator`.
+    /// Returns the waveforms of kind `generator`, which the caller commands.
     #[must_use]
     pub fn generators(&self) -> Vec<Port> {
         self.ports(|shape| match shape {
             Shape::Generator(generator) => {
                 let (low, high) = generator.frequencies;
-                Some((generator.strokes, format!("cycles of commanded strokes at {low} to {high} Hz")))
+                Some((generator.strokes, format!("cycles with commanded strokes at {low} to {high} Hz")))
             }
             _ => None,
         })

@@ -1,6 +1,7 @@
-//! What a scenario means before it runs, as JSON has it: the facts of its model, what its run will take.
+//! Properties of a model before it runs, for JSON.
 //!
-//! In reading order: [`bodies`] and [`waveforms`], [`contacts`], [`modes`], [`piezos`]; [`Stepping`]; [`Expectation`]; [`Usage`].
+//! In reading order: [`bodies`] and [`waveforms`], [`contacts`], [`modes`], [`piezos`]; [`Stepping`]; [`Expectation`];
+//! [`Usage`].
 
 mod ceramic;
 mod contacts;

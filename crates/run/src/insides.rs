@@ -1,4 +1,4 @@
-//! What goes on inside the contacts: `springs.csv`, `memory.csv`, `fields.csv` and `friction.csv`.
+//! Tables about the interior of contacts: `springs.csv`, `memory.csv`, `fields.csv` and `friction.csv`.
 
 mod fields;
 
@@ -12,24 +12,24 @@ use stickslip_drive::{Moments, Schedule};
 use stickslip_quantity::Columns;
 use stickslip_quantity::columns::{MEMORY, SPRINGS};
 
-/// Writes what the scenario asks for.
+/// Writer of the tables that the scenario requests.
 pub(crate) struct Insides<'a> {
     job: &'a Job,
     springs: Option<Looks>,
     memory: Option<Looks>,
     fields: Option<(FieldTables<'a>, Schedule)>,
-    /// The moment asked for last, s.
+    /// Time of the last requested snapshot, s.
     now: f64,
 }
 
-/// A table and its moments.
+/// A table with the times of its snapshots.
 struct Looks {
     sheet: Sheet,
     schedule: Schedule,
 }
 
 impl<'a> Insides<'a> {
-    /// Opens the tables that the scenario asks for.
+    /// Opens the requested tables.
     pub(crate) fn new(job: &'a Job, folder: &Folder) -> io::Result<Self> {
         let schedule =
             |moments: &Moments| Schedule::new(moments.clone(), job.start.time(), job.scenario.plan.duration);
@@ -51,7 +51,7 @@ impl<'a> Insides<'a> {
         })
     }
 
-    /// The next moment that one of the tables wants, s.
+    /// Returns the time of the next snapshot of any table, s.
     pub(crate) fn next_look(&mut self) -> Option<f64> {
         let mut next = f64::INFINITY;
         let looks = [&mut self.springs, &mut self.memory].into_iter().flatten();
@@ -66,7 +66,7 @@ impl<'a> Insides<'a> {
         next.is_finite().then_some(next)
     }
 
-    /// Writes down the contacts at the moment asked for last.
+    /// Writes the states of the contacts at the last requested time.
     pub(crate) fn look(&mut self, memories: &[Memory]) {
         let now = self.now;
         if let Some(looks) = self.springs.as_mut().filter(|looks| looks.schedule.due() <= now) {
@@ -80,19 +80,19 @@ impl<'a> Insides<'a> {
         }
     }
 
-    /// Whether the paths of the contacts are wanted.
+    /// Returns whether the paths of the contacts are needed.
     pub(crate) fn follows(&self) -> bool {
         self.fields.is_some()
     }
 
-    /// Takes a path of contact `c`.
+    /// Adds a path of contact `c`.
     pub(crate) fn path(&mut self, c: usize, segment: Segment) {
         if let Some((tables, _)) = &mut self.fields {
             tables.path(c, segment);
         }
     }
 
-    /// Whether one of the files takes no more.
+    /// Returns whether a write has failed.
     pub(crate) fn has_failed(&self) -> bool {
         let looks = [&self.springs, &self.memory].into_iter().flatten();
         looks.map(|looks| &looks.sheet).any(Sheet::has_failed)
@@ -112,7 +112,7 @@ impl<'a> Insides<'a> {
     }
 }
 
-/// One line per spring. A contact that is never pressed has none.
+/// Writes one line per spring. A contact that is never pressed has no springs.
 fn springs(sheet: &mut Sheet, job: &Job, t: f64, memories: &[Memory]) {
     for (((name, law), memory), grid) in job.model.contacts().zip(memories).zip(&job.grids) {
         let d = memory.apex().d;
@@ -130,7 +130,7 @@ fn springs(sheet: &mut Sheet, job: &Job, t: f64, memories: &[Memory]) {
     }
 }
 
-/// One line per corner of the curve, from the centre to the edge. An open contact has none.
+/// Writes one line per corner of each memory curve, from the centre to the edge. An open contact has no corners.
 fn curves(sheet: &mut Sheet, job: &Job, t: f64, memories: &[Memory]) {
     for ((name, _), memory) in job.model.contacts().zip(memories) {
         let Memory::Curve(curve) = memory else { continue };
@@ -144,7 +144,7 @@ fn curves(sheet: &mut Sheet, job: &Job, t: f64, memories: &[Memory]) {
     }
 }
 
-/// Word for the state of a spring in all tables.
+/// Returns the word for the state of a spring in all tables.
 pub(crate) fn state_name(state: SpringState) -> &'static str {
     match state {
         SpringState::Open => "open",

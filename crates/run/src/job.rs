@@ -1,4 +1,4 @@
-//! A scenario that was found good, with everything its run needs.
+//! A checked scenario with all data for its run.
 
 use crate::columns::Columns;
 use crate::excess;
@@ -14,56 +14,56 @@ use stickslip_measure::Setting;
 use stickslip_scenario::{Scenario, ScenarioError, Stage};
 use thiserror::Error;
 
-/// A checked scenario: no input can be wrong any more.
+/// A checked scenario, ready to run.
 pub struct Job {
-    /// The scenario's name: that of its file, without ending.
+    /// Name of the scenario: its file name without extension.
     pub name: String,
-    /// Where its results go.
+    /// Folder for the results.
     pub folder: PathBuf,
-    /// What is to be run.
+    /// Scenario, model and initial state.
     pub setting: Setting,
-    /// Columns of the trace and the events.
+    /// Columns of the trace and the event table.
     pub columns: Columns,
-    /// Springs to write down of each contact, where any are asked for.
+    /// Springs of each contact that are written, if requested.
     pub grids: Vec<Option<Arc<Springs>>>,
-    /// The scenario as it is run, in canonical JSON.
+    /// Resolved scenario in canonical JSON.
     pub resolved: String,
-    /// SHA-256 of [`Self::resolved`], in hexadecimal digits.
+    /// SHA-256 of [`Self::resolved`] in hexadecimal digits.
     pub hash: String,
-    /// Name and version of the program that computes the results, or did.
+    /// Name and version of the program that computes or computed the results.
     pub program: String,
 }
 
-/// Why a file makes no job.
+/// Error of preparing a job.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum Refusal {
-    /// Something in the scenario.
+    /// The scenario is invalid.
     #[error(transparent)]
     Scenario(#[from] ScenarioError),
-    /// A file without a name to call the results by.
-    #[error("{}: expected the name of a file", .0.display())]
+    /// The path contains no file name.
+    #[error("{}: expected a file name", .0.display())]
     NoName(PathBuf),
-    /// A file whose name, without its ending, is no name of a folder.
-    #[error("{}: its results would go to \"{name}\", which is no folder of its own\n   help: give the file another name, such as drive.json", .file.display())]
+    /// The file name without extension cannot be a folder name.
+    #[error("{}: \"{name}\" cannot be the name of its results folder\n   help: give the file another name, such as drive.json", .file.display())]
     NoFolder {
-        /// The file.
+        /// Path of the file.
         file: PathBuf,
-        /// Its name without ending.
+        /// File name without extension.
         name: String,
     },
-    /// Two files of one name.
-    #[error("{}: its results would go to {}, like those of {}\n   help: give one of the files another name, or run them apart", .file.display(), .folder.display(), .other.display())]
+    /// Two files have the same results folder.
+    #[error("{}: its results folder {} is also that of {}\n   help: rename one of the files, or run them separately", .file.display(), .folder.display(), .other.display())]
     SameFolder {
-        /// The later file.
+        /// Path of the later file.
         file: PathBuf,
-        /// Where both would go.
+        /// Results folder of both files.
         folder: PathBuf,
-        /// The earlier file.
+        /// Path of the earlier file.
         other: PathBuf,
     },
 }
 
-/// What a job runs is asked for by its own names: `job.model`, `job.scenario`.
+/// Allows `job.model` and `job.scenario` for the fields of the setting.
 impl Deref for Job {
     type Target = Setting;
 
@@ -79,16 +79,17 @@ impl DerefMut for Job {
 }
 
 impl Job {
-    /// Reads a scenario, builds it and checks everything that can be wrong with the input; writes nothing. Pairs in
-    /// `set` are overrides; the results of `NAME.json` would go to `out/NAME`.
+    /// Reads a scenario and checks it. Nothing is written.
+    ///
+    /// The pairs in `set` are overrides. The results folder of `NAME.json` is `out/NAME`.
     ///
     /// # Errors
-    /// Whatever is wrong with the scenario, with its place, or a file without a name.
+    /// The scenario is invalid, or the file name cannot name a folder.
     pub fn prepare(file: &Path, set: &[(String, String)], out: &Path) -> Result<Self, Refusal> {
         let overrides: Vec<(&str, &str)> = set.iter().map(|(p, v)| (p.as_str(), v.as_str())).collect();
         let scenario = Scenario::load_with(file, &overrides)?;
         let stem = file.file_stem().ok_or_else(|| Refusal::NoName(file.to_owned()))?;
-        // That of "...json" is "..": its results would go, and their old pictures be removed, outside of the folder.
+        // The stem of "...json" is "..". Results would then be written, and old plots removed, outside of the folder.
         if !matches!(Path::new(stem).components().collect::<Vec<_>>()[..], [Component::Normal(_)]) {
             return Err(Refusal::NoFolder {
                 file: file.to_owned(),
@@ -98,11 +99,10 @@ impl Job {
         Ok(Self::new(scenario, stem.to_string_lossy().into_owned(), out.join(stem))?)
     }
 
-    /// Builds a scenario and checks everything that can still be wrong with it; `folder` is for its results, and may be empty
-    /// where none are written.
+    /// Builds the model of a scenario and checks it. `folder` is the results folder. It may be empty if none are written.
     ///
     /// # Errors
-    /// Whatever is wrong with the scenario, with its place.
+    /// The scenario is invalid. The errors contain their positions in the file.
     pub fn new(scenario: Scenario, name: String, folder: PathBuf) -> Result<Self, ScenarioError> {
         let locate = |error: SceneError| scenario.refusal(&error);
         let model = Model::new(&scenario.scene).map_err(locate)?;
@@ -120,11 +120,11 @@ impl Job {
             limits::check_curves(&scenario),
             limits::check_fields(&scenario),
         ];
-        // None of them depends on another.
+        // These checks are independent of each other.
         let wrong = started.as_ref().err().into_iter().chain(columns.as_ref().err()).cloned();
         let wrong = wrong.chain(estimates.into_iter().filter_map(Result::err));
         if let Some(error) = ScenarioError::joined(wrong) {
-            // Memory is estimated of a whole job.
+            // The memory is estimated for complete jobs only.
             return Err(error.without(&[Stage::Limits]));
         }
         let ((start, grids), columns) = (started?, columns?);
@@ -137,20 +137,20 @@ impl Job {
         Ok(job)
     }
 
-    /// The same job with further overrides after its own.
+    /// Returns the job with additional overrides.
     ///
     /// # Errors
-    /// Whatever is wrong with one of them, with its place.
+    /// An override is invalid.
     pub fn with(&self, set: &[(String, String)]) -> Result<Self, ScenarioError> {
         Self::new(self.scenario.with(set)?, self.name.clone(), self.folder.clone())
     }
 
-    /// The same job as its results tell it: with the text and the program that they were computed from.
+    /// Returns the job with the resolved scenario and the program of stored results.
     pub fn with_origin(self, resolved: String, program: String) -> Self {
         Self { hash: hash(&resolved), resolved, program, ..self }
     }
 
-    /// The scenario's title, or else its name.
+    /// Returns the title of the scenario, or its name if it has no title.
     pub fn title(&self) -> &str {
         if self.scenario.title.is_empty() { &self.name } else { &self.scenario.title }
     }

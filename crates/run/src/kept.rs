@@ -1,4 +1,4 @@
-//! What the summary and the pictures are made from: kept while a run goes on, or read back from its tables.
+//! Data of a run that are kept in memory for the summary and the plots.
 
 use crate::columns::Columns;
 use crate::fingerprint::{Fingerprint, Sketch};
@@ -8,40 +8,40 @@ use stickslip_measure::Series;
 use stickslip_measure::Tracks;
 use stickslip_scenario::PlotName;
 
-/// Pictures that are drawn from rows and moments after events; the others have tables of their own, or nothing over time.
+/// Plots that are drawn from rows and states after events. Other plots have their own tables.
 pub(crate) const FROM_SERIES: [PlotName; 6] =
     [PlotName::Loop, PlotName::Trajectory, PlotName::Energy, PlotName::Phase, PlotName::Xy, PlotName::Drive];
 
-/// Whether a picture is drawn from what grows with the run.
+/// Returns whether the data of a plot grow with the duration of the run.
 pub(crate) fn grows(plot: PlotName) -> bool {
     FROM_SERIES.contains(&plot) || plot == PlotName::Events
 }
 
-/// Whether one of these pictures is drawn from a series.
+/// Returns whether one of the plots is drawn from a time history.
 pub(crate) fn draws_from_series(plots: &[PlotName]) -> bool {
     plots.iter().any(|plot| FROM_SERIES.contains(plot))
 }
 
-/// What stays in memory of a run.
+/// Data of a run in memory.
 pub struct Kept {
-    /// Rows and moments after events.
+    /// Rows and states after events.
     pub series: Series,
     /// Time reached, s.
     end: f64,
-    /// Moments of the events, where a picture shows them.
+    /// Event times, if a plot shows them.
     pub tracks: Option<Tracks>,
-    /// Time until which the events that were asked for are there without a gap, s, where they were thinned.
+    /// Time up to which the events are complete, s, if they were thinned.
     pub whole_until: Option<f64>,
-    /// Events left out for want of room.
+    /// Number of events dropped because of the memory limit.
     pub left_out: u64,
-    /// Most numbers that events may add to.
+    /// Maximum number of values. Events beyond it are dropped.
     most: u64,
-    /// For a fingerprint, where one is wanted.
+    /// Fingerprint under construction, if requested.
     sketch: Option<Sketch>,
 }
 
 impl Kept {
-    /// Nothing yet, of these channels; what only pictures need is kept for those in `plots`.
+    /// Creates an empty store. Some channels are kept only if the plots in `plots` need them.
     pub fn new(channels: &[Channel], plots: &[PlotName]) -> Self {
         let tracks = plots.contains(&PlotName::Events).then(Tracks::default);
         Self {
@@ -55,30 +55,30 @@ impl Kept {
         }
     }
 
-    /// The same with a series and tracks only where one of these pictures is drawn from them.
+    /// Returns the store without data that these plots do not need.
     pub(crate) fn for_pictures(self, plots: &[PlotName]) -> Self {
         let tracks = self.tracks.filter(|_| plots.contains(&PlotName::Events));
         let series = if draws_from_series(plots) { self.series } else { Series::none() };
         Self { series, tracks, ..self }
     }
 
-    /// The same with a fingerprint of the tables that have these columns.
+    /// Returns the store with a fingerprint of tables with these columns.
     pub fn fingerprinted(self, columns: Columns) -> Self {
         Self { sketch: Some(Sketch::new(columns)), ..self }
     }
 
-    /// Fingerprint of the tables so far; that of nothing where none is wanted.
+    /// Returns the fingerprint of the tables so far; an empty one if none was requested.
     pub fn fingerprint(&self) -> Fingerprint {
         let nothing = || Sketch::new(Columns::default()).finish();
         self.sketch.as_ref().map_or_else(nothing, Sketch::finish)
     }
 
-    /// Whether the words of events are kept, or come into the fingerprint.
+    /// Returns whether sources and kinds of events are needed.
     pub(crate) fn wants_words(&self) -> bool {
         self.tracks.is_some() || self.sketch.is_some()
     }
 
-    /// Takes the next row of the trace.
+    /// Adds a row of the trace.
     pub fn row(&mut self, values: &[f64]) {
         self.reach(values);
         self.series.push(values);
@@ -87,12 +87,12 @@ impl Kept {
         }
     }
 
-    /// Rows are bounded before the run starts; events are not.
+    /// Returns whether events can be added. The number of rows is checked before the run.
     fn has_room(&self) -> bool {
         self.size() < self.most
     }
 
-    /// Takes the next event, its source and kind, and the values after it.
+    /// Adds an event: its source and kind, and the values after it.
     pub fn event(&mut self, words: [&str; 2], values: &[f64]) {
         if let Some(sketch) = &mut self.sketch {
             sketch.event(words, values);
@@ -108,22 +108,22 @@ impl Kept {
         }
     }
 
-    /// What it takes, B.
+    /// Returns the memory used, in bytes.
     pub(crate) fn bytes(&self) -> usize {
         size_of::<f64>() * self.size() as usize
     }
 
-    /// Numbers kept: of the series and of the tracks.
+    /// Returns the number of stored values.
     fn size(&self) -> u64 {
         self.series.size() + self.tracks.as_ref().map_or(0, Tracks::size)
     }
 
-    /// Time reached, s.
+    /// Returns the time reached, s.
     pub fn end(&self) -> f64 {
         self.end
     }
 
-    /// Until when its series has all events that were asked for, s.
+    /// Returns the time up to which the events are complete, s.
     pub fn whole_until(&self) -> f64 {
         self.whole_until.map_or(self.end, |whole| whole.min(self.end))
     }

@@ -1,23 +1,21 @@
-//! Scenarios made ready to run, and what their runs leave behind: for every door, for it draws nothing, prints nothing and
-//! knows no terminal.
+//! Preparation, execution and results of simulation runs. The crate draws no plots and prints no text.
 //!
-//! [`Job::new`] makes a scenario ready, [`Job::run`] runs it in memory, [`Summary::new`] says what it came to; a
-//! [`Recorder`] with a [`Folder`](folder::Folder) writes tables as the run goes on, and [`Results::read`] reads such a folder
-//! back. A [`Watcher`] is told how far a run has come and may end it.
+//! [`Job::new`] prepares a scenario, [`Job::run`] simulates it in memory, and [`Summary::new`] evaluates the run. A [`Recorder`] with a
+//! [`Folder`](folder::Folder) writes tables during the run. [`Results::read`] reads a results folder. A [`Watcher`] receives the progress
+//! of a run and can stop it.
 //!
 //! In reading order:
 //!
-//! * [`Job`], within its `limits`; [`info`], what it means and will take; [`Columns`]; [`program`], which computes;
-//! * [`Watcher`], [`Recorder`] and [`Outcome`] – a run; [`Held`], one that stands between two calls; [`Table`], its rows in memory;
-//! * what it leaves: [`Kept`] in memory; `table`, `insides` and `sheet` with its `digest` on disk, under the names of [`files`], in a
-//!   [`folder`] on a `disk`, each table with its [`Seal`]; its [`fingerprint`];
-//! * what it comes to: [`summary`] with [`Real`] and [`Parts`] (numbers and things in JSON), [`warning`];
-//! * what is read back: `guard` (files of strangers), `synopsis` (a summary), `rows` and [`frame`] (tables), `replay` and
-//!   [`Results`] (a folder), [`springs`] and [`curves`];
-//! * [`checkpoint`] – runs that go on after they were ended;
-//! * [`theory`] – one contact by itself, without a run;
-//! * for those who tell of results: [`quantity()`] (numbers with units), [`provenance`] (where they come from), [`markdown`]
-//!   (pages), [`complaint`] (the words of the operating system).
+//! * [`Job`], with its `limits`; [`info`], properties known before the run; [`Columns`]; [`program`], name and version;
+//! * [`Watcher`], [`Recorder`] and [`Outcome`] – a run; [`Held`] – a run that the caller advances; [`Table`] – rows in memory;
+//! * [`Kept`] – results in memory; `table`, `insides` and `sheet` with `digest` – tables on disk, with the names in [`files`], in a
+//!   [`folder`]
+//!   on a `disk`, each with its [`Seal`]; [`fingerprint`];
+//! * [`summary`] with [`Real`] and [`Parts`]; [`warning`];
+//! * `guard`, `synopsis`, `rows` and [`frame`], `replay` and [`Results`], [`springs`] and [`curves`] – reading of results;
+//! * [`checkpoint`] – interrupted runs that can be resumed;
+//! * [`theory`] – a single contact without a run;
+//! * [`quantity()`] (numbers with units), [`provenance`], [`markdown`], [`complaint`] – texts about results.
 
 pub mod checkpoint;
 mod columns;
@@ -84,7 +82,7 @@ pub use stickslip_quantity::{Definition, Real, apart, quantity};
 pub use summary::Summary;
 pub use synopsis::{NO_RESULTS, SynopsisError, check_published};
 
-/// What every column of a run's tables and every key of `summary.json` is.
+/// Returns the definitions of all table columns and of all keys of `summary.json`.
 #[must_use]
 pub fn definitions() -> Vec<Definition> {
     let tables = std::iter::once(stickslip_quantity::columns::TRACE).chain(files::TABLES);

@@ -1,4 +1,4 @@
-//! What a run would leave behind, estimated before it starts.
+//! Limits on the size of results, checked before a run.
 
 use crate::theory::LINE_WIDTH;
 use std::sync::Arc;
@@ -7,11 +7,13 @@ use stickslip_drive::{Model, State};
 use stickslip_quantity::columns::{FIELDS, MEMORY, SPRINGS};
 use stickslip_scenario::{Scenario, ScenarioError};
 
-/// Most numbers that a table may have: of the rows and what is kept of them up to 2 GB of memory, and each table some
-/// 5 GB of disk.
+/// Maximum number of values of a table: up to 2 GB in memory and about 5 GB on disk.
 pub(crate) const MOST_VALUES: u64 = 250_000_000;
 
-/// Refuses a run whose rows would fill the memory.
+/// Checks the number of rows.
+///
+/// # Errors
+/// The rows exceed the memory limit.
 pub(crate) fn check_rows(scenario: &Scenario, width: usize) -> Result<(), ScenarioError> {
     let Some(every) = scenario.plan.every else { return Ok(()) };
     let [from, to] = scenario.written.window;
@@ -24,14 +26,18 @@ pub(crate) fn check_rows(scenario: &Scenario, width: usize) -> Result<(), Scenar
     let message =
         format!("the run would have {rows:.3e} rows of {width} channels, expected at most {most:.3e}");
     let help = format!(
-        "write a row every {:.1e} s or more seldom, or those of a part of the run (output.window)",
+        "write a row every {:.1e} s or less often, or only rows of a part of the run (output.window)",
         time / most
     );
     Err(scenario.locate("output.every", message, Some(help)))
 }
 
-/// The springs of each contact that a run writes down: those of its row, or a grid of the count asked for under its
-/// curve; none of a contact that is never pressed. Refuses more of them than fit on a disk.
+/// Returns the springs of each contact that a run writes: those of its spring row, or a grid for its memory curve.
+///
+/// A contact that is never pressed has none.
+///
+/// # Errors
+/// The springs exceed the maximum size of a table.
 pub(crate) fn grids(
     scenario: &Scenario,
     model: &Model,
@@ -42,7 +48,7 @@ pub(crate) fn grids(
     let grid = |(c, ((_, law), memory)): (usize, ((&str, &Interface), &Memory))| match memory {
         Memory::Row(row) => Some(Arc::clone(&row.springs)),
         Memory::Curve(_) => {
-            // Only a contact without width has no springs: it is never pressed.
+            // Only a contact without width has no springs. It is never pressed.
             let width = model.contact_width(c).unwrap_or(0.0);
             Springs::new(law.profile(), asked.count, width).ok().map(Arc::new)
         }
@@ -55,13 +61,16 @@ pub(crate) fn grids(
         return Ok(grids);
     }
     let message = format!(
-        "{springs} springs at {moments:.3e} moments make {lines:.3e} lines, expected at most {most:.3e}"
+        "{springs} springs at {moments:.3e} times give {lines:.3e} lines, expected at most {most:.3e}"
     );
     let help = "give output.springs a larger interval \"every\", or a smaller \"count\"";
     Err(scenario.locate(&asked.asked_by, message, Some(help.to_owned())))
 }
 
-/// Refuses a run whose fields might not fit on a disk.
+/// Checks the size of the table of fields.
+///
+/// # Errors
+/// The fields exceed the maximum size of a table.
 pub(crate) fn check_fields(scenario: &Scenario) -> Result<(), ScenarioError> {
     let Some(asked) = &scenario.fields else { return Ok(()) };
     let moments = asked.moments.count(scenario.plan.duration);
@@ -71,7 +80,7 @@ pub(crate) fn check_fields(scenario: &Scenario) -> Result<(), ScenarioError> {
         return Ok(());
     }
     let message = format!(
-        "{} radii of {} contacts at {moments:.3e} moments make {lines:.3e} lines, expected at most {most:.3e}",
+        "{} radii of {} contacts at {moments:.3e} times give {lines:.3e} lines, expected at most {most:.3e}",
         asked.radii,
         scenario.scene.contacts.len()
     );
@@ -79,7 +88,10 @@ pub(crate) fn check_fields(scenario: &Scenario) -> Result<(), ScenarioError> {
     Err(scenario.locate(&asked.asked_by, message, Some(help.to_owned())))
 }
 
-/// Refuses a run whose memory curves might not fit on a disk.
+/// Checks the size of the table of memory curves.
+///
+/// # Errors
+/// The curves may exceed the maximum size of a table.
 pub(crate) fn check_curves(scenario: &Scenario) -> Result<(), ScenarioError> {
     let Some(asked) = &scenario.memory else { return Ok(()) };
     let curves = asked.moments.count(scenario.plan.duration) * scenario.scene.contacts.len() as f64;
@@ -89,15 +101,17 @@ pub(crate) fn check_curves(scenario: &Scenario) -> Result<(), ScenarioError> {
         return Ok(());
     }
     let message = format!(
-        "{curves:.3e} curves of up to {} corners may make {lines:.3e} lines, expected at most {most:.3e}",
+        "{curves:.3e} curves of up to {} corners may give {lines:.3e} lines, expected at most {most:.3e}",
         Curve::DEFAULT_CAPACITY
     );
     let help = "give output.memory a larger interval \"every\", or a list \"at\"";
     Err(scenario.locate(&asked.asked_by, message, Some(help.to_owned())))
 }
 
-/// Refuses a history of a contact by itself whose springs would fill the memory: at `moments` they are kept and written, in
-/// `frames` they are kept.
+/// Checks the memory of a contact history without a run. Springs are stored and written at `moments`, and stored in `frames`.
+///
+/// # Errors
+/// The springs exceed the maximum size of a table.
 pub(crate) fn check_history(springs: usize, moments: usize, frames: usize) -> Result<(), String> {
     let (looks, most) = (moments + frames, MOST_VALUES / LINE_WIDTH as u64);
     let lines = springs as u64 * looks as u64;
@@ -111,7 +125,7 @@ pub(crate) fn check_history(springs: usize, moments: usize, frames: usize) -> Re
         (corners, _) => format!("give at most {corners} corners, or the list fewer springs"),
     };
     Err(format!(
-        "{springs} springs at {looks} moments make {lines} lines, expected at most {most}\n   help: {help}"
+        "{springs} springs at {looks} times give {lines} lines, expected at most {most}\n   help: {help}"
     ))
 }
 

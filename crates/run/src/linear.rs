@@ -1,4 +1,4 @@
-//! A scenario as a linear system: small motions with all contacts stuck, from its waveforms to its coordinates.
+//! Linear state-space model of a scenario with all contacts in full stick.
 
 use crate::job::Job;
 use serde::Serialize;
@@ -6,44 +6,46 @@ use stickslip_drive::Indentations;
 use stickslip_quantity::names;
 use thiserror::Error;
 
-/// ż = A z + B w, y = C z + D w.
+/// State-space model ż = A z + B w, y = C z + D w.
 ///
-/// With M ẍ + C₀ ẋ + K x = P w + Q ẇ the states are z = (x, ẋ - M⁻¹Q w), so that no rate of an input is needed, and the outputs
-/// y = (x, ẋ).
+/// The equations of motion are M ẍ + C₀ ẋ + K x = P w + Q ẇ. The states z = (x, ẋ - M⁻¹Q w) avoid the input rates ẇ. The outputs are y =
+/// (x, ẋ).
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct StateSpace {
-    /// Names of the states, such as `slider.x_m`; the second half are velocities without what the inputs' rates add.
+    /// Names of the states, such as `slider.x_m`. The second half are velocities minus M⁻¹Q w.
     pub states: Vec<String>,
-    /// Names of the inputs: waveforms, or free strokes of stacks behind a driver, with their unit.
+    /// Names of the inputs with units: waveforms, or free strokes of stacks with a driver.
     pub inputs: Vec<String>,
     /// Names of the outputs: displacements and velocities as in the trace.
     pub outputs: Vec<String>,
-    /// System matrix, row by row.
+    /// System matrix A, row by row.
     pub a: Vec<Vec<f64>>,
-    /// Input matrix.
+    /// Input matrix B.
     pub b: Vec<Vec<f64>>,
-    /// Output matrix.
+    /// Output matrix C.
     pub c: Vec<Vec<f64>>,
-    /// Feedthrough.
+    /// Feedthrough matrix D.
     pub d: Vec<Vec<f64>>,
 }
 
-/// Why there is no linear system.
+/// Error: a scenario has no linear model.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 pub enum LinearError {
-    /// Nothing moves freely.
-    #[error("{0}: no coordinate is free, so there is nothing to linearise")]
+    /// No coordinate is free.
+    #[error("{0}: no coordinate is free, so there is no linear system")]
     NothingFree(String),
-    /// Coordinates without mass.
-    #[error("{0}: it has balanced coordinates, without mass, which have no linear system of this form")]
+    /// Some coordinates have no mass.
+    #[error("{0}: balanced coordinates have no mass, so there is no linear system of this form")]
     Balanced(String),
 }
 
 impl StateSpace {
-    /// The linear system of a job about its start, with all contacts stuck, each at the indentation (m) that `depth` picks.
+    /// Returns the linear model of a job about its initial state, with all contacts in full stick.
+    ///
+    /// `depth` selects the indentation of each contact, m.
     ///
     /// # Errors
-    /// A scenario without free coordinates, or with balanced ones.
+    /// No coordinate is free, or some coordinates are balanced.
     pub fn of(job: &Job, depth: impl Fn(&Indentations) -> f64 + Copy) -> Result<Self, LinearError> {
         let (scene, model) = (&job.scenario.scene, &job.model);
         let motions = model.linearised(&job.start, depth);
@@ -77,7 +79,7 @@ impl StateSpace {
             (false, true) => over(&|i, j| stiffness[(i, j)], i - n, j),
             (false, false) => over(&|i, j| damping[(i, j)], i - n, j - n),
         });
-        // What a rate of an input adds to a velocity.
+        // Contribution of an input rate to a velocity.
         let kick = |i: usize, w: usize| driving[w].damping[i] / mass[i];
         let inputs = 0..driving.len();
         let b = (0..2 * n).map(|i| {
@@ -106,7 +108,7 @@ impl StateSpace {
     }
 }
 
-/// Name of the channel of a coordinate such as `slider.x`, or of its rate.
+/// Returns the channel name of a coordinate such as `slider.x`, or of its velocity.
 fn channel(name: &str, rate: bool) -> String {
     let (body, axis) = name.rsplit_once('.').unwrap_or(("", name));
     let (v, unit) = (if rate { "v" } else { "" }, if axis == "pitch" { "rad" } else { "m" });

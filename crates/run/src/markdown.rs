@@ -1,13 +1,13 @@
-//! Pages in Markdown: links, words of commands, texts that mean nothing to it.
+//! Text functions for Markdown pages: links, command line arguments and escaping.
 
 use std::fmt::Write;
 use std::io;
 use std::path::{Component, Path, PathBuf};
 
-/// The way from a folder to a file.
+/// Returns the path of a file relative to a folder.
 ///
 /// # Errors
-/// What the system says of either.
+/// One of the paths cannot be resolved.
 pub fn relative(file: &Path, folder: &Path) -> io::Result<PathBuf> {
     let (file, folder) = (file.canonicalize()?, folder.canonicalize()?);
     let common = file.components().zip(folder.components()).take_while(|(a, b)| a == b).count();
@@ -15,7 +15,7 @@ pub fn relative(file: &Path, folder: &Path) -> io::Result<PathBuf> {
     Ok(up.chain(file.components().skip(common)).collect())
 }
 
-/// A path as a link: slashes on every system, what a link cannot have as percent codes.
+/// Returns a path as a URL: with slashes on every system and percent-encoded special characters.
 pub fn link(path: &Path) -> String {
     let parts: Vec<String> =
         path.components().map(|part| part.as_os_str().to_string_lossy().into_owned()).collect();
@@ -33,14 +33,14 @@ pub fn link(path: &Path) -> String {
     link
 }
 
-/// A path as a word of a command line.
+/// Returns a path as an argument of a command line.
 pub fn word(path: &Path) -> String {
     let text = path.to_string_lossy().replace('\\', "/");
     let is_plain = text.chars().all(|c| c.is_ascii_alphanumeric() || "/._-@".contains(c));
     if is_plain { text } else { format!("\"{text}\"") }
 }
 
-/// A text that means nothing to Markdown or HTML.
+/// Returns a text in which the special characters of Markdown and HTML are escaped.
 pub fn plain(text: &str) -> String {
     let mut plain = String::new();
     for c in text.chars() {

@@ -1,4 +1,4 @@
-//! Measured loops: a displacement and a tangential force from a table, cut into cycles and measured as those of a run are.
+//! Evaluation of measured hysteresis loops: displacement and tangential force from a table, split into cycles.
 
 mod clean;
 mod stage;
@@ -26,8 +26,9 @@ use thiserror::Error;
 pub use clean::{Correct, Rig};
 pub use stage::{Account, MISFIT, Stage};
 
-/// Columns of the table of measured cycles: names as in a run's `cycles.csv`. Times are places of lines where there are none; stiffnesses are
-/// fitted to the first tenth of the way back.
+/// Columns of the table of measured cycles. The names are those in `cycles.csv` of a run.
+///
+/// Without times, row numbers replace them. Stiffnesses are fitted to the first tenth of the displacement range after a reversal.
 const HEAD: [&str; 20] = [
     "cycle",
     "start_s",
@@ -50,98 +51,97 @@ const HEAD: [&str; 20] = [
     "mean_normal_force_N",
     "regime",
 ];
-/// Reversals are confirmed by a way back of so many standard deviations of the noise, and of this share of the range at least.
+/// Minimum displacement that confirms a reversal: in standard deviations of the noise, and relative to the range.
 const SURE: f64 = 12.0;
 const LEAST: f64 = 1e-3;
-/// A cycle is open whose ends are farther apart than this share of its range.
+/// Distance between the ends of a cycle, relative to its range, above which it counts as open.
 const OPEN: f64 = 0.1;
-/// A load varies whose range is more than this share of its mean.
+/// Range of the normal force, relative to its mean, above which it is flagged as varying.
 const VARIES: f64 = 0.1;
-/// How often the compliance of a rig is found again.
+/// Number of iterations for the compliance of the rig.
 const ROUNDS: usize = 3;
-/// Cycles follow each other whose ends are apart by no more than this share of a cycle.
+/// Maximum gap between the ends of consecutive cycles, relative to a cycle.
 const NEAR: f64 = 0.2;
 
-/// Why there are no measured loops.
+/// Error of the evaluation of measured loops.
 #[derive(Debug, Error)]
 pub enum MeasuredError {
-    /// The table.
+    /// The table cannot be read.
     #[error(transparent)]
     Table(#[from] RecordError),
-    /// Numbers that are no record.
+    /// The values of the table cannot be evaluated.
     #[error("{file}: {source}")]
     Series {
-        /// The table.
+        /// Path of the table.
         file: String,
-        /// What is wrong with it.
+        /// Cause.
         source: SeriesError,
     },
-    /// A period or a span of times in a table without times.
-    #[error("{0}: --period, --from and --to need a column of times, or the one named by --time")]
+    /// A period or a time interval was given for a table without times.
+    #[error("{0}: --period, --from and --to need a column of times; select one with --time")]
     NoTime(String),
-    /// No rows between the times that are asked for.
+    /// The time interval contains no rows.
     #[error("{0}: no rows between --from and --to")]
     Nothing(String),
-    /// A rig that is not softer than the whole.
+    /// Rig and contact together are not softer than the contact alone.
     #[error(
-        "{0}: the rig's stiffness cannot be found: rig and contact together are not softer than the contact alone\n   help: give it with --rig-stiffness, if it is known"
+        "{0}: the rig stiffness cannot be determined: rig and contact together are not softer than the contact alone\n   help: give a known stiffness with --rig-stiffness"
     )]
     Rig(String),
-    /// Nothing that comes back.
-    #[error(
-        "{0}: no cycle comes back to within a tenth of its range\n   help: say the period, if it has one, with --period"
-    )]
+    /// There is no closed cycle.
+    #[error("{0}: no cycle closes within a tenth of its range\n   help: give the period with --period")]
     NoCycle(String),
 }
 
 /// A measured record.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Measured {
-    /// Name of its file.
+    /// Path of the file.
     pub file: String,
-    /// Times, s; places of the lines where there are none.
+    /// Times, s, or row numbers if the table has no times.
     pub t: Vec<f64>,
-    /// Whether these are times.
+    /// Whether the table has times.
     pub has_time: bool,
     /// Displacements, m.
     pub u: Vec<f64>,
-    /// Forces that drive them, N.
+    /// Tangential forces that drive the motion, N.
     pub force: Vec<f64>,
-    /// Normal forces, N, where the table has them.
+    /// Normal forces, N, if the table has them.
     pub normal: Option<Vec<f64>>,
-    /// Whether the table has them with the other sign: as the forces that resist.
+    /// Whether the sign of the tangential force was inverted, because the table contains the resisting force.
     pub is_turned: bool,
-    /// What reading it has done that nobody has asked for, in sentences.
+    /// Notes on assumptions and skipped lines, as sentences.
     pub notes: Vec<String>,
 }
 
-/// One cycle of a record: where it lies in it, when, and its quantities. Its opening is that at the middle of its forces, whose zero a
-/// load cell need not have.
+/// One cycle of a record with its results.
+///
+/// Its opening is taken at the middle of the force range, because the zero of a load cell is uncertain.
 #[derive(Debug, Clone, PartialEq)]
 pub struct MeasuredCycle {
-    /// Places of the record, both ends with them.
+    /// Rows of the cycle, both ends included.
     pub span: Range<usize>,
-    /// From when to when, s.
+    /// Start and end, s.
     pub time: [f64; 2],
-    /// Its quantities.
+    /// Results of the cycle.
     pub cycle: Cycle,
-    /// Half of the opening where the force itself is zero, m; none of a loop that nowhere is.
+    /// Half opening at zero force, m. `None` if the force does not change sign.
     pub opening_at_zero: Option<f64>,
-    /// Tangent of the branches at the reversals, N/m; none of a loop without a way.
+    /// Tangent stiffness at the reversals, N/m. `None` if u is constant.
     pub stiffness: Option<f64>,
-    /// Mean, least and largest normal force, N, where the table has them.
+    /// Mean, minimum and maximum normal force, N, if the table has them.
     pub normal: Option<[f64; 3]>,
-    /// How it slips, by the thresholds of a profile that is known.
+    /// Slip regime, if a contact profile was given.
     pub regime: Option<Regime>,
-    /// ∮F du over its rows as they are, J.
+    /// Work ∮F du of the unchanged rows, J.
     pub work: f64,
-    /// Number of its stage, from 1: cycles of about one amplitude and one time that follow each other.
+    /// Number of the stage, from 1. A stage consists of consecutive cycles of similar amplitude and duration.
     pub stage: usize,
-    /// Whether its ends are farther apart than a tenth of its range: its figures are those of the loop closed by a chord.
+    /// Whether the cycle is open: its ends are farther apart than a tenth of its range. A chord then closes the loop.
     pub is_open: bool,
 }
 
-/// What of a record is evaluated, and how.
+/// Settings of an evaluation.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct How {
     /// Period of the cycles from the first row on, s.
@@ -150,43 +150,43 @@ pub struct How {
     pub from: Option<f64>,
     /// Time of the last row, s.
     pub to: Option<f64>,
-    /// First and last of the cycles, from 1.
+    /// Numbers of the first and the last cycle, from 1.
     pub cycles: Option<[usize; 2]>,
-    /// What is taken out of the record.
+    /// Effects that are corrected.
     pub correct: Correct,
-    /// The rig that lies in series with the contact, whose share of the displacement is taken out.
+    /// Test rig in series with the contact, whose displacement is subtracted.
     pub rig: Option<Rig>,
-    /// Power n of the contact's profile f ~ rⁿ, for its regimes.
+    /// Exponent n of the contact profile f ~ rⁿ, for the slip regimes.
     pub profile: Option<f64>,
 }
 
-/// What was found in a record.
+/// Results of an evaluation.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Evaluated {
-    /// Its cycles.
+    /// Cycles of the record.
     pub cycles: Vec<MeasuredCycle>,
-    /// Its stages.
+    /// Stages of the record.
     pub stages: Vec<Stage>,
-    /// What lies in the cycles, and what outside.
+    /// Numbers of rows and energies within and outside of the cycles.
     pub account: Account,
-    /// Single rows of the displacement and of the force that stand far out of their neighbours, and were left out.
+    /// Numbers of removed spikes of the displacement and of the force.
     pub spikes: [usize; 2],
-    /// Displacements and forces without spikes, and without what was taken out of them, where they differ from the record.
+    /// Corrected displacements and forces, if they differ from the record.
     pub rows: Option<[Vec<f64>; 2]>,
-    /// The steady loop of the stage of most cycles before anything was taken out of the record.
+    /// Steady loop of the longest stage before corrections.
     pub found: Option<SteadyLoop>,
-    /// The stage of most cycles with the rig in it, and the stiffness of the rig, N/m, where its share was taken out.
+    /// Longest stage without the correction for the rig, and the stiffness of the rig, N/m, if it was corrected.
     pub with_rig: Option<(Stage, Interval)>,
 }
 
 impl Evaluated {
-    /// The stage of most cycles, the last of equal ones.
+    /// Returns the stage with the most cycles; among equal ones, the last.
     #[must_use]
     pub fn longest(&self) -> Option<&Stage> {
         self.stages.iter().max_by_key(|stage| stage.cycles.len())
     }
 
-    /// Mean normal force of the stage of most cycles, N, where the table has normal forces and they press.
+    /// Returns the mean normal force of the longest stage, N. Returns `None` without normal forces, or if the mean is not positive.
     #[must_use]
     pub fn mean_load(&self) -> Option<f64> {
         let stage = self.longest()?;
@@ -195,7 +195,9 @@ impl Evaluated {
         sum.map(|sum| sum / cycles.len() as f64).filter(|mean| *mean > 0.0)
     }
 
-    /// Whether the force resists the motion: by the steady loop where the rows tell, else by the slopes after the reversals, else by the area.
+    /// Returns whether the measured force resists the motion.
+    ///
+    /// The steady loop decides if its sign is certain, then the slopes after the reversals, then the sign of the loop area.
     fn is_turned(&self) -> bool {
         if let Some(steady) =
             self.longest().and_then(|stage| stage.steady).filter(|steady| steady.is_sense_sure)
@@ -209,10 +211,10 @@ impl Evaluated {
 }
 
 impl Measured {
-    /// Reads a record from a table of an instrument; what the recipe leaves out is guessed.
+    /// Reads a record from a table of an instrument. Settings that the recipe omits are detected.
     ///
     /// # Errors
-    /// A file that is no such table, or lacks a column that is asked for.
+    /// The file cannot be read, or lacks a required column.
     pub fn read(path: &Path, recipe: &Recipe) -> Result<Self, MeasuredError> {
         let mut record = Record::read(path, recipe, &[Role::Displacement, Role::Force])?;
         let mut column = |role| record.columns.remove(&role);
@@ -225,13 +227,13 @@ impl Measured {
         Ok(Self { file, t, has_time, u, force, normal, is_turned: false, notes })
     }
 
-    /// Evaluates it: finds its cycles, of a period from the first row on or from one reversal to the next of its kind, measures
-    /// each, and each stage with its intervals.
+    /// Splits the record into cycles and evaluates each cycle and each stage with confidence intervals.
     ///
-    /// A force that resists the motion is turned round. Lag and drift of the stage of most cycles are taken out of all of it on request.
+    /// The cycles are periods from the first row on, or extend between reversals of the same kind. A resisting force is inverted. On
+    /// request, time lag and drift of the longest stage are removed from the whole record.
     ///
     /// # Errors
-    /// Times that do not ascend, a period or a span of times without times, and no cycle at all.
+    /// Times do not ascend, a period or a time interval was given without times, or there is no cycle.
     pub fn evaluate(&mut self, how: &How) -> Result<Evaluated, MeasuredError> {
         if (how.period.is_some() || how.from.is_some() || how.to.is_some()) && !self.has_time {
             return Err(MeasuredError::NoTime(self.file.clone()));
@@ -254,7 +256,7 @@ impl Measured {
         Ok(evaluated)
     }
 
-    /// Evaluates it without the share of a rig in the displacement; `evaluated` is with it.
+    /// Evaluates the record without the displacement of the rig. `evaluated` are the results with it.
     fn without_rig(
         &self,
         how: &How,
@@ -265,7 +267,7 @@ impl Measured {
         let unknown = || MeasuredError::Rig(self.file.clone());
         let whole = evaluated.longest().cloned().ok_or_else(unknown)?;
         let mut stiffness = Interval::default();
-        // Rig and contact together have other branches than the contact alone: what is left of the rig is found again without most of it.
+        // The correction is iterated, because rig and contact together have other branches than the contact alone.
         for _ in 0..if matches!(rig, Rig::Contact(_)) { ROUNDS } else { 1 } {
             let tangent = evaluated.longest().and_then(|stage| stage.result("stiffness_N_m"));
             let compliance = rig.compliance(tangent.ok_or_else(unknown)?);
@@ -287,7 +289,7 @@ impl Measured {
         Ok(evaluated)
     }
 
-    /// Keeps the rows between two times.
+    /// Keeps the rows of a time interval.
     fn keep(&mut self, from: Option<f64>, to: Option<f64>) -> Result<(), MeasuredError> {
         if from.is_none() && to.is_none() {
             return Ok(());
@@ -313,7 +315,7 @@ impl Measured {
                 split_cycles(&self.t, &u, &force, Cut::Period { start, period }).map_err(failed)?
             }
             None => {
-                // What is no record is refused here.
+                // This call only checks the record.
                 let any = Cut::Reversals { least: f64::MIN_POSITIVE };
                 split_cycles(&self.t, &u, &force, any).map_err(failed)?;
                 joined(with_changing(&u, &returning_cycles(&self.t, &u, 0.0)))
@@ -326,7 +328,7 @@ impl Measured {
             return Err(MeasuredError::NoCycle(self.file.clone()));
         }
         let mut cycles = self.measure(&spans, &u, &force).map_err(failed)?;
-        // A compliance that is not known leaves B alone.
+        // With a rig of unknown compliance, only B has a threshold.
         let is_bare = correction.compliance != 0.0;
         let of = if is_bare { Thresholds::of_profile } else { Thresholds::with_unknown_rig };
         let thresholds = how.profile.map(of).transpose().map_err(failed)?;
@@ -348,7 +350,7 @@ impl Measured {
     ) -> Result<Vec<MeasuredCycle>, SeriesError> {
         let one = |span: &Range<usize>| {
             let is_open = !returns(&u[span.clone()], 0.0, OPEN);
-            // An open loop is closed by a chord, another along all of its way.
+            // An open loop is closed by a chord. The gap of other loops is distributed over all rows.
             let closed = |values: &[f64]| if is_open { values.to_vec() } else { without_gap(values) };
             let (u, force) = (closed(&u[span.clone()]), closed(&force[span.clone()]));
             Ok(MeasuredCycle {
@@ -368,20 +370,20 @@ impl Measured {
     }
 }
 
-/// Mean, least and largest of normal forces.
+/// Returns the mean, minimum and maximum of normal forces.
 fn of_load(normal: &[f64]) -> [f64; 3] {
     let (low, high) = extent(normal);
     [normal.iter().sum::<f64>() / normal.len() as f64, low, high]
 }
 
-/// Values without the gap between their ends, spread evenly over all rows.
+/// Removes the difference between both ends by distributing it evenly over all rows.
 fn without_gap(values: &[f64]) -> Vec<f64> {
     let gap = values.last().zip(values.first()).map_or(0.0, |(last, first)| last - first);
     let rows = values.len().saturating_sub(1).max(1) as f64;
     values.iter().enumerate().map(|(row, value)| value - gap * row as f64 / rows).collect()
 }
 
-/// With cycles between reversals before, between and after them: of growing and of shrinking amplitudes, that do not come back.
+/// Adds the cycles of growing or decreasing amplitude before, between and after closed cycles.
 fn with_changing(u: &[f64], cycles: &[Range<usize>]) -> Vec<Range<usize>> {
     let (low, high) = extent(u);
     let least = (SURE * noise(u)).max(LEAST * (high - low));
@@ -390,7 +392,7 @@ fn with_changing(u: &[f64], cycles: &[Range<usize>]) -> Vec<Range<usize>> {
         let (start, end) = (from.unwrap_or(0), next.map_or(last, |next| next.start));
         let inner = reversals(&u[start..=end], least).into_iter().map(|place| start + place);
         let mut places: Vec<usize> = inner.filter(|place| (start + 1..end).contains(place)).collect();
-        // What the record begins with is no reversal: it must have come there.
+        // The start of the record is a reversal only if the motion reversed there.
         if let Some(&first) = places.first().filter(|_| from.is_none()) {
             let (low, high) = extent(&u[start..=first]);
             if high - low <= least {
@@ -399,7 +401,7 @@ fn with_changing(u: &[f64], cycles: &[Range<usize>]) -> Vec<Range<usize>> {
         }
         places.splice(0..0, from);
         places.extend(next.map(|next| next.start));
-        // Of the kind of the ends, which are reversals themselves; else of that of the first.
+        // The ends of a closed cycle are reversals of one kind. Without one, the kind of the first reversal is used.
         let mut kind: Vec<usize> = match (from, next) {
             (None, Some(_)) => places.into_iter().rev().step_by(2).collect(),
             _ => places.into_iter().step_by(2).collect(),
@@ -412,7 +414,7 @@ fn with_changing(u: &[f64], cycles: &[Range<usize>]) -> Vec<Range<usize>> {
     all
 }
 
-/// Cycles whose ends noise has moved apart by less than a fifth of a cycle follow each other.
+/// Connects consecutive cycles whose gap is caused by noise.
 fn joined(mut cycles: Vec<Range<usize>>) -> Vec<Range<usize>> {
     for k in 1..cycles.len() {
         let (end, next) = (cycles[k - 1].end - 1, cycles[k].clone());
@@ -423,8 +425,10 @@ fn joined(mut cycles: Vec<Range<usize>>) -> Vec<Range<usize>> {
     cycles
 }
 
-/// The last cycle of contact `c` of a run, measured in the same way: its displacements, or those of a channel such as `rig.x`, its forces and quantities; none
-/// where none comes back, or there is no such channel.
+/// Evaluates the last cycle of contact `c` of a run like a measured one. Returns displacements, forces and results.
+///
+/// The displacements are those of the contact, or of a channel such as `rig.x`. Returns `None` without a closed cycle, or if the channel
+/// does not exist.
 #[must_use]
 pub fn simulated(
     job: &Job,
@@ -454,7 +458,9 @@ pub fn simulated(
     Some((last.x, last.y, cycle))
 }
 
-/// `cycles.csv` of measured loops; μ_e under a mean normal force, N, or else under that of each cycle. What a cycle does not have is left empty.
+/// Returns `cycles.csv` of measured loops. Missing values are empty.
+///
+/// μ_e is computed with the mean normal force `normal`, N, or with that of each cycle.
 #[must_use]
 pub fn table(cycles: &[MeasuredCycle], normal: Option<f64>) -> String {
     let mut text = HEAD.join(",") + "\n";
@@ -486,14 +492,14 @@ pub fn table(cycles: &[MeasuredCycle], normal: Option<f64>) -> String {
 }
 
 impl MeasuredCycle {
-    /// Energy coefficient of friction under a mean normal force, N, or else under its own.
+    /// Returns the energy coefficient of friction for a mean normal force, N, or for that of the cycle.
     #[must_use]
     pub fn friction(&self, normal: Option<f64>) -> Option<f64> {
         let own = self.normal.map(|[mean, ..]| mean).filter(|mean| *mean > 0.0);
         normal.or(own).and_then(|normal| self.cycle.friction_coefficient(normal))
     }
 
-    /// What is odd about it: `open`, a `load` that varies by more than a tenth of its mean, or `unloaded`.
+    /// Returns flags of the cycle: `open`, `load` (varies by more than a tenth of its mean) or `unloaded`.
     fn flags(&self) -> String {
         let is_unloaded = self.normal.is_some_and(|[mean, ..]| mean <= 0.0);
         let varies = self.normal.is_some_and(|[mean, low, high]| high - low > VARIES * mean.abs());
@@ -502,14 +508,14 @@ impl MeasuredCycle {
     }
 }
 
-/// The middle between the least and the largest value.
+/// Returns the mean of the minimum and the maximum.
 #[must_use]
 pub fn middle(values: &[f64]) -> f64 {
     let (low, high) = extent(values);
     low + 0.5 * (high - low)
 }
 
-/// A loop about the middle of its forces.
+/// Evaluates a loop with the force relative to the middle of its range.
 fn of_loop(u: &[f64], force: &[f64]) -> Result<Cycle, SeriesError> {
     let middle = middle(force);
     let force: Vec<f64> = force.iter().map(|force| force - middle).collect();

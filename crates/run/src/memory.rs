@@ -1,10 +1,10 @@
-//! Rows and events of a run in memory, by channel.
+//! Table of the rows and events of a run in memory.
 
 use crate::columns::Columns;
 use std::collections::HashMap;
 use stickslip_drive::{Channel, Event, Model, Record, state_name};
 
-/// Rows and events of a run, kept whole: hand it to a run as its record, or to a [`Recorder`](crate::Recorder).
+/// Rows and events of a run in memory. It is a [`Record`] for a run, or part of a [`Recorder`](crate::Recorder).
 ///
 /// ```no_run
 /// # use std::path::Path;
@@ -20,7 +20,7 @@ use stickslip_drive::{Channel, Event, Model, Record, state_name};
 #[derive(Debug, Clone, PartialEq)]
 pub struct Table {
     channels: Vec<Channel>,
-    /// Place of each column in a row of all channels.
+    /// Index of each column in a row of all channels.
     taken: Vec<usize>,
     places: HashMap<String, usize>,
     columns: Vec<Vec<f64>>,
@@ -28,13 +28,13 @@ pub struct Table {
 }
 
 impl Table {
-    /// An empty table of all channels of a model.
+    /// Creates an empty table of all channels of a model.
     #[must_use]
     pub fn new(model: &Model) -> Self {
         Self::of(&Columns::all(&model.channels()))
     }
 
-    /// An empty table of some columns.
+    /// Creates an empty table of some columns.
     #[must_use]
     pub fn of(columns: &Columns) -> Self {
         let (taken, channels): (_, Vec<Channel>) = columns.places().iter().cloned().unzip();
@@ -44,44 +44,44 @@ impl Table {
         Self { channels, taken, places, columns, events: Vec::new() }
     }
 
-    /// The same with room for so many rows.
+    /// Returns the table with capacity for `rows` rows.
     #[must_use]
     pub fn with_room(mut self, rows: usize) -> Self {
         self.columns.iter_mut().for_each(|column| column.reserve_exact(rows));
         self
     }
 
-    /// The channels, in the order of a row.
+    /// Returns the channels in the order of the columns.
     #[must_use]
     pub fn channels(&self) -> &[Channel] {
         &self.channels
     }
 
-    /// Values of a channel such as `slider.x_m`, in SI units, row by row; of a state its code.
+    /// Returns the values of a channel such as `slider.x_m`, in SI units. A state is given by its code.
     #[must_use]
     pub fn column(&self, name: &str) -> Option<&[f64]> {
         self.places.get(name).map(|place| self.columns[*place].as_slice())
     }
 
-    /// Words of a state such as `ball.state`, row by row.
+    /// Returns the words of a state channel such as `ball.state`. Returns `None` for other channels.
     pub fn states(&self, name: &str) -> Option<impl Iterator<Item = &'static str>> {
         let place = *self.places.get(name)?;
         self.channels[place].is_state.then(|| self.columns[place].iter().map(|code| state_name(*code)))
     }
 
-    /// Number of rows.
+    /// Returns the number of rows.
     #[must_use]
     pub fn rows(&self) -> usize {
         self.columns.first().map_or(0, Vec::len)
     }
 
-    /// All columns, in the order of the channels.
+    /// Returns all columns in the order of the channels.
     #[must_use]
     pub fn into_columns(self) -> Vec<Vec<f64>> {
         self.columns
     }
 
-    /// All events, in order.
+    /// Returns all events in order of time.
     #[must_use]
     pub fn events(&self) -> &[Event] {
         &self.events

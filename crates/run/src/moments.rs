@@ -1,4 +1,4 @@
-//! `fields.csv` and `friction.csv` read back: what there was over the radius, moment by moment and contact by contact.
+//! Reads `fields.csv` and `friction.csv`: quantities versus radius for each time and contact.
 
 use crate::frame::FrameError;
 use crate::limits::MOST_VALUES;
@@ -8,31 +8,31 @@ use crate::springs::spring_state;
 use stickslip_contact::SpringState;
 use stickslip_quantity::columns::{FIELDS, FRICTION};
 
-/// What there was of a contact at a moment, over the distance r from its axis.
+/// Quantities of a contact at one time as functions of the distance r from its axis.
 #[derive(Debug, Clone, PartialEq)]
 pub struct OverRadius {
     /// Name of the contact.
     pub contact: String,
-    /// Moment, s.
+    /// Time, s.
     pub time: f64,
-    /// Numbers column by column, as the table has them from r on; words are left out.
+    /// Numeric columns of the table from r on.
     pub columns: Vec<Vec<f64>>,
-    /// States, where the table has them.
+    /// Slip states, if the table has them.
     pub states: Vec<SpringState>,
 }
 
-/// Place of the states in `fields.csv`.
+/// Index of the column `state` in `fields.csv`.
 const STATE: usize = 8;
 
 /// Reads `fields.csv`: r, p, τ, u, slip, w.
 ///
 /// # Errors
-/// A file that cannot be read, other columns, or a cell that is not what it should be.
+/// The file cannot be read, has other columns, or contains an invalid cell.
 pub fn fields(table: &SealedTable) -> Result<Vec<OverRadius>, FrameError> {
     read(table, FIELDS.names, (STATE, true))
 }
 
-/// Reads `friction.csv`: r, work per area, way.
+/// Reads `friction.csv`: r, friction work per area, slip path.
 ///
 /// # Errors
 /// As [`fields`].

@@ -1,4 +1,4 @@
-//! What came of a run.
+//! Results of a run in memory.
 
 use crate::Watcher;
 use crate::excess::Excess;
@@ -14,46 +14,47 @@ use stickslip_measure::books::Books;
 use stickslip_measure::contact_cycles::{ContactCycles, JudgedCycle};
 use stickslip_measure::tally::Tally;
 
-/// What came of a run, all of it in memory.
+/// Results of a run in memory.
 pub struct Outcome {
-    /// Why it ended before its time.
+    /// Error that ended the run early.
     pub error: Option<RunError>,
-    /// The state at the end.
+    /// State at the end.
     pub state: State,
-    /// Series and events.
+    /// Time history and events.
     pub kept: Kept,
-    /// Energies.
+    /// Energy balance.
     pub(crate) books: Books,
-    /// What figures are taken from.
+    /// Evaluations during the run.
     pub(crate) tally: Tally,
     /// Cycles of each contact.
     pub(crate) cycles: Vec<ContactCycles>,
-    /// What became of its events: which are in the table, and in the series.
+    /// Numbers of events and of written events.
     pub events: TakenEvents,
-    /// What it kept in memory at its end that grows with the run: rows and events, steps and cycles, B.
+    /// Memory used at the end by data that grow with the run, B.
     pub bytes: usize,
     /// Number of rows of the trace.
     pub rows: u64,
-    /// Tables of which nothing could be written.
+    /// Names of tables that could not be written at all.
     pub absent: Vec<&'static str>,
-    /// Wall-clock time of the run alone, s.
+    /// Wall time of the simulation alone, s.
     pub wall: f64,
-    /// That it was ended because it kept more in memory than it may.
+    /// Excess of the memory limit, if it ended the run.
     pub excess: Option<Excess>,
-    /// Why something could not be written any further: the run has ended for that, and its tables may have ended before it.
+    /// First write error, which ended the run. The tables may end before the run.
     pub failure: Option<io::Error>,
-    /// Rows and events as tables would have them, where its recorder kept them.
+    /// Rows and events as in the tables, if the recorder stored them.
     pub table: Option<Table>,
 }
 
 impl Outcome {
-    /// The cycles of contact `c` that come back along u, in order, of a run in memory: one with tables has written them down and
-    /// keeps none.
+    /// Returns the cycles of contact `c` whose displacement u returns, in order of time.
+    ///
+    /// Only a run in memory stores them. A run with tables writes them instead.
     pub fn cycles(&self, c: usize) -> &[JudgedCycle] {
         self.cycles.get(c).map_or(&[], |cycles| &cycles.all)
     }
 
-    /// Lengths of the steps, m.
+    /// Returns the step lengths, m.
     pub fn step_lengths(&self) -> Vec<f64> {
         let strides = self.tally.strides();
         strides.map_or_else(Vec::new, |all| all.part(0..all.count()).map(|stride| stride.length()).collect())
@@ -61,29 +62,29 @@ impl Outcome {
 }
 
 impl Job {
-    /// Runs the job in memory: nothing is written, and `&()` watches nothing.
+    /// Runs the job in memory. Nothing is written. `&()` is a watcher without effect.
     pub fn run(&self, watcher: &dyn Watcher) -> Outcome {
         let (ended, recorder) = Ended::of(self, Recorder::new(self, watcher));
         ended.outcome(recorder.into_recorded()).0
     }
 
-    /// The same with all rows and events that its tables would have, in [`Outcome::table`], and with their fingerprint.
+    /// Runs the job in memory and stores its rows, events and fingerprint in [`Outcome::table`] and [`Outcome::kept`].
     pub fn run_with_table(&self, watcher: &dyn Watcher) -> Outcome {
         let (ended, recorder) = Ended::of(self, Recorder::new(self, watcher).with_table().fingerprinted());
         ended.outcome(recorder.into_recorded()).0
     }
 
-    /// Runs the job with a recorder that may write tables; returns those it wrote as well.
+    /// Runs the job with a recorder and returns the tables that it has written.
     ///
     /// # Errors
-    /// A table of which nothing can be written.
+    /// A table cannot be written at all.
     pub fn run_recorded(&self, recorder: Recorder<'_>) -> io::Result<(Outcome, Vec<Draft>)> {
         let (ended, recorder) = Ended::of(self, recorder);
         Ok(ended.outcome(recorder.finish()?))
     }
 }
 
-/// A run that has ended, still without what was recorded of it.
+/// End of a run without the recorded data.
 pub(crate) struct Ended {
     pub(crate) error: Option<RunError>,
     pub(crate) state: State,
@@ -99,7 +100,7 @@ impl Ended {
         (Self { error: result.err(), state, wall }, recorder)
     }
 
-    /// With what was recorded.
+    /// Combines the end of a run with its recorded data.
     pub(crate) fn outcome(self, recorded: Recorded) -> (Outcome, Vec<Draft>) {
         let Self { error, state, wall } = self;
         let Recorded {

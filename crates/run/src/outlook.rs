@@ -1,61 +1,66 @@
-//! What a drive would settle on, told before a run and beside it.
+//! Periodic orbit of a drive, as part of `info` and of the summary of a run.
 
 use schemars::JsonSchema;
 use serde::Serialize;
 use stickslip_quantity::Real;
 use stickslip_quantity::quantity;
 
-/// The motion of a drive that repeats itself every period, as whoever has looked for it tells it: `study` does.
+/// Result of the search for the periodic orbit. The crate `study` performs the search.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 #[serde(untagged)]
 pub enum Outlook {
-    /// It is there.
+    /// The orbit was found.
     Found(Repetition),
-    /// It was not found.
+    /// The orbit was not found.
     NotFound {
-        /// why it was not found at little cost, beside a run a fifth of its steps; the others are left out then
+        /// reason why the periodic orbit was not found. The search is limited, in a run to a fifth of its time steps.
+        /// All other keys of steady_motion are then absent.
         fault: String,
     },
 }
 
-/// A motion that repeats itself every period.
+/// Periodic orbit of a drive.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct Repetition {
-    /// displacement of the body of the figures along x in a period of the steady motion, [found directly](steady.md), as if waveforms
-    /// never ended
+    /// step length of the [periodic orbit](theory/periodic_orbits.md) with endless waveforms: displacement along x of
+    /// the body named in `figures` in one period of the orbit
     #[serde(rename = "step_m")]
     pub step: Real,
-    /// how far that step may be off: an estimate, [doubled](steady.md#bound)
+    /// uncertainty of the step length of the periodic orbit: a [first-order estimate,
+    /// doubled](theory/periodic_orbits.md#error-of-the-step-length)
     #[serde(rename = "step_error_m")]
     pub error: Real,
-    /// step over period
+    /// mean velocity of the periodic orbit: step length divided by period
     #[serde(rename = "speed_m_s")]
     pub speed: Real,
-    /// whether a run that is disturbed a little comes back to it; left out where a disturbance neither decays nor grows, of a
-    /// shakedown unless it grows, and where that is not known
+    /// whether small disturbances of the periodic orbit decay. Absent if unknown, if a multiplier has modulus 1 within
+    /// its error, or in a shakedown without growing disturbances.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub stable: Option<bool>,
-    /// periods of the figures' waveform in a period of the motion, which is the common one of all waveforms; left out where it
-    /// is 1
+    /// period of the orbit divided by the period of the waveform named in `figures`. All waveforms have this common
+    /// period. Absent if 1.
     #[serde(skip_serializing_if = "is_one")]
     pub periods: u64,
-    /// largest magnitude of a Floquet multiplier: what is left of a disturbance after a period
+    /// largest modulus of the Floquet multipliers: factor by which the slowest disturbance changes per period of the
+    /// orbit
     #[serde(rename = "largest_multiplier")]
     pub radius: Real,
-    /// drive periods in which the slowest disturbance oscillates once; left out where it does not oscillate
+    /// period of the oscillation of the slowest disturbance, in drive periods. Absent if it does not oscillate.
     #[serde(rename = "oscillation_periods", skip_serializing_if = "Option::is_none")]
     pub beat: Option<Real>,
-    /// drive periods in which that disturbance decays, or grows, by a factor of e: its time constant
+    /// time constant of the slowest disturbance, in drive periods: it decays or grows by a factor of e in this time.
+    /// Absent if the multiplier is 0 or has modulus 1.
     #[serde(rename = "time_constant_periods", skip_serializing_if = "Option::is_none")]
     pub fold: Option<Real>,
-    /// what becomes of that disturbance, in words
+    /// sentence about the slowest disturbance
     #[serde(rename = "text")]
     pub words: String,
-    /// contacts whose slip memory is no unknown of the Poincaré map: disturbances of what they remember may decay more slowly
+    /// contacts whose slip memory is not part of the Poincaré map. Disturbances of these memories may decay more slowly
+    /// than the multipliers show. Absent if there are none.
     #[serde(rename = "memories_not_in_map", skip_serializing_if = "Vec::is_empty")]
     pub carried: Vec<String>,
-    /// contacts that never slip grossly: the motion is one of a whole family, and what they slide in a period counts as its
-    /// error
+    /// contacts that never slip grossly, so that the orbit is one of a family. Their sliding per period is part of the
+    /// error. Absent if there are none.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub shaken_down: Vec<String>,
 }
@@ -66,20 +71,20 @@ fn is_one(periods: &u64) -> bool {
 }
 
 impl Repetition {
-    /// Whether there is a step, longer than it may be off.
+    /// Returns whether the step exceeds its error.
     #[must_use]
     pub fn steps(&self) -> bool {
         self.step.0.abs() > self.error.0
     }
 
-    /// The step in words: `1.2 µm a period`, or that there is none, where it is no longer than it may be off.
+    /// Returns the step in words, such as `1.2 µm a period`, or `no step` if it does not exceed its error.
     #[must_use]
     pub fn step_words(&self) -> String {
         step_words(self.step, self.error, self.periods)
     }
 }
 
-/// A step and how far it may be off, m, in so many periods of a drive, in words.
+/// Returns a step with its error, m, in a number of drive periods, in words.
 #[must_use]
 pub fn step_words(step: Real, error: Real, periods: u64) -> String {
     let each = if periods == 1 { "a period".to_owned() } else { format!("in {periods} periods") };
@@ -87,7 +92,7 @@ pub fn step_words(step: Real, error: Real, periods: u64) -> String {
         return "no step".to_owned();
     }
     if step.0.abs() <= error.0 {
-        return format!("no step, less than {} {each}", quantity(Real(step.0.abs() + error.0), "m"));
+        return format!("no step, below {} {each}", quantity(Real(step.0.abs() + error.0), "m"));
     }
     format!("{} ± {} {each}", quantity(step, "m"), quantity(error, "m"))
 }

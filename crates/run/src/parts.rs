@@ -1,19 +1,19 @@
-//! Things by name, as JSON has them.
+//! Maps from names to parts of a scenario, for JSON.
 
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::ser::SerializeMap;
 use serde::{Serialize, Serializer};
 use std::borrow::Cow;
 
-/// Things by name, in the scenario's order.
+/// Map from names to parts, in the order of the scenario.
 #[derive(Debug)]
 pub struct Parts<T>(
-    /// Name and thing.
+    /// Names and parts.
     pub Vec<(String, T)>,
 );
 
 impl<T> Parts<T> {
-    /// Whether there are none.
+    /// Returns whether the map is empty.
     pub(crate) fn is_empty(&self) -> bool {
         self.0.is_empty()
     }

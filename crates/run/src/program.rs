@@ -1,11 +1,11 @@
-//! The program that computes results, as they name it.
+//! Name and version of the program.
 
-/// Its name, whichever door was taken: results say what computed them, and that is the crates below all doors.
+/// Name of the program. It is the same for the command line, Python and Rust.
 pub const NAME: &str = "stickslip";
-/// Its version: all crates have one.
+/// Version of the program and of all its crates.
 pub const VERSION: &str = env!("CARGO_PKG_VERSION");
 
-/// Name and version of this program.
+/// Returns name and version of this program.
 pub fn this_program() -> String {
     format!("{NAME} {VERSION}")
 }

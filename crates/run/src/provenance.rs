@@ -1,4 +1,4 @@
-//! What a picture says about where it comes from, unseen.
+//! Metadata of plots: the origin of the data.
 
 use crate::job::Job;
 use crate::kept::Kept;
@@ -7,16 +7,16 @@ use crate::kept::Kept;
 pub const TITLE: &str = "Title";
 /// Key of the program that computed the results.
 pub const PROGRAM: &str = "Software";
-/// Key of the scenario's hash.
+/// Key of the hash of the scenario.
 pub const HASH: &str = "Scenario SHA-256";
 /// Key of the time reached.
 pub const END: &str = "Simulated/s";
-/// Key of the whole resolved scenario.
+/// Key of the resolved scenario.
 pub const SCENARIO: &str = "Scenario";
 /// Key of the fingerprint of the tables.
 pub const FINGERPRINT: &str = "Fingerprint";
 
-/// Where the pictures of a job's results come from: keys and texts.
+/// Returns the metadata of the plots of a job as pairs of keys and texts.
 pub fn provenance(job: &Job, kept: &Kept) -> Vec<(String, String)> {
     let (stepper, word, value) = job.stepper();
     let entries = [

@@ -1,4 +1,4 @@
-//! What a run leaves behind while it goes on: tables on disk, the rest in memory.
+//! Recorder of a run: tables on disk, other data in memory.
 
 mod tables;
 
@@ -20,61 +20,61 @@ use stickslip_measure::marks::Marks;
 use stickslip_measure::tally::Tally;
 use tables::{Closed, Tables};
 
-/// Writes rows, events and looks into the contacts as they come.
+/// Records rows, events and snapshots of a run.
 pub struct Recorder<'a> {
     job: &'a Job,
     watcher: &'a dyn Watcher,
     tables: Option<Tables<'a>>,
-    /// Rows and events as they are written, kept in memory.
+    /// Rows and events as they are written, if they are stored in memory.
     table: Option<Table>,
     recorded: Recorded,
-    /// What of it is written.
+    /// Selection of the written rows and events.
     selection: Selection,
     /// Time at which the run is stopped, s.
     until: f64,
-    /// What may be kept, B.
+    /// Memory limit, B.
     limit: Option<f64>,
-    /// Whether rows are wanted in a part of the run only.
+    /// Whether rows are written in a part of the run only.
     has_window: bool,
-    /// Whether cycles without a table stay in memory.
+    /// Whether cycles are stored in memory if there is no table.
     keeps_cycles: bool,
-    /// Where the figures are taken.
+    /// Sampling times of the evaluations.
     marks: Marks,
-    /// A look that was asked for already, s.
+    /// Time of a snapshot that has already been requested, s.
     asked: Option<f64>,
-    /// Scratch: cycles that a moment ends.
+    /// Buffer for cycles that end.
     ended: Vec<(usize, CycleFigures)>,
 }
 
-/// What was recorded, beside the tables.
+/// Recorded data without the tables.
 pub(crate) struct Recorded {
     pub kept: Kept,
-    /// Energies.
+    /// Energy balance.
     pub books: Books,
-    /// What figures are taken from.
+    /// Evaluations during the run.
     pub tally: Tally,
     /// Cycles of each contact.
     pub cycles: Vec<ContactCycles>,
-    /// What it kept in memory at its end that grows with the run, B.
+    /// Memory used at the end by data that grow with the run, B.
     pub bytes: usize,
-    /// What became of its events.
+    /// Numbers of events and of written events.
     pub events: TakenEvents,
     /// Number of rows of the trace.
     pub rows: u64,
-    /// Tables of which nothing could be written.
+    /// Names of tables that could not be written at all.
     pub absent: Vec<&'static str>,
-    /// The tables, where there are any.
+    /// Written tables.
     pub drafts: Vec<Draft>,
-    /// That more was kept than may be.
+    /// Excess of the memory limit, if it ended the run.
     pub excess: Option<Excess>,
-    /// Why something could not be written any further.
+    /// First write error.
     pub failure: Option<io::Error>,
-    /// Rows and events as they are written, where they were kept in memory.
+    /// Rows and events as they are written, if they were stored in memory.
     pub table: Option<Table>,
 }
 
 impl<'a> Recorder<'a> {
-    /// Keeps in memory what is wanted.
+    /// Creates a recorder that stores the requested data in memory.
     pub fn new(job: &'a Job, watcher: &'a dyn Watcher) -> Self {
         let channels = job.model.channels();
         let (kept, books) = (Kept::new(&channels, &job.scenario.plots), Books::new(&channels));
@@ -114,11 +114,10 @@ impl<'a> Recorder<'a> {
         }
     }
 
-    /// The same with tables in a folder. What grows with the run goes there: no rows are kept in memory but those that pictures
-    /// are drawn from.
+    /// Returns the recorder with tables in a folder. Only the rows that plots need are stored in memory.
     ///
     /// # Errors
-    /// A table that cannot be begun.
+    /// A table cannot be created.
     pub fn with_tables(mut self, folder: &Folder) -> io::Result<Self> {
         let tables = Tables::begin(self.job, folder, self.selection.has_state_numbers())?;
         self.recorded.kept = self.recorded.kept.for_pictures(&self.job.scenario.plots);
@@ -126,42 +125,43 @@ impl<'a> Recorder<'a> {
         Ok(Self { tables: Some(tables), ..self })
     }
 
-    /// The same with all rows and events that tables would have, kept in memory.
+    /// Returns the recorder with all rows and events of the tables stored in memory.
     pub fn with_table(self) -> Self {
         Self { table: Some(Table::of(&self.job.columns)), ..self }
     }
 
-    /// The same with a fingerprint of the tables, written or not.
+    /// Returns the recorder with a fingerprint of the tables, whether they are written or not.
     pub fn fingerprinted(mut self) -> Self {
         self.recorded.kept = self.recorded.kept.fingerprinted(self.job.columns.clone());
         self
     }
 
-    /// The same where nothing but the fingerprint is wanted: nothing that grows with the run is kept, and so nothing is bounded that
-    /// another recorder may have kept more or less of.
+    /// Returns the recorder for a run of which only the fingerprint is needed.
+    ///
+    /// Data that grow with the run are not stored, and the memory limit is not applied.
     ///
     /// # Errors
-    /// No file for the steps.
+    /// The temporary file for the strides cannot be created.
     pub fn only_fingerprinted(mut self) -> io::Result<Self> {
         self.recorded.kept = self.recorded.kept.for_pictures(&[]);
         self.recorded.tally.spill(tempfile::tempfile()?);
         Ok(Self { limit: None, keeps_cycles: false, ..self }.fingerprinted())
     }
 
-    /// The same for a run that is to stop at a time, s, at which an earlier one was stopped.
+    /// Returns the recorder for a run that stops at the time `until`, s, at which an earlier run was stopped.
     pub fn until(self, until: f64) -> Self {
         Self { until, ..self }
     }
 
-    /// Takes back the look that was asked for last, s; it is the next again.
+    /// Makes the last requested snapshot time the next one again, s.
     pub(crate) fn hand_back(&mut self, next: f64) {
         self.asked = Some(next).filter(|next| next.is_finite());
     }
 
-    /// Takes an event whose kind is given by its word; whether tables have it.
+    /// Adds an event with the name of its kind. Returns whether the tables contain it.
     pub(crate) fn event_named(&mut self, source: Source, kind: &str, values: &[f64]) -> bool {
         if kind == EventKind::Turn.name() {
-            // No law ends there: for the account of a period alone.
+            // No branch of the contact law ends here. The reversal is only needed for the period account.
             self.recorded.tally.account(Some((source, kind)), values);
             return false;
         }
@@ -173,7 +173,7 @@ impl<'a> Recorder<'a> {
             return false;
         }
         let values = self.selection.rounded(values);
-        // Names are for those who want them: of a hundred thousand runs in memory nobody reads one.
+        // Names are looked up only if they are needed.
         if self.tables.is_none() && !self.recorded.kept.wants_words() {
             self.recorded.kept.event(["", ""], values);
             return true;
@@ -187,7 +187,7 @@ impl<'a> Recorder<'a> {
         true
     }
 
-    /// Takes a moment that figures are taken at, and tells the cycles that it ends.
+    /// Adds a sample for the evaluations and records the cycles that it ends.
     fn moment(&mut self, values: &[f64], event: Option<Source>) {
         self.recorded.tally.moment(self.job, (values, event.is_some()), &mut self.ended);
         if !self.ended.is_empty() {
@@ -195,7 +195,7 @@ impl<'a> Recorder<'a> {
         }
     }
 
-    /// Tells the cycles that have ended.
+    /// Records the cycles that have ended.
     fn tell_cycles(&mut self) {
         for (c, figures) in self.ended.drain(..) {
             let contact = self.job.model.contacts().nth(c).zip(self.recorded.cycles.get_mut(c));
@@ -209,7 +209,7 @@ impl<'a> Recorder<'a> {
         }
     }
 
-    /// Tells what is known only at the end.
+    /// Completes the recorded data at the end of the run.
     fn end(&mut self) {
         self.ended = self.recorded.tally.finish(self.job);
         self.tell_cycles();
@@ -219,7 +219,7 @@ impl<'a> Recorder<'a> {
         self.recorded.kept.whole_until = self.recorded.events.whole_until;
     }
 
-    /// Ends a period of the figures, by its number.
+    /// Ends a period with this number.
     fn end_period(&mut self, number: u64) {
         let Some(stride) = self.recorded.tally.end_extents() else { return };
         if let Some(failure) = self.recorded.tally.take_failure() {
@@ -232,16 +232,15 @@ impl<'a> Recorder<'a> {
         }
     }
 
-    /// Ends the run, for something beside its tables cannot be written.
+    /// Stores a write error, which ends the run.
     pub(crate) fn fail(&mut self, failure: io::Error) {
         self.recorded.failure.get_or_insert(failure);
     }
 
-    /// Closes the tables. One that could not be written any further ends with its last whole block, and the failure is
-    /// told with what was recorded.
+    /// Closes the tables. After a write error a table ends with its last complete block. The error is part of the result.
     ///
     /// # Errors
-    /// A table of which nothing could be written.
+    /// A table cannot be written at all.
     pub(crate) fn finish(mut self) -> io::Result<Recorded> {
         if let Some(tables) = &mut self.tables {
             tables.release();
@@ -255,19 +254,19 @@ impl<'a> Recorder<'a> {
         Ok(self.recorded)
     }
 
-    /// What was recorded by a recorder without tables, which has nothing to fail at.
+    /// Returns the recorded data of a recorder without tables.
     pub(crate) fn into_recorded(mut self) -> Recorded {
         self.end();
         self.recorded
     }
 
-    /// What it keeps in memory that grows with the run, B.
+    /// Returns the memory used by data that grow with the run, B.
     fn bytes(&self) -> usize {
         let cycles = self.recorded.cycles.iter().map(|cycles| size_of_val(cycles.all.as_slice()));
         self.recorded.kept.bytes() + self.recorded.tally.bytes() + cycles.sum::<usize>()
     }
 
-    /// Whether it keeps no more than it may.
+    /// Returns whether the memory limit is kept.
     fn has_room(&mut self, t: f64) -> bool {
         let Some(limit) = self.limit else { return true };
         let kept = self.bytes() as f64;
@@ -277,7 +276,7 @@ impl<'a> Recorder<'a> {
         kept <= limit
     }
 
-    /// Whether something cannot be written any further.
+    /// Returns whether a write has failed.
     fn has_failed(&self) -> bool {
         self.recorded.failure.is_some() || self.tables.as_ref().is_some_and(Tables::has_failed)
     }
@@ -332,7 +331,7 @@ impl Record for Recorder<'_> {
 
     fn mark(&mut self, values: &[f64]) {
         if self.has_window {
-            // Rows outside are not there to be read: their place is taken by what is.
+            // Rows outside the window are missing, so the samples replace them.
             self.recorded.tally.row(values);
             self.recorded.books.read(values);
         }

@@ -1,4 +1,4 @@
-//! What was kept of a run, read back from its tables.
+//! Reconstruction of the recorded data of a run from its tables.
 
 use crate::columns::Columns;
 use crate::frame::FrameError;
@@ -10,17 +10,16 @@ use crate::states::state_code;
 use stickslip_drive::Channel;
 use stickslip_scenario::PlotName;
 
-/// What the last row of a trace shows.
+/// Meaning of the last row of a trace.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum LastRow {
-    /// The end that the run was to have, before the events of that moment.
+    /// Planned end of the run, before the events at this time.
     End,
-    /// Where the run stopped, after all events.
+    /// State at which the run stopped, after all events.
     Stop,
 }
 
-/// Reads the trace and the events as they were recorded: a row comes before the events of its own moment, for events end
-/// a step that has written its rows.
+/// Reads the trace and the events in the order of their recording. A row precedes the events at the same time.
 pub(crate) fn read(
     (trace, events): (&SealedTable, &SealedTable),
     columns: &Columns,
@@ -60,11 +59,11 @@ fn time(values: &[f64]) -> f64 {
     values.first().copied().unwrap_or(f64::NAN)
 }
 
-/// One of the tables.
+/// A table that is being read.
 struct Replay<'a> {
     rows: Rows,
     channels: &'a [Channel],
-    /// Number of columns of words after the time.
+    /// Number of text columns after the time.
     words: usize,
 }
 
@@ -77,7 +76,7 @@ impl<'a> Replay<'a> {
         Ok(Self { rows, channels, words: words.len() })
     }
 
-    /// Reads the channels of the next row; `false` after the last.
+    /// Reads the channels of the next row. Returns `false` after the last row.
     fn advance(&mut self, values: &mut Vec<f64>) -> Result<bool, ResultsError> {
         values.clear();
         if !self.rows.advance()? {
@@ -119,7 +118,7 @@ mod tests {
     use crate::record::Recorder;
     use std::path::Path;
 
-    /// A scenario of the examples with overrides: what is kept of its run, and what is read back.
+    /// Runs an example with overrides. Returns the recorded data and those read from the tables.
     fn kept_and_read(name: &str, set: &[(&str, &str)]) -> (Kept, Kept) {
         let root = tempfile::tempdir().unwrap();
         let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenarios").join(name);
@@ -141,7 +140,7 @@ mod tests {
     fn what_is_read_back_is_what_was_kept_also_where_rows_and_events_share_a_moment() {
         let jumps = ("waveforms.drive.sawtooth.flyback", "0");
         let cases: [(&str, &[(&str, &str)]); 5] = [
-            // Corners and rows at the same moments.
+            // Corners and rows at equal times.
             ("p1.json", &[("output.every", "0.1 ms")]),
             ("p1.json", &[("output.every", "0.1 ms"), jumps]),
             ("quickstart.json", &[("output.every", "1 ms"), ("run.limits.steps", "1500"), jumps]),

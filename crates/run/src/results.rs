@@ -1,4 +1,4 @@
-//! A folder of results read back: the job that was run, and what was kept of it.
+//! Reads a results folder: the job and the recorded data.
 
 use crate::complaint::words;
 use crate::files::{EVENTS, InsideTables, SCENARIO, TRACE};
@@ -17,56 +17,55 @@ use thiserror::Error;
 
 /// Results on disk.
 pub struct Results {
-    /// What was run.
+    /// Job of the run.
     pub job: Job,
-    /// What came of it.
+    /// Recorded data.
     pub kept: Kept,
-    /// Where the tables of the contacts' insides lie, if they were written.
+    /// Paths of the tables about the interior of contacts.
     pub insides: InsideTables,
 }
 
-/// Why a folder cannot be read as results.
+/// Error of reading a results folder.
 #[derive(Debug, Error)]
 pub enum ResultsError {
-    /// Its scenario.
+    /// The scenario is invalid.
     #[error("{error}{}", other_program(.program))]
     Scenario {
-        /// What is wrong with it.
+        /// Error of the scenario.
         error: Box<ScenarioError>,
-        /// The program that wrote it.
+        /// Program that wrote the results.
         program: String,
     },
-    /// Its summary.
+    /// The summary is missing or invalid.
     #[error(transparent)]
     Synopsis(#[from] SynopsisError),
-    /// A file that cannot be read at all.
+    /// A file cannot be read.
     #[error("{}: cannot be read: {}", .path.display(), words(.source))]
     Read {
-        /// Which file.
+        /// Path of the file.
         path: PathBuf,
-        /// What the system says.
+        /// Error of the operating system.
         source: io::Error,
     },
-    /// A scenario that is not the one of the results.
-    #[error("{}: was changed after the run: its SHA-256 is not that of the summary beside it\n   help: run it again, or draw other pictures with --plots", .0.display())]
+    /// The scenario file differs from the scenario of the run.
+    #[error("{}: was changed after the run: its SHA-256 differs from that in summary.json\n   help: run the scenario again, or draw other plots with --plots", .0.display())]
     Changed(PathBuf),
-    /// A damaged table.
+    /// A table is damaged.
     #[error("{source}{}", advice(.source))]
     Table {
-        /// Which, and how.
+        /// Error of the table.
         source: FrameError,
     },
-    /// A table without rows.
+    /// The trace has no rows.
     #[error("{}: has no rows", .0.display())]
     Empty(PathBuf),
 }
 
 impl Results {
-    /// Reads the results that a run wrote into a folder, with what pictures need: these, or where there are
-    /// none those of the scenario.
+    /// Reads a results folder with the data that the plots need. If `plots` is empty, these are the plots of the scenario.
     ///
     /// # Errors
-    /// A folder of something else, a file that cannot be read or was changed, a damaged table.
+    /// The folder contains no results, a file cannot be read or was changed, or a table is damaged.
     pub fn read(folder: &Path, plots: &[PlotName]) -> Result<Self, ResultsError> {
         let synopsis = Synopsis::read(folder)?;
         let mut job = job(folder, &synopsis)?;
@@ -77,7 +76,7 @@ impl Results {
         let last = if synopsis.text("/status") == "done" { LastRow::End } else { LastRow::Stop };
         let mut kept = replay::read(tables, &job.columns, (&job.scenario.plots, last))?;
         kept.whole_until = synopsis.number("/counts/events_whole_until_s");
-        // What was not written is not there; what is there must be a plain file that is sealed.
+        // Optional tables may be missing. Existing ones must be regular files with a seal.
         let optional = |name: &str| match folder.join(name) {
             path if path.exists() => match guard::open(&path) {
                 Ok(_) => Ok(synopsis.table(name)?),
@@ -88,13 +87,13 @@ impl Results {
         Ok(Self { job, kept, insides: InsideTables::find(optional)? })
     }
 
-    /// The program that computed the results, where it is another one.
+    /// Returns the program that computed the results, if it differs from this one.
     pub fn other_program(&self) -> Option<&str> {
         (self.job.program != this_program()).then_some(self.job.program.as_str())
     }
 }
 
-/// The job that was run, under the folder's name.
+/// Reads the job of the run. Its name is that of the folder.
 fn job(folder: &Path, synopsis: &Synopsis) -> Result<Job, ResultsError> {
     let of = |pointer: &str, key| match synopsis.text(pointer) {
         "" => Err(synopsis.lacks(key)),
@@ -110,25 +109,25 @@ fn job(folder: &Path, synopsis: &Synopsis) -> Result<Job, ResultsError> {
     if sealed != hash(&text) {
         return Err(ResultsError::Changed(path));
     }
-    // "." has a name, too.
+    // The path is resolved first, so that "." has a name.
     let place = folder.canonicalize().unwrap_or_else(|_| folder.to_owned());
     let name = place.file_name().map_or_else(String::new, |name| name.to_string_lossy().into_owned());
     let job = Job::new(scenario, name, folder.to_owned()).map_err(refused)?;
     Ok(job.with_origin(text, program))
 }
 
-/// What to try with a table of other columns.
+/// Returns advice for tables with unexpected columns.
 fn advice(error: &FrameError) -> &'static str {
     match error {
         FrameError::Head { .. } => {
-            "\n   help: the table is not of the scenario.json beside it, or of another version of the program; run the \
-             scenario again"
+            "\n   help: the table is not of the scenario.json in its folder, or another version of the \
+             program wrote it; run the scenario again"
         }
         _ => "",
     }
 }
 
-/// Another program may write what this one does not read.
+/// Returns a note if another program wrote the results. It may have written keys that this one does not know.
 fn other_program(program: &str) -> String {
     let this = this_program();
     if program == this { String::new() } else { format!("\n   note: written by {program}, this is {this}") }

@@ -1,7 +1,7 @@
-//! A table of results read row by row, for those too long to be held whole, and whoever wrote it.
+//! Row-by-row reader of a table of results.
 //!
-//! A table of ours has one line for each row and no line ends inside of cells. What is read is bounded whatever stands in
-//! the file: the bytes of a line and of a cell, the number of columns. At its end it is held against its seal.
+//! A table has one line per row, without line ends in cells. The sizes of lines, cells and columns are limited, because the file may come
+//! from an unknown source. At the end of the table, its seal is checked.
 
 use crate::frame::FrameError;
 use crate::guard;
@@ -10,31 +10,34 @@ use std::fs::File;
 use std::io::{BufRead, BufReader, Read};
 use std::path::PathBuf;
 
-/// Most bytes of a cell. The longest are names of columns: a name of 64 characters and a quantity.
+/// Maximum size of a cell, in bytes. The longest cells are column names: a name of 64 characters and a quantity.
 const MOST_CELL: usize = 1024;
-/// Most columns. Ten thousand bodies and as many contacts have 140 000.
+/// Maximum number of columns. Ten thousand bodies and as many contacts have 140 000.
 const MOST_COLUMNS: usize = 200_000;
-/// Most bytes of a line.
+/// Maximum size of a line, in bytes.
 const MOST_LINE: u64 = 16 << 20;
 
-/// An open table, at one of its rows.
+/// An open table at one of its rows.
 pub struct Rows {
     path: PathBuf,
     reader: BufReader<File>,
     digest: Option<(Digester, Seal)>,
     head: Vec<String>,
-    /// The bytes of the line, and its text; they differ where cells stand in quotes.
+    /// Bytes and text of the current line. They differ if cells are quoted.
     bytes: Vec<u8>,
     text: String,
-    /// Where the cells of the row end in the text, and the comma after them.
+    /// End of each cell in the text; a comma follows it.
     ends: Vec<usize>,
-    /// Line of the row, from 1, and the number of rows so far.
+    /// Line number of the current row, from 1, and the number of rows so far.
     line: u64,
     rows: u64,
 }
 
 impl Rows {
-    /// Opens a CSV with one line of names, before its first row.
+    /// Opens a CSV file with one heading line.
+    ///
+    /// # Errors
+    /// The file cannot be read, or the heading line is invalid.
     pub fn open(table: &SealedTable) -> Result<Self, FrameError> {
         let path = table.path.clone();
         let file = guard::open(&path).map_err(|source| FrameError::Read { path: path.clone(), source })?;
@@ -55,15 +58,15 @@ impl Rows {
         Ok(rows)
     }
 
-    /// Names of the columns.
+    /// Returns the column names.
     pub fn head(&self) -> &[String] {
         &self.head
     }
 
-    /// Goes on to the next row; `false` after the last.
+    /// Reads the next row. Returns `false` after the last row.
     ///
     /// # Errors
-    /// A file that cannot be read, a line that is no row of the table; at the end, a table that is not the sealed one.
+    /// The file cannot be read, a line is invalid, or the complete table does not match its seal.
     pub fn advance(&mut self) -> Result<bool, FrameError> {
         if !self.next_line()? {
             return self.check_seal().map(|()| false);
@@ -77,7 +80,7 @@ impl Rows {
         Ok(true)
     }
 
-    /// Goes on to the next line; `false` after the last.
+    /// Reads the next line. Returns `false` after the last line.
     fn next_line(&mut self) -> Result<bool, FrameError> {
         self.bytes.clear();
         let mut bounded = (&mut self.reader).take(MOST_LINE);
@@ -98,7 +101,7 @@ impl Rows {
         self.cut().map_err(|message| self.fault(message)).map(|()| true)
     }
 
-    /// Cuts the line into cells.
+    /// Splits the line into cells.
     fn cut(&mut self) -> Result<(), String> {
         self.text.clear();
         self.ends.clear();
@@ -106,7 +109,7 @@ impl Rows {
         if line.bytes().any(|byte| byte.is_ascii_control()) {
             return Err("has a control character".to_owned());
         }
-        // Before there is room for the ends of so many.
+        // The number is checked before memory is allocated.
         let cells = 1 + line.bytes().filter(|byte| *byte == b',').count();
         if cells > MOST_COLUMNS && !line.contains('"') {
             return Err(format!("expected at most {MOST_COLUMNS} cells, got {cells}"));
@@ -134,11 +137,11 @@ impl Rows {
         }
     }
 
-    /// Holds what was read against the seal.
+    /// Compares the number of rows and the digest with the seal.
     fn check_seal(&self) -> Result<(), FrameError> {
         let Some((digest, seal)) = &self.digest else { return Ok(()) };
         if self.rows != seal.rows {
-            let message = format!("expected {} rows, as summary.json says, got {}", seal.rows, self.rows);
+            let message = format!("expected {} rows by summary.json, got {}", seal.rows, self.rows);
             return Err(self.fault(message));
         }
         if digest.finish().1 != seal.sha256 {
@@ -147,7 +150,10 @@ impl Rows {
         Ok(())
     }
 
-    /// Fails where the columns are not these.
+    /// Checks the column names.
+    ///
+    /// # Errors
+    /// The columns differ from `names`.
     pub fn check_head(&mut self, names: &[&str]) -> Result<(), FrameError> {
         let head = |place: usize| self.head.get(place).map(String::as_str);
         let differs = (0..names.len().max(self.head.len())).find(|&i| head(i) != names.get(i).copied());
@@ -160,19 +166,22 @@ impl Rows {
         Err(FrameError::Head { path: self.path.clone(), place: place + 1, expected, got })
     }
 
-    /// What is wrong with the row; after the last, with that one.
+    /// Returns an error about the current row, or about the last row after the end.
     pub fn fault(&self, message: String) -> FrameError {
         FrameError::Content { path: self.path.clone(), line: self.line.max(1), message }
     }
 
-    /// A cell; empty where there is no such column.
+    /// Returns a cell; empty if the column does not exist.
     pub fn text(&self, column: usize) -> &str {
         let start = column.checked_sub(1).map_or(Some(0), |before| Some(self.ends.get(before)? + 1));
         let range = start.zip(self.ends.get(column)).map(|(start, end)| start..*end);
         range.and_then(|range| self.text.get(range)).unwrap_or_default()
     }
 
-    /// A cell as a number; `name` is that of its column.
+    /// Returns a cell as a number. `name` is the column name for errors.
+    ///
+    /// # Errors
+    /// The cell is not a number.
     pub fn number(&self, column: usize, name: &str) -> Result<f64, FrameError> {
         let text = self.text(column);
         text.parse().map_err(|_| FrameError::Number {
@@ -184,7 +193,7 @@ impl Rows {
     }
 }
 
-/// Cells of a line some of which stand in quotes (RFC 4180).
+/// Splits a line with quoted cells (RFC 4180).
 fn unquote(line: &str, text: &mut String, ends: &mut Vec<usize>) -> Result<(), String> {
     let mut rest = line;
     loop {
@@ -195,11 +204,11 @@ fn unquote(line: &str, text: &mut String, ends: &mut Vec<usize>) -> Result<(), S
                 &rest[end..]
             }
             Some(mut inside) => loop {
-                let end = inside.find('"').ok_or("a cell in quotes does not end in its line")?;
+                let end = inside.find('"').ok_or("a quoted cell does not end in its line")?;
                 text.push_str(&inside[..end]);
                 inside = &inside[end + 1..];
                 match inside.strip_prefix('"') {
-                    // Twice for one.
+                    // A doubled quote stands for one.
                     Some(more) => {
                         text.push('"');
                         inside = more;
@@ -212,7 +221,7 @@ fn unquote(line: &str, text: &mut String, ends: &mut Vec<usize>) -> Result<(), S
         match rest.strip_prefix(',') {
             Some(more) => rest = more,
             None if rest.is_empty() => return Ok(()),
-            None => return Err("expected a comma after a cell in quotes".to_owned()),
+            None => return Err("expected a comma after a quoted cell".to_owned()),
         }
         text.push(',');
     }
@@ -225,7 +234,7 @@ mod tests {
     use proptest::prelude::*;
     use tempfile::NamedTempFile;
 
-    /// The rows of a text, the names first, or what is said of it.
+    /// Returns the rows of a text, headings first, or the error message.
     fn rows(text: &[u8], seal: Option<Seal>) -> Result<Vec<Vec<String>>, String> {
         let file = NamedTempFile::new().unwrap();
         std::fs::write(file.path(), text).unwrap();
@@ -257,15 +266,14 @@ mod tests {
         let fault = |text: &str| rows(text.as_bytes(), None).unwrap_err();
         assert_eq!(fault("a,b\n1,2\n\n3\n"), "T:3  expected 2 cells like the first line, got 1");
         assert_eq!(fault("a\n1,2\n"), "T:2  expected 1 cell like the first line, got 2");
-        assert_eq!(fault("a,b\n1,\"2\n\""), "T:2  a cell in quotes does not end in its line");
-        assert_eq!(fault("a,b\n\"1\"2,3\n"), "T:2  expected a comma after a cell in quotes");
+        assert_eq!(fault("a,b\n1,\"2\n\""), "T:2  a quoted cell does not end in its line");
+        assert_eq!(fault("a,b\n\"1\"2,3\n"), "T:2  expected a comma after a quoted cell");
         assert_eq!(rows(b"a\n\xff\n", None).unwrap_err(), "T:2  is not UTF-8 text");
         assert_eq!(fault("a\n\u{1b}[2J\n"), "T:2  has a control character");
         assert_eq!(rows(b"", None), Ok(vec![vec![]]));
         assert_eq!(rows(b"a,\r\n1,2", None).unwrap()[1], ["1", "2"]);
     }
 
-    /// A word of 50 MB once took 100 s, and a line without end all memory.
     #[test]
     fn cells_columns_and_lines_have_an_end() {
         let fault = |text: String| rows(text.as_bytes(), None).unwrap_err();
@@ -283,10 +291,10 @@ mod tests {
         let seal = |text: &str, rows| Some(Seal { rows, sha256: hash(text) });
         assert!(rows(text.as_bytes(), seal(text, 2)).is_ok());
         let fewer = rows(b"a,b\n1,2\n", seal(text, 2)).unwrap_err();
-        assert_eq!(fewer, "T:2  expected 2 rows, as summary.json says, got 1");
+        assert_eq!(fewer, "T:2  expected 2 rows by summary.json, got 1");
         for other in ["a,b\n1,2\n3,5\n", "a,b\n1,2\n3,4", "a,c\n1,2\n3,4\n", "a,b\r\n1,2\n3,4\n"] {
             let changed = rows(other.as_bytes(), seal(text, 2)).unwrap_err();
-            assert!(changed.starts_with("T: is not the table that its run wrote"), "{changed}");
+            assert!(changed.starts_with("T: is not the table of its run"), "{changed}");
         }
     }
 }

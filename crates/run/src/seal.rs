@@ -1,4 +1,4 @@
-//! Seals: by them readers tell whether a table is the one that its run wrote, whole and unchanged.
+//! Row counts and SHA-256 of tables, by which readers detect incomplete or changed tables.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -6,21 +6,21 @@ use sha2::{Digest, Sha256};
 use std::fmt::Write;
 use std::path::PathBuf;
 
-/// What a summary says of a table beside it.
+/// Row count and SHA-256 of a table.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, JsonSchema, Deserialize)]
 pub struct Seal {
-    /// lines of the table, without its head
+    /// number of rows of the table, without the header
     pub rows: u64,
-    /// its SHA-256; readers refuse another
+    /// SHA-256 of the table. Commands that read the table reject another value.
     pub sha256: String,
 }
 
-/// A table on disk.
+/// Table file with its expected content.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct SealedTable {
-    /// Where it lies.
+    /// Path of the file.
     pub path: PathBuf,
-    /// Its seal; none while the run that writes it has no summary yet.
+    /// Row count and SHA-256. `None` while the run has no summary.
     pub seal: Option<Seal>,
 }
 
@@ -30,7 +30,7 @@ impl From<PathBuf> for SealedTable {
     }
 }
 
-/// A SHA-256 under way, with the number of bytes.
+/// Incremental SHA-256 with the number of bytes.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Digester {
     digest: Sha256,
@@ -43,13 +43,13 @@ impl Digester {
         self.length += bytes.len() as u64;
     }
 
-    /// Number of bytes, and their digest in hexadecimal digits.
+    /// Returns the number of bytes and their SHA-256 in hexadecimal digits.
     pub(crate) fn finish(&self) -> (u64, String) {
         (self.length, digits(&self.digest.clone().finalize()))
     }
 }
 
-/// SHA-256 of a text, in hexadecimal digits.
+/// Returns the SHA-256 of a text in hexadecimal digits.
 pub fn hash(text: &str) -> String {
     digits(&Sha256::digest(text.as_bytes()))
 }

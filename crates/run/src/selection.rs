@@ -1,51 +1,51 @@
-//! Which of the rows and events of a run are written, and with how many digits.
+//! Selection of the rows and events that are written, and rounding of their values.
 //!
-//! What is left out is left out of the tables, of the pictures and of their fingerprint alike: pictures drawn again from the tables
-//! are the same. Figures are taken from everything.
+//! Tables, plots and fingerprints contain the selected data only. Plots drawn again from the tables are therefore identical. Evaluations
+//! use all data.
 
 use std::fmt::Write;
 use stickslip_drive::{Channel, Source};
 use stickslip_scenario::{Written, WrittenEvents};
 
-/// Parts of the events before thinning that a block has: thinned events keep their neighbours.
+/// Number of blocks into which the events before thinning are divided. Thinned events are kept in whole blocks.
 const BLOCKS: u64 = 100;
 
-/// What is written of a run so far.
+/// Selection state of a run.
 pub(crate) struct Selection {
     written: Written,
-    /// Events of a kind and contact and time that are asked for.
+    /// Number of events within the window and of the selected kinds and contacts.
     asked: u64,
-    /// Those of them that were written.
+    /// Number of these events that were written.
     taken: u64,
-    /// All events.
+    /// Number of all events.
     seen: u64,
-    /// The last moment before that of the first event that was thinned out, s: those of one moment may be torn apart.
+    /// Last event time before the first event that was thinned out, s. Events at the same time may be written partly.
     whole_until: Option<f64>,
-    /// Time of the last event that was asked for, and of the last before that moment, s.
+    /// Time of the last selected event, and of the last one before this time, s.
     last: f64,
     before: f64,
-    /// Whether a channel is rounded.
+    /// Whether each channel is rounded.
     is_rounded: Vec<bool>,
-    /// Scratch: a rounded row, and a number in words.
+    /// Buffers for a rounded row and for a number as text.
     row: Vec<f64>,
     text: String,
 }
 
-/// What became of the events of a run.
+/// Numbers of events of a run.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct TakenEvents {
-    /// All of them.
+    /// Number of all events.
     pub seen: u64,
-    /// Those that were written.
+    /// Number of written events.
     pub taken: u64,
-    /// Where they were thinned, the time until which those asked for are there without a gap, s.
+    /// Time up to which the selected events are complete, s, if they were thinned.
     pub whole_until: Option<f64>,
 }
 
 impl Selection {
-    /// Nothing yet.
+    /// Creates a selection.
     pub(crate) fn new(written: Written, channels: &[Channel]) -> Self {
-        // Rounded times would fall together.
+        // The time is not rounded, because rounded times could coincide.
         let is_rounded = channels.iter().enumerate().map(|(place, channel)| place > 0 && !channel.is_state);
         Self {
             written,
@@ -61,18 +61,19 @@ impl Selection {
         }
     }
 
-    /// From when until when rows are wanted, s.
+    /// Returns the time window of the rows, s.
     pub(crate) fn window(&self) -> [f64; 2] {
         self.written.window
     }
 
-    /// Whether states are numbers.
+    /// Returns whether states are written as numbers.
     pub(crate) fn has_state_numbers(&self) -> bool {
         self.written.state_numbers
     }
 
-    /// Whether an event at a time, s, is written. What comes later has no part in that: a run that goes on from a checkpoint writes
-    /// what a whole one does.
+    /// Returns whether an event at time t, s, is written.
+    ///
+    /// The decision does not depend on later events. Therefore a resumed run writes the same events as an uninterrupted one.
     pub(crate) fn takes(&mut self, source: Source, kind: &str, t: f64) -> bool {
         self.seen += 1;
         let ([from, to], events) = (self.written.window, &self.written.events);
@@ -91,7 +92,7 @@ impl Selection {
         takes
     }
 
-    /// A row as it is written.
+    /// Returns the row with rounded values.
     pub(crate) fn rounded<'a>(&'a mut self, values: &'a [f64]) -> &'a [f64] {
         let Some(digits) = self.written.digits else { return values };
         let Self { is_rounded, row, text, .. } = self;
@@ -106,7 +107,7 @@ impl Selection {
         row
     }
 
-    /// What became of the events so far.
+    /// Returns the numbers of events so far.
     pub(crate) fn events(&self) -> TakenEvents {
         TakenEvents { seen: self.seen, taken: self.taken, whole_until: self.whole_until }
     }
@@ -121,9 +122,10 @@ fn is_asked(events: &WrittenEvents, source: Source, kind: &str) -> bool {
     of_kind && of_contact
 }
 
-/// Whether the event of a number, from 0, is written, where `most` are before they are thinned: all of these, and of the
-/// events from 2ᵏ `most` to 2ᵏ⁺¹ `most` one block of `most`/100 in 2ᵏ⁺¹. So a run of any length writes half as many more
-/// whenever it is twice as long.
+/// Returns whether the event with this number, from 0, is written. The first `most` events are all written.
+///
+/// Of the events from 2ᵏ `most` to 2ᵏ⁺¹ `most`, one block of `most`/100 in 2ᵏ⁺¹ is written. Doubling the number of events thus adds
+/// `most`/2 written events.
 fn is_taken(number: u64, most: u64) -> bool {
     if number < most {
         return true;
@@ -133,10 +135,10 @@ fn is_taken(number: u64, most: u64) -> bool {
     block.is_multiple_of(1 << (octave + 1).min(63))
 }
 
-/// How many of so many events are written, about.
+/// Returns the approximate number of written events.
 pub(crate) fn expected(events: f64, most: u64) -> f64 {
     let most = most as f64;
-    // Of none the logarithm is infinite.
+    // The logarithm would be infinite for 0.
     if most == 0.0 {
         0.0
     } else if events <= most {
@@ -146,10 +148,10 @@ pub(crate) fn expected(events: f64, most: u64) -> f64 {
     }
 }
 
-/// The number nearest to a value that has so many digits.
+/// Returns the value rounded to a number of significant digits.
 fn round(value: f64, digits: usize, text: &mut String) -> f64 {
     text.clear();
-    // Writing to a string cannot fail, and what is printed reads back.
+    // Writing to a string cannot fail, and the text is a valid number.
     let _ = write!(text, "{value:.*e}", digits.saturating_sub(1));
     text.parse().unwrap_or(value)
 }
@@ -167,12 +169,12 @@ mod tests {
         assert_eq!(taken.len(), 1000 + 10 * 500);
         let between = |from: u64, to: u64| taken.iter().filter(|number| (from..to).contains(number)).count();
         assert_eq!([between(1000, 2000), between(2000, 4000), between(512_000, 1_024_000)], [500; 3]);
-        // Neighbours stay together, ten by ten.
+        // Neighbours are kept in groups of ten.
         assert!(taken.chunks(10).all(|block| block[9] == block[0] + 9 && block[0] % 10 == 0));
         assert!((0..100).all(|number| is_taken(number, u64::MAX)) && is_taken(u64::MAX - 1, u64::MAX));
     }
 
-    /// Of three events of one moment, the second of which is thinned out, the first is there.
+    /// Of three events at one time, the second one is thinned out.
     #[test]
     fn a_moment_that_was_torn_apart_is_not_whole() {
         let until = |times: &[f64]| {
@@ -193,7 +195,7 @@ mod tests {
             selection.events().whole_until
         };
         let mut times: Vec<f64> = (0..110).map(f64::from).collect();
-        // The block of the hundredth, one event, is written, and the next is not.
+        // The block of the hundredth event, which is one event, is written; the next one is not.
         assert_eq!(until(&times), Some(100.0));
         times[101] = 100.0;
         assert_eq!(until(&times), Some(99.0));

@@ -1,52 +1,51 @@
-//! CSV files being written, field by field, and sealed.
+//! Writer of CSV files with seals.
 
 use crate::digest::Digest;
 use crate::seal::Seal;
 use std::io::{self, Seek, SeekFrom, Write};
 use tempfile::NamedTempFile;
 
-/// Bytes that are written, and hashed, at once.
+/// Size of a block that is written and hashed at once, in bytes.
 const BLOCK: usize = 1 << 16;
 
-/// Most bytes that are left for the end of a file, but for a last line that is longer than usual.
+/// Maximum size of the last block, in bytes, unless its last line is unusually long.
 pub(crate) const LAST_BLOCK: usize = BLOCK + BLOCK / 8;
 
-/// A CSV file being written. Its words and numbers are what a run with rows spends most of its time on: they go straight
-/// into one block, numbers without a look at what stands in them, and a block into the file and to its hash.
+/// Writer of a CSV file. Fields are written directly to a block, and blocks to the file and to the hash.
 ///
-/// A file that takes no more ends with its last whole block; what came after is lost, and said at the end.
+/// After a write error, the file ends with its last complete block. Later data are lost, and the error is returned at the end.
 pub(crate) struct Sheet<F = NamedTempFile> {
     file: F,
-    /// Whole lines, and the one that is being written. Every field ends with a comma; the last of a line becomes its end.
+    /// Complete lines and the current one. Every field ends with a comma; the last comma of a line becomes the line end.
     block: Vec<u8>,
     digits: zmij::Buffer,
-    /// Of what is in the file.
+    /// Digest of the written data.
     digest: Digest,
-    /// Lines below the names: in the file, and in the block.
+    /// Numbers of rows in the file and in the block.
     rows: [u64; 2],
     failure: Option<io::Error>,
-    /// Whether the file has taken a block.
+    /// Whether a block has been written.
     has_block: bool,
-    /// The first block and its lines, where the file has not taken even that.
+    /// The first block and its number of rows, if it could not be written.
     first: Option<(Vec<u8>, u64)>,
 }
 
-/// A file that can be cut.
+/// A file that can be truncated.
 pub(crate) trait Target: Write {
-    /// Leaves so many bytes of it.
+    /// Truncates the file to a length in bytes.
     fn cut(&mut self, length: u64) -> io::Result<()>;
 }
 
-/// A sheet that has come to its end.
+/// A complete sheet.
 pub(crate) struct Written<F = NamedTempFile> {
     pub(crate) file: F,
     pub(crate) seal: Seal,
-    /// Why it ends before its last line.
+    /// Write error that ended the table early.
     pub(crate) failure: Option<io::Error>,
 }
 
 impl<F: Target> Sheet<F> {
-    /// A sheet with a line of column names.
+    /// Creates a sheet with a line of column names.
     pub(crate) fn new<'a>(file: F, head: impl IntoIterator<Item = &'a str>) -> Self {
         let block = Vec::with_capacity(LAST_BLOCK);
         let digest = Digest::default();
@@ -74,7 +73,7 @@ impl<F: Target> Sheet<F> {
         self.block.push(b',');
     }
 
-    /// Writes a text, in quotes where it would be torn apart without them (RFC 4180).
+    /// Writes a text, with quotes if necessary (RFC 4180).
     #[inline(always)]
     pub(crate) fn text(&mut self, text: &str) {
         if text.bytes().any(|byte| matches!(byte, b',' | b'"' | b'\n' | b'\r')) {
@@ -84,11 +83,10 @@ impl<F: Target> Sheet<F> {
         }
     }
 
-    /// Writes a number.
+    /// Writes a number with the shortest digits that give the same value when read.
     #[inline(always)]
     pub(crate) fn number(&mut self, value: f64) {
-        // The shortest digits that read back to the same bits, several times faster than the standard library, whose
-        // printing took most of the time of a run with rows.
+        // This formatter is several times faster than that of the standard library.
         self.block.extend_from_slice(self.digits.format(value).as_bytes());
         self.block.push(b',');
     }
@@ -105,12 +103,12 @@ impl<F: Target> Sheet<F> {
         }
     }
 
-    /// Whether the file takes no more.
+    /// Returns whether a write has failed.
     pub(crate) fn has_failed(&self) -> bool {
         self.failure.is_some()
     }
 
-    /// Writes the block, all of it or nothing.
+    /// Writes the block completely or not at all.
     fn flush(&mut self, is_last: bool) {
         let rows = std::mem::take(&mut self.rows[1]);
         if self.failure.is_none() {
@@ -128,19 +126,19 @@ impl<F: Target> Sheet<F> {
                 }
             }
         }
-        // What a file without room has not taken is lost.
+        // Data after a write error are lost.
         self.block.clear();
     }
 
-    /// The written file.
+    /// Writes the last block and returns the file.
     ///
     /// # Errors
-    /// A file that does not take its first block now either, or cannot be cut where its last whole one ends.
+    /// The first block cannot be written, or the file cannot be truncated to its complete blocks.
     pub(crate) fn finish(mut self) -> io::Result<Written<F>> {
         self.flush(true);
         let is_cut = self.failure.is_some();
         if let Some((block, rows)) = self.first.take() {
-            // Room has been left for the end of each file: for this one its beginning is its end.
+            // The reserved disk space has been released, so the first block is written again.
             self.file.cut(0)?;
             self.file.write_all(&block)?;
             self.digest.take(block, true);
@@ -167,7 +165,7 @@ mod tests {
     use crate::seal::hash;
     use proptest::prelude::*;
 
-    /// A file on a disk that has room for so many bytes.
+    /// A file on a disk with limited space.
     struct Small {
         bytes: Vec<u8>,
         room: usize,
@@ -230,7 +228,7 @@ mod tests {
         assert_eq!(fill(length).unwrap().seal, whole.seal);
     }
 
-    /// A disk that was full at the first block of a table once took all others with it.
+    /// The first block of a table is written to the reserved space if the disk was full before.
     #[test]
     fn a_first_block_goes_where_room_was_left_for_the_end() {
         let mut sheet = Sheet::new(small(100), ["time_s", "ball.state"]);

@@ -1,4 +1,4 @@
-//! `springs.csv` read back: what the springs of each contact did over time.
+//! Reads `springs.csv`: slip states of the springs of each contact over time.
 
 use crate::frame::FrameError;
 use crate::rows::Rows;
@@ -7,23 +7,23 @@ use std::collections::HashMap;
 use stickslip_contact::SpringState;
 use stickslip_quantity::columns::SPRINGS;
 
-/// The springs of a contact.
+/// Slip states of the springs of one contact.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Springs {
     /// Name of the contact.
     pub contact: String,
-    /// Moments, s.
+    /// Times, s.
     pub time: Vec<f64>,
-    /// Places of the springs, m, the same at all moments.
+    /// Positions of the springs, m, equal at all times.
     pub x: Vec<f64>,
-    /// States, moment by moment.
+    /// Slip states of all springs, time by time.
     pub states: Vec<SpringState>,
 }
 
-/// Reads the table: one line per spring per moment.
+/// Reads the table, one line per spring and time.
 ///
 /// # Errors
-/// A file that cannot be read, other columns, or a line that does not fit those before it.
+/// The file cannot be read, has other columns, or contains an inconsistent line.
 pub fn read(table: &SealedTable) -> Result<Vec<Springs>, FrameError> {
     let mut rows = Rows::open(table)?;
     rows.check_head(SPRINGS.names)?;
@@ -54,7 +54,7 @@ impl Springs {
         Self { contact: contact.to_owned(), time: Vec::new(), x: Vec::new(), states: Vec::new() }
     }
 
-    /// Takes the next spring of the last moment. The first moment says where the springs are.
+    /// Adds the next spring at the last time. The first time determines the positions of the springs.
     fn push(&mut self, x: f64, state: SpringState, rows: &Rows) -> Result<(), FrameError> {
         if self.time.len() == 1 {
             self.x.push(x);
@@ -67,27 +67,24 @@ impl Springs {
             }
             Some(_) => {
                 let text = rows.text(2).escape_debug();
-                Err(rows.fault(format!("x_m: expected the places of the first moment, got {text}")))
+                Err(rows.fault(format!("x_m: expected the positions of the first time, got {text}")))
             }
-            None => Err(rows.fault(format!("x_m: expected {} springs at a moment, got more", self.x.len()))),
+            None => Err(rows.fault(format!("x_m: expected {} springs at each time, got more", self.x.len()))),
         }
     }
 
-    /// A moment has as many springs as the first one.
+    /// Checks that the last time has as many springs as the first one.
     fn check_whole(&self, rows: &Rows) -> Result<(), FrameError> {
         if self.states.len() == self.time.len() * self.x.len() {
             return Ok(());
         }
-        let message = format!(
-            "expected {} springs of \"{}\" at every moment",
-            self.x.len(),
-            self.contact.escape_debug()
-        );
+        let message =
+            format!("expected {} springs of \"{}\" at each time", self.x.len(), self.contact.escape_debug());
         Err(rows.fault(message))
     }
 }
 
-/// State of a spring by the word in a column.
+/// Returns the slip state for the word in a column.
 pub(crate) fn spring_state(rows: &Rows, column: usize) -> Result<SpringState, FrameError> {
     Ok(match rows.text(column) {
         "open" => SpringState::Open,

@@ -1,22 +1,22 @@
-//! States of contacts in tables: words, or the digits that stand for them.
+//! Contact states in tables, as words or digits.
 
 use stickslip_drive::state_name;
 
-/// The states: their codes in a row, and their digits.
+/// Codes of the states in a row, and their digits.
 const STATES: [(f64, &str); 4] = [(0.0, "0"), (1.0, "1"), (2.0, "2"), (3.0, "3")];
 
-/// The code for a word or a digit; none for another text.
+/// Returns the code of a word or digit. Returns `None` for other texts.
 pub(crate) fn state_code(text: &str) -> Option<f64> {
     let found = STATES.iter().find(|(code, digit)| text == *digit || text == state_name(*code));
     found.map(|(code, _)| *code)
 }
 
-/// The digit for a code.
+/// Returns the digit of a code.
 pub(crate) fn state_digit(code: f64) -> &'static str {
     STATES.iter().find(|(known, _)| *known == code).map_or("3", |(_, digit)| digit)
 }
 
-/// Digits and the words that they stand for.
+/// Returns all digits with their words.
 pub(crate) fn legend() -> Vec<(String, &'static str)> {
     STATES.iter().map(|(code, digit)| ((*digit).to_owned(), state_name(*code))).collect()
 }

@@ -1,4 +1,4 @@
-//! `steps.csv`: every step of a drive.
+//! `steps.csv`: all steps of a drive.
 
 use crate::sheet::{Sheet, Written};
 use std::io;
@@ -6,7 +6,7 @@ use stickslip_measure::Stride;
 use stickslip_quantity::columns::STEPS;
 use tempfile::NamedTempFile;
 
-/// The table as its run goes on.
+/// Writer of the table.
 pub(crate) struct StepsTable {
     sheet: Sheet,
     count: usize,
@@ -17,7 +17,7 @@ impl StepsTable {
         Self { sheet: Sheet::new(file, STEPS.names.iter().copied()), count: 0 }
     }
 
-    /// Writes the next step, that of a period between two times, s.
+    /// Writes the step of a period. The first argument is the start and the end of the period, s.
     pub(crate) fn write(&mut self, [start, end]: [f64; 2], stride: Stride) {
         self.count += 1;
         self.sheet.word(&self.count.to_string());
@@ -26,12 +26,12 @@ impl StepsTable {
         self.sheet.end_line();
     }
 
-    /// Whether its file takes no more.
+    /// Returns whether a write has failed.
     pub(crate) fn has_failed(&self) -> bool {
         self.sheet.has_failed()
     }
 
-    /// The written file; none of a drive without a whole period.
+    /// Returns the written file. Returns `None` if there was no whole period.
     pub(crate) fn finish(self) -> io::Result<Option<Written>> {
         if self.count == 0 { Ok(None) } else { self.sheet.finish().map(Some) }
     }

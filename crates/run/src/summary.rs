@@ -1,4 +1,4 @@
-//! `summary.json`: what a run came to, in numbers.
+//! `summary.json`: the results of a run.
 
 mod contacts;
 mod drivers;
@@ -39,76 +39,76 @@ pub(crate) use steps::flight;
 pub use steps::{DriveSummary, SettlingSummary, Steady, step_bounds};
 pub use stickslip_measure::contact_cycles::JudgedCycle;
 
-/// Most numbers that are not finite of which a note gives the names.
+/// Largest number of names in the note about values that are not finite.
 const NAMED: usize = 5;
-/// What to try where there is no room for the results.
-const UNWRITTEN_ADVICE: &str = "make room, choose another place with --out, or write fewer rows";
+/// Advice for a disk without space.
+const UNWRITTEN_ADVICE: &str = "free disk space, choose another folder with --out, or write fewer rows";
 
-/// The summary of a run. Everything but `timing` is the same whenever the same scenario is run.
+/// Summary of a run. Everything except `timing` is identical whenever the same scenario is run.
 #[derive(Debug, Serialize, JsonSchema)]
 pub struct Summary {
-    /// the scenario's
+    /// title of the scenario. Absent if it has none.
     #[serde(skip_serializing_if = "String::is_empty")]
     title: String,
     program: Program,
-    /// SHA-256 of scenario.json beside the summary
+    /// SHA-256 of scenario.json in the same folder
     scenario_sha256: String,
     stepper: Stepper,
-    /// `done`, `stopped` (by itself, before its time) or `interrupted`
+    /// end of the run: `done` (as planned), `stopped` (early, see error) or `interrupted` (by the user)
     pub status: Status,
-    /// Why the run did not come to its end, and what to try.
+    /// Reason of an early end, and advice.
     #[serde(skip_serializing_if = "Option::is_none")]
     error: Option<Stop>,
-    /// time reached
+    /// simulated time at the end of the run
     #[serde(rename = "simulated_s")]
     pub simulated: Real,
-    /// periods after which the run ended, as run.until_steady asked
+    /// number of periods after which run.until_steady ended the run. Absent if it did not.
     #[serde(rename = "steady_after_periods", skip_serializing_if = "Option::is_none")]
     pub steady_after: Option<usize>,
     counts: Counts,
-    /// what the number of a state of trace.csv and events.csv means, with output.states as numbers
+    /// meaning of the number of a contact state in trace.csv and events.csv. Absent unless output.states is `numbers`.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(extend("x-name" = "CODE"))]
     states: Option<Parts<&'static str>>,
-    /// By name.
+    /// Contacts by name.
     #[schemars(extend("x-name" = "CONTACT"))]
     pub contacts: Parts<ContactSummary>,
-    /// Steps of the drive; none without a free body driven by a periodic waveform.
+    /// Steps of the drive. Absent without a free body and a periodic waveform.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub steps: Option<DriveSummary>,
-    /// The motion that it would settle on if its waveforms never ended; whoever has looked for it tells.
+    /// Periodic orbit of the drive with endless waveforms, if the caller searched for it.
     #[serde(skip_serializing_if = "Option::is_none")]
     steady_motion: Option<Outlook>,
     energy: Balance,
-    /// Driver electronics by the names of their stacks.
+    /// Driver electronics by name of the stack.
     #[serde(skip_serializing_if = "Parts::is_empty")]
     #[schemars(extend("x-name" = "ACTUATOR"))]
     drivers: Parts<DriverSummary>,
-    /// What the results are not worth, and what is odd about their scenario; empty where there is nothing to say.
+    /// Warnings about the scenario and the results.
     pub warnings: Vec<Warning>,
-    /// what is missing, and why
+    /// missing results with the reason, and notes on numbers that are not finite
     #[serde(skip_serializing_if = "Vec::is_empty")]
     notes: Vec<String>,
-    /// files beside the summary
+    /// names of the files that the run wrote
     files: Vec<String>,
-    /// What the tables among them hold, by their names: readers refuse others.
+    /// Row counts and SHA-256 of the tables by file name. Readers reject a table that differs.
     #[serde(skip_serializing_if = "Parts::is_empty")]
     #[schemars(extend("x-name" = "FILE"))]
     tables: Parts<Seal>,
-    /// whether the tables end before the run did, for lack of room
+    /// true if the tables end before the run did, because a table could not be written further. Absent otherwise.
     #[serde(skip_serializing_if = "std::ops::Not::not")]
     cut: bool,
-    /// What differs from run to run.
+    /// Wall-clock times. They differ from run to run.
     timing: Timing,
 }
 
-/// How a run ended.
+/// End of a run.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum Status {
-    /// At its time, or when its steps had become constant, if it was to end then.
+    /// At the planned time, or when run.until_steady was satisfied.
     Done,
-    /// By itself, before its time.
+    /// Early, by an error or a limit.
     Stopped,
     /// By a signal.
     Interrupted,
@@ -116,37 +116,38 @@ pub enum Status {
 
 #[derive(Debug, Serialize, JsonSchema)]
 struct Program {
-    /// the program that computed the results
+    /// name of the program that computed the results
     name: &'static str,
-    /// its version
+    /// version of the program that computed the results
     version: &'static str,
 }
 
 #[derive(Debug, Serialize, JsonSchema)]
 struct Stepper {
-    /// the stepper that was taken
+    /// name of the time integrator (key run.stepper)
     name: &'static str,
-    /// its tolerance: local error per step, relative to the scales of the contacts
+    /// tolerance of the time integrator: local error per time step relative to the natural scales of the contacts
+    /// (contacts.NAME.scales). Absent for fixed time steps.
     #[serde(skip_serializing_if = "Option::is_none")]
     tolerance: Option<Real>,
-    /// its step, where that is fixed
+    /// fixed time step. Absent for adaptive time integrators.
     #[serde(rename = "step_s", skip_serializing_if = "Option::is_none")]
     step: Option<Real>,
 }
 
 #[derive(Debug, Serialize, JsonSchema)]
 struct Stop {
-    /// why the run stopped early
+    /// reason why the run ended early. Absent otherwise.
     message: String,
-    /// what to try
+    /// advice for avoiding the early end of the run. Absent otherwise.
     advice: &'static str,
 }
 
 impl Stop {
-    /// A disk without room ends a run in whatever words it is told to stop.
+    /// Returns the reason of an early end. A failed write takes precedence over everything else.
     fn of(outcome: &Outcome) -> Option<Self> {
         let unwritten = |failure: &io::Error| Self {
-            message: format!("the results could not be written any further: {}", words(failure)),
+            message: format!("the results could not be written completely: {}", words(failure)),
             advice: UNWRITTEN_ADVICE,
         };
         let stopped = |error: &RunError| Self { message: error.to_string(), advice: error.advice() };
@@ -158,41 +159,41 @@ impl Stop {
 
 #[derive(Debug, Serialize, JsonSchema)]
 struct Counts {
-    /// accepted steps
+    /// number of accepted time steps
     steps: u64,
-    /// steps whose error estimate missed the tolerance, taken again
+    /// number of rejected time steps: their error estimate exceeded the tolerance, and they were repeated
     rejected: u64,
-    /// evaluations of all forces
+    /// number of evaluations of the forces
     evaluations: u64,
-    /// located events
+    /// number of located events
     events: u64,
-    /// events in events.csv, where output.events, a window or thinning left some out, or rows of springs told of gross slip
-    /// that no event located
+    /// number of rows of events.csv. Absent if it equals the number of located events.
     #[serde(skip_serializing_if = "Option::is_none")]
     events_written: Option<u64>,
-    /// time until which events.csv has all that were asked for; ever fewer of those that follow
+    /// time until which events.csv has all requested events. Later events are thinned out. Absent if none are.
     #[serde(rename = "events_whole_until_s", skip_serializing_if = "Option::is_none")]
     events_whole_until: Option<Real>,
-    /// intervals of step doubling on the full force law, where events accumulated
+    /// number of intervals that were integrated by step doubling on the full force law, because events accumulated.
+    /// Absent if 0.
     #[serde(rename = "step_doublings", skip_serializing_if = "is_none")]
     detours: u64,
-    /// steps of these that missed the tolerance
+    /// number of time steps in step doubling that missed the tolerance. Absent if 0.
     #[serde(rename = "missed_tolerance", skip_serializing_if = "is_none")]
     missed: u64,
-    /// rows of trace.csv
+    /// number of rows of trace.csv
     rows: u64,
 }
 
-/// What is said of events that were thinned.
+/// Returns the note about events that were thinned out.
 fn thinned(events: TakenEvents) -> Option<String> {
     let TakenEvents { seen, taken, whole_until } = events;
     let whole = quantity(Real(whole_until?), "s");
     Some(format!(
-        "{EVENTS} has {taken} of {seen} events: all until {whole}, ever fewer of those that follow; output.events asks for more, or for none"
+        "{EVENTS} has {taken} of {seen} events: all until {whole}, then an increasingly thinned selection; set output.events to change this"
     ))
 }
 
-/// Whether nothing of a kind has happened.
+/// Returns whether a count is 0.
 #[allow(clippy::trivially_copy_pass_by_ref, reason = "the serialiser asks by reference")]
 fn is_none(count: &u64) -> bool {
     *count == 0
@@ -203,31 +204,31 @@ struct Timing {
     /// wall-clock time of the run
     #[serde(rename = "wall_s")]
     wall: Real,
-    /// simulated time over the wall-clock time of stepping
+    /// simulated time divided by the wall-clock time of the integration
     simulated_s_per_s: Real,
 }
 
 impl Summary {
-    /// Of each driver that a limit held back, for how much of the run.
+    /// Returns one sentence for each driver that a limit restricted, with the fraction of the time.
     pub fn driver_limits(&self) -> impl Iterator<Item = String> {
         self.drivers.0.iter().filter_map(|(name, driver)| driver.line(name))
     }
 
-    /// The summary of a run, still without its list of files.
+    /// Creates the summary of a run, without the list of files.
     pub fn new(job: &Job, outcome: &Outcome) -> Self {
         let mut notes = Vec::new();
         if outcome.kept.left_out > 0 {
             let left_out = outcome.kept.left_out;
-            notes.push(format!("{left_out} events found no room in memory: pictures are without them"));
+            notes.push(format!("{left_out} events did not fit into memory; plots are drawn without them"));
         }
         if outcome.tally.left_out() > 0 {
             let left_out = outcome.tally.left_out();
             notes.push(format!(
-                "{left_out} moments found no room in memory: cycles that they belong to are not told"
+                "{left_out} samples of loops did not fit into memory; their cycles are left out"
             ));
         }
         let unwritten = outcome.absent.iter();
-        notes.extend(unwritten.map(|name| format!("{name} is not there: nothing of it could be written")));
+        notes.extend(unwritten.map(|name| format!("{name} is missing: it could not be written")));
         let mut warnings = warning::of_scenario(job);
         warnings.extend(warning::of_run(job, outcome));
         let simulated = outcome.state.time();
@@ -235,7 +236,7 @@ impl Summary {
         let value_if = |wanted| (word == wanted).then_some(Real(value));
         let (counts, taken) = (outcome.state.counts(), outcome.events);
         notes.extend(thinned(taken));
-        // Of a row of springs the run located no gross slip that its record tells; steppers of fixed steps locate nothing.
+        // The record adds gross slip of rows of springs, which the run does not locate; fixed time steps locate nothing.
         let others = word == "tolerance" && taken.taken != counts.events;
         let drivers = drivers::of(job, &outcome.state);
         Self {
@@ -273,7 +274,7 @@ impl Summary {
         }
     }
 
-    /// Says what the drive would settle on. Steps that have settled on it are at least as far off as they are from it.
+    /// Sets the periodic orbit. The error of a steady step length then includes its distance from the orbit.
     pub fn set_outlook(&mut self, outlook: Option<Outlook>) {
         if let (Some(steps), Some(Outlook::Found(motion))) = (&mut self.steps, &outlook) {
             steps.compare(motion);
@@ -281,43 +282,43 @@ impl Summary {
         self.steady_motion = outlook;
     }
 
-    /// What the drive would settle on.
+    /// Returns the periodic orbit, if the caller searched for it.
     pub fn outlook(&self) -> Option<&Outlook> {
         self.steady_motion.as_ref()
     }
 
-    /// Says what is missing, and why.
+    /// Adds a note.
     pub fn note(&mut self, note: String) {
         self.notes.push(note);
     }
 
-    /// Names the files beside the summary.
+    /// Sets the list of files.
     pub fn set_files(&mut self, files: Vec<String>) {
         self.files = files;
     }
 
-    /// Says what the tables hold.
+    /// Sets row counts and SHA-256 of the tables.
     pub fn set_tables(&mut self, seals: Vec<(String, Seal)>) {
         self.tables = Parts(seals);
     }
 
-    /// Why the run did not come to its end, and what to try.
+    /// Returns reason and advice if the run ended early.
     pub fn stop(&self) -> Option<(&str, &'static str)> {
         self.error.as_ref().map(|stop| (stop.message.as_str(), stop.advice))
     }
 
-    /// The notes for the terminal: on events that were thinned without having been asked to be, and why no step is reported.
+    /// Returns the notes for the terminal: that events were thinned out, and why no step is reported.
     pub fn printed_notes(&self) -> impl Iterator<Item = &str> {
         let is_printed = |note: &&str| note.starts_with(EVENTS) || note.starts_with(steps::NO_STEP);
         self.notes.iter().map(String::as_str).filter(is_printed)
     }
 
-    /// The files beside the summary.
+    /// Returns the list of files.
     pub fn files(&self) -> &[String] {
         &self.files
     }
 
-    /// As JSON for people and machines.
+    /// Returns indented JSON.
     pub fn pretty(&self) -> io::Result<String> {
         let text = serde_json::to_string_pretty(self)?;
         Ok(match self.noted(&text)? {
@@ -326,15 +327,15 @@ impl Summary {
         } + "\n")
     }
 
-    /// As JSON in one line.
+    /// Returns JSON in one line.
     pub fn line(&self) -> io::Result<String> {
         let text = serde_json::to_string(self)?;
         Ok(self.noted(&text)?.map_or(text, |noted| noted.to_string()))
     }
 
-    /// The same with a note where numbers are not finite; none where all are.
+    /// Returns the summary with a note about values that are not finite. Returns `None` if all are finite.
     fn noted(&self, text: &str) -> io::Result<Option<Value>> {
-        // A name may have the word as well.
+        // A name may contain the word, too.
         if !text.contains("null") {
             return Ok(None);
         }
@@ -355,7 +356,7 @@ impl Summary {
     }
 }
 
-/// Names of all that is null, such as `steps.steady.step_m`.
+/// Collects the paths of all values that are null, such as `steps.steady.step_m`.
 fn nulls(name: String, value: &Value, names: &mut Vec<String>) {
     let dot = if name.is_empty() { "" } else { "." };
     match value {

@@ -1,4 +1,4 @@
-//! The summary of a folder of results, read back: what it says of the files beside it.
+//! Reads the summary of a results folder with the seals of its tables.
 
 use crate::checkpoint;
 use crate::complaint::words;
@@ -11,80 +11,83 @@ use std::io;
 use std::path::{Path, PathBuf};
 use thiserror::Error;
 
-/// What is said of anything else, by all who read results.
+/// Error text for folders without results.
 pub const NO_RESULTS: &str = "expected a folder of results, as `stickslip run` writes one for each scenario";
 
-/// Most bytes of a name or word in a summary.
+/// Maximum size of a name or word in a summary, in bytes.
 const MOST_WORD: usize = 1024;
-/// Most bytes of the names of all its values: a million periods have 24 million, ten thousand contacts 30 million.
+/// Maximum total size of the full names of all values, in bytes.
 const MOST_NAMES: usize = 128 << 20;
 
-/// What a summary says.
+/// Contents of a summary.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Synopsis {
     folder: PathBuf,
-    /// All of it.
+    /// The JSON value.
     pub summary: Value,
 }
 
-/// Why a folder has no summary that could be read.
+/// Error of reading a summary.
 #[derive(Debug, Error)]
 pub enum SynopsisError {
-    /// It is no folder, or of something else.
+    /// The folder does not exist or contains no results.
     #[error("{}: {NO_RESULTS}", .0.display())]
     NoResults(PathBuf),
-    /// Its run did not come to give its files their names, or is under way.
-    #[error("{}: there are no results: a run was ended before it had published them, or is under way\n   help: {}", .0.display(), again(.0))]
+    /// The run is in progress, or was killed before its results were published.
+    #[error("{}: no results: the run was killed before it published them, or is still running\n   help: {}", .0.display(), again(.0))]
     Unpublished(PathBuf),
-    /// Its run was ended while it gave its files their names.
-    #[error("{}: incomplete: a run was ended while its results were published\n   help: {}", .0.display(), again(.0))]
+    /// The run was killed while its results were published.
+    #[error("{}: incomplete: the run was killed while it published its results\n   help: {}", .0.display(), again(.0))]
     Incomplete(PathBuf),
-    /// A summary that cannot be read.
+    /// The file cannot be read.
     #[error("{}: cannot be read: {}", .path.display(), words(.source))]
     Read {
-        /// Which file.
+        /// Path of the file.
         path: PathBuf,
-        /// What the system or the reader says.
+        /// Cause.
         source: io::Error,
     },
-    /// A summary of something else.
-    #[error("{}: is no summary of a run: there is no {key}", .path.display())]
+    /// The file is not the summary of a run.
+    #[error("{}: is not the summary of a run: {key} is missing", .path.display())]
     NoSummary {
-        /// Which file.
+        /// Path of the file.
         path: PathBuf,
-        /// What it should have.
+        /// Missing key.
         key: &'static str,
     },
-    /// A summary of words that no run has.
+    /// The summary contains names or words that no run writes.
     #[error("{}: {message}", .path.display())]
     Words {
-        /// Which file.
+        /// Path of the file.
         path: PathBuf,
-        /// What is wrong with them.
+        /// Description of the error.
         message: String,
     },
-    /// A summary without seals.
-    #[error("{}: does not say what is in {name}: an older version of the program has written it, or it was changed\n   help: run the scenario again", .path.display())]
+    /// The summary has no seal of a table.
+    #[error("{}: has no checksum of {name}: an older version of the program wrote this file, or it was changed\n   help: run the scenario again", .path.display())]
     NoSeal {
-        /// Which file.
+        /// Path of the file.
         path: PathBuf,
-        /// The table.
+        /// Name of the table.
         name: String,
     },
 }
 
-/// How a folder gets its results.
+/// Returns advice on completing the results of a folder.
 fn again(folder: &Path) -> String {
     let resume = if checkpoint::exists(folder) {
-        format!(", or go on from its checkpoint with `stickslip run --resume {}`", folder.display())
+        format!(", or resume it from its checkpoint with `stickslip run --resume {}`", folder.display())
     } else {
         String::new()
     };
-    format!("run it again{resume}")
+    format!("run the scenario again{resume}")
 }
 
 impl Synopsis {
-    /// Reads the summary in a folder. Without one no other file there is worth a look.
+    /// Reads the summary of a folder.
+    ///
+    /// # Errors
+    /// The summary is missing, unreadable or invalid.
     pub fn read(folder: &Path) -> Result<Self, SynopsisError> {
         let path = folder.join(SUMMARY);
         match guard::json(&path) {
@@ -101,43 +104,46 @@ impl Synopsis {
         }
     }
 
-    /// Which file it is.
+    /// Returns the path of the summary.
     pub fn path(&self) -> PathBuf {
         self.folder.join(SUMMARY)
     }
 
-    /// A text by JSON pointer; empty where there is none.
+    /// Returns a string by its JSON pointer; empty if it does not exist.
     pub fn text(&self, pointer: &str) -> &str {
         self.summary.pointer(pointer).and_then(Value::as_str).unwrap_or_default()
     }
 
-    /// A number by JSON pointer.
+    /// Returns a number by its JSON pointer.
     pub fn number(&self, pointer: &str) -> Option<f64> {
         self.summary.pointer(pointer).and_then(Value::as_f64)
     }
 
-    /// A count by JSON pointer.
+    /// Returns a count by its JSON pointer.
     pub fn count(&self, pointer: &str) -> Option<u64> {
         self.summary.pointer(pointer).and_then(Value::as_u64)
     }
 
-    /// Whether it says yes to something, in so many words.
+    /// Returns whether a key has the value `true`.
     pub fn says(&self, key: &str) -> bool {
         self.summary.get(key).and_then(Value::as_bool).unwrap_or(false)
     }
 
-    /// Refuses a summary of something else.
+    /// Returns the error that a key is missing.
     pub fn lacks(&self, key: &'static str) -> SynopsisError {
         SynopsisError::NoSummary { path: self.path(), key }
     }
 
-    /// Names of the tables that it seals.
+    /// Returns the names of the tables with seals.
     pub fn tables(&self) -> impl Iterator<Item = &str> {
         let tables = self.summary.get("tables").and_then(Value::as_object);
         tables.into_iter().flatten().map(|(name, _)| name.as_str())
     }
 
-    /// A table beside it, with its seal.
+    /// Returns the path and the seal of a table.
+    ///
+    /// # Errors
+    /// The summary has no seal of the table.
     pub fn table(&self, name: &str) -> Result<SealedTable, SynopsisError> {
         let seal = self.summary.get("tables").and_then(|tables| tables.get(name));
         let seal: Option<Seal> = seal.and_then(|seal| serde_json::from_value(seal.clone()).ok());
@@ -146,12 +152,12 @@ impl Synopsis {
     }
 }
 
-/// Tables that runs write, beside those of the insides.
+/// Tables that runs write, without those about the interior of contacts.
 const SEALED: [&str; 4] = [TRACE, EVENTS, CYCLES, STEPS];
 
-/// What is wrong with what is told of a summary: a version, a status, the name of a contact.
+/// Returns a description of invalid names or words in a summary. Returns `None` if there are none.
 fn fault(summary: &Value) -> Option<String> {
-    // Sentences of the run and its title are not told.
+    // These keys are not printed by other commands, so they are not checked.
     const UNTOLD: [&str; 3] = ["title", "error", "notes"];
     let mut words = Words::default();
     let entries = summary.as_object().into_iter().flatten();
@@ -159,32 +165,33 @@ fn fault(summary: &Value) -> Option<String> {
         .filter(|(key, _)| !UNTOLD.contains(&key.as_str()))
         .for_each(|(key, value)| words.read(key, value, 0));
     let tables = summary.get("tables").and_then(Value::as_object).into_iter().flatten();
-    // Files anywhere else are none of a stranger's business.
+    // Only known tables are allowed, so that no path outside of the folder is read.
     let unknown =
         tables.map(|(name, _)| name).find(|name| !SEALED.iter().chain(&INSIDES).any(|known| known == name));
     if words.has_control {
-        Some("has control characters in its names or words".to_owned())
+        Some("has control characters in names or words".to_owned())
     } else if words.longest > MOST_WORD {
         Some(format!("has a name or word of {} bytes, expected at most {MOST_WORD}", words.longest))
     } else if words.names > MOST_NAMES {
-        Some(format!("the full names of its figures have more than {MOST_NAMES} bytes"))
+        Some(format!("the full names of its results have more than {MOST_NAMES} bytes"))
     } else {
-        unknown.map(|name| format!("seals a table \"{}\" that no run writes", name.escape_debug()))
+        unknown
+            .map(|name| format!("has a checksum of a table \"{}\" that no run writes", name.escape_debug()))
     }
 }
 
-/// The names and words of a summary.
+/// Properties of the names and words of a summary.
 #[derive(Debug, Default)]
 struct Words {
     has_control: bool,
-    /// Bytes of the longest.
+    /// Size of the longest one, in bytes.
     longest: usize,
-    /// Bytes of the names of all values, such as `steps.steady.step_m`.
+    /// Total size of the full names of all values, such as `steps.steady.step_m`, in bytes.
     names: usize,
 }
 
 impl Words {
-    /// Takes a value whose name has the name of what it is part of, so many bytes, before it.
+    /// Adds a value and all values in it. `before` is the size of the name prefix, in bytes.
     fn read(&mut self, name: &str, value: &Value, before: usize) {
         self.word(name);
         let before = before + name.len() + 1;
@@ -203,11 +210,11 @@ impl Words {
     }
 }
 
-/// What there is instead.
+/// Returns the error for a folder without a summary.
 fn absent(folder: &Path) -> SynopsisError {
     let names = [&[TRACE, EVENTS, SCENARIO][..], &INSIDES].concat();
     let folder = folder.to_owned();
-    // A scenario may lie beside anything.
+    // A scenario file alone does not indicate results.
     if [TRACE, EVENTS].iter().any(|name| folder.join(name).exists()) {
         SynopsisError::Incomplete(folder)
     } else if folder::has_drafts(&folder, &names) || checkpoint::exists(&folder) {
@@ -217,10 +224,10 @@ fn absent(folder: &Path) -> SynopsisError {
     }
 }
 
-/// Refuses a folder of results without a summary; one of something else is none of this.
+/// Checks that the results of a folder were published completely. Folders without results are accepted.
 ///
 /// # Errors
-/// Results whose run was ended while they were published.
+/// The run was killed while its results were published.
 pub fn check_published(folder: &Path) -> Result<(), SynopsisError> {
     match absent(folder) {
         error @ SynopsisError::Incomplete(_) if !folder.join(SUMMARY).exists() => Err(error),

@@ -1,4 +1,4 @@
-//! Tables as CSV: `trace.csv` and `events.csv`.
+//! Writer of the CSV tables `trace.csv` and `events.csv`.
 
 use crate::columns::Columns;
 use crate::sheet::{Sheet, Written};
@@ -7,16 +7,16 @@ use std::io;
 use stickslip_drive::state_name;
 use tempfile::NamedTempFile;
 
-/// A table being written.
+/// A table that is being written.
 pub(crate) struct Table {
     sheet: Sheet,
     columns: Columns,
-    /// Whether states are numbers.
+    /// Whether states are written as numbers.
     states: bool,
 }
 
 impl Table {
-    /// A table with `extra` columns of text after the time; `states` are numbers, or else words.
+    /// Creates a table with `extra` text columns after the time. `states` selects numbers instead of words for states.
     pub(crate) fn new(file: NamedTempFile, columns: Columns, extra: &[&str], states: bool) -> Self {
         let mut names = columns.names();
         let time = names.next();
@@ -24,7 +24,7 @@ impl Table {
         Self { sheet, columns, states }
     }
 
-    /// Writes a row: the chosen of all channels' `values`, with the texts after the time.
+    /// Writes a row from the `values` of all channels, with the texts after the time.
     pub(crate) fn write(&mut self, extra: &[&str], values: &[f64]) {
         for (i, (place, channel)) in self.columns.places().iter().enumerate() {
             let value = values.get(*place).copied().unwrap_or(f64::NAN);
@@ -42,12 +42,12 @@ impl Table {
         self.sheet.end_line();
     }
 
-    /// Whether its file takes no more.
+    /// Returns whether a write has failed.
     pub(crate) fn has_failed(&self) -> bool {
         self.sheet.has_failed()
     }
 
-    /// The written file.
+    /// Returns the written file.
     pub(crate) fn finish(self) -> io::Result<Written> {
         self.sheet.finish()
     }

@@ -1,11 +1,10 @@
-//! What the theory says of one contact of a scenario, without a run: section 4.4 of the handbook, answered.
+//! Solution of one contact of a scenario without a run, by section 4.4 of the handbook.
 //!
-//! In reading order: [`Subject`] (which contact); [`Sheet`] (its constants and curves) with [`Loading`] (one first loading:
-//! nine ways to ask for it); [`History`] (where it is to go) and [`Walk`] (what happens on the way: forces, fields, springs,
-//! friction); [`write()`] (all that as files).
+//! In reading order: [`Subject`] (the contact); [`Sheet`] (its constants and curves) with [`Loading`] (one first
+//! loading); [`History`] (a load history) and [`Walk`] (forces, fields, springs and friction work along it);
+//! [`write()`] (the files).
 //!
-//! It is the profile's law on the exact curve, whatever engine the scenario names: a row of springs differs from it by the size
-//! of its cells.
+//! All values follow from the exact memory curve, even if the scenario selects a row of springs.
 
 mod history;
 mod loading;
@@ -25,11 +24,10 @@ pub use walk::{Frame, FrictionCourse, FrictionStep, Moment, Stop, Walk};
 pub(crate) use write::LINE_WIDTH;
 pub use write::{Beside, CONTACT, TABLES, json, table_files, write};
 
-/// How far fields, springs and profiles are shown where nothing else is asked for, of the largest contact radius: the surface is
-/// displaced beyond the contact, too.
+/// Default extent of fields, springs and profiles, relative to the largest contact radius.
 pub const BEYOND: f64 = 1.5;
 
-/// What every key of `contact.json` and every column of the tables beside it is.
+/// Returns the definitions of all keys of `contact.json` and of all columns of the tables with it.
 #[must_use]
 pub fn definitions() -> Vec<stickslip_quantity::Definition> {
     let tables = TABLES.iter().flat_map(stickslip_quantity::Columns::definitions);

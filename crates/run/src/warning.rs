@@ -1,7 +1,7 @@
-//! What a run or its scenario is not worth: said on stderr and in the `warnings` of `summary.json`.
+//! Warnings about a run or its scenario, printed on stderr and stored in the `warnings` of `summary.json`.
 //!
-//! Whoever finds something pushes a [`Warning`] into the list that [`Summary::new`](crate::Summary::new) collects; the program
-//! prints the list and, with `--strict`, lets no result pass that has one of its own.
+//! Modules add a [`Warning`] to the list that [`Summary::new`](crate::Summary::new) collects. The program prints the list. With `--strict`,
+//! a run with warnings counts as failed.
 
 use crate::job::Job;
 use crate::outcome::Outcome;
@@ -13,16 +13,17 @@ use stickslip_measure::{Warning, books};
 use stickslip_quantity::Real;
 use stickslip_quantity::quantity;
 
-/// Most contacts that a warning names.
+/// Maximum number of contacts that a warning names.
 const MOST: usize = 3;
 
-/// All that `check` warns of.
+/// Returns the warnings that the command `check` prints.
 pub fn of_check(job: &Job) -> Vec<Warning> {
     job.warnings().iter().map(Warning::of_odd).collect()
 }
 
-/// What is odd about the scenario of a job, by path: the same of a scenario and of what it is written out in full, which a
-/// resumed run reads.
+/// Returns the warnings about the scenario of a job, sorted by key.
+///
+/// Warnings about the wording of the file are omitted, so that a resumed run, which reads the resolved scenario, has the same warnings.
 pub fn of_scenario(job: &Job) -> Vec<Warning> {
     let odd = job.warnings();
     let told = odd.iter().filter(|odd| odd.kind != stickslip_scenario::Warning::WORDING);
@@ -31,7 +32,7 @@ pub fn of_scenario(job: &Job) -> Vec<Warning> {
     warnings
 }
 
-/// Rounding of where the bodies start, in the smallest natural displacement of a contact. What they travel is counted from near by.
+/// Returns the rounding error of the initial positions, relative to the smallest natural displacement of a contact.
 fn finest(job: &Job) -> f64 {
     let places = job.scenario.scene.bodies.iter().map(|body| body.part.x.position.abs());
     let contacts = 0..job.scenario.scene.contacts.len();
@@ -40,7 +41,7 @@ fn finest(job: &Job) -> f64 {
     f64::EPSILON * places.fold(0.0, f64::max) / least
 }
 
-/// What came out in the run itself: energy books that do not close, steps whose error is not known, motions beyond the model's kinematics.
+/// Returns the warnings about the run itself: energy balance, unknown errors, and motions beyond the validity of the model.
 pub(crate) fn of_run(job: &Job, outcome: &Outcome) -> Vec<Warning> {
     let asked = job.scenario.plan.stepper;
     let stepper = job.model.effective(asked);
@@ -51,8 +52,8 @@ pub(crate) fn of_run(job: &Job, outcome: &Outcome) -> Vec<Warning> {
     if missed > 0 {
         let all = outcome.state.counts().steps;
         let message = format!(
-            "{missed} of {all} time steps miss their tolerance: damped springs of a contact alternate between stick and slip, and \
-             shorter time steps do not help"
+            "{missed} of {all} time steps exceed their tolerance: damped springs of a contact alternate \
+             between stick and slip, and shorter time steps have no effect"
         );
         warnings.push(
             Warning::new("error_estimate", message)
@@ -66,14 +67,14 @@ pub(crate) fn of_run(job: &Job, outcome: &Outcome) -> Vec<Warning> {
             "the body whose steps are computed has had no contact since t = {since}, for at least one period: all contacts of the body \
              are open, so the displacement in a period is not a step"
         );
-        let help = "press the body on by gravity, a spring or a load along z; check whether the initial position along z is too high or too low";
+        let help = "press the body against its contacts by gravity, a spring or a load along z; check whether the initial position along z is too high or too low";
         warnings.push(Warning::new("flight", message).help(help));
     }
     warnings.extend(outcome.tally.excursions().warnings(job));
     warnings
 }
 
-/// Contacts that bodies press and that parted in a run by frames.
+/// Returns a warning about contacts between free bodies that opened in a run by frames.
 fn impacts(job: &Job, outcome: &Outcome) -> Option<Warning> {
     let Stepper::Frames { accuracy, .. } = job.model.effective(job.scenario.plan.stepper) else {
         return None;

@@ -1,8 +1,7 @@
-//! Results that strangers send: whatever was done to tables and summaries, the answer comes at once, is a comparison or an
-//! error, and takes no more memory than the results do.
+//! Results from unknown sources: randomly changed tables and summaries give a comparison or an error, quickly and with limited memory.
 //!
-//! The gate runs a part; `STICKSLIP_MUTATIONS=100000 cargo test -p stickslip-run --test mutated -- --nocapture` runs
-//! them all. A binary of its own: the memory that is asked for is the largest of the whole process.
+//! The gate runs a part. `STICKSLIP_MUTATIONS=100000 cargo test -p stickslip-run --test mutated -- --nocapture` runs all. The test is a
+//! separate binary, because it measures the peak memory of its process.
 #![allow(clippy::unwrap_used, reason = "helpers of tests fail by panicking, as the tests do")]
 
 use serde_json::{Value, json};
@@ -15,16 +14,16 @@ use stickslip_run::folder::Folder;
 use stickslip_run::{Job, Recorder, Results, Summary, curves, hash, springs};
 use stickslip_scenario::PlotName;
 
-/// Results that are mutated where nothing else is asked for.
+/// Default number of mutations.
 const MUTATIONS: u64 = 500;
-/// Longest time that a folder may take, with room for a machine that has other things to do.
+/// Maximum time for a folder, with a margin for busy machines.
 const HANG: Duration = Duration::from_secs(5);
-/// Most memory of the whole test, bytes.
+/// Maximum memory of the test, bytes.
 const MOST_MEMORY: u64 = 500 << 20;
 
 const FILES: [&str; 5] = ["trace.csv", "events.csv", "springs.csv", "memory.csv", "summary.json"];
 
-/// What is put into files.
+/// Byte sequences that are inserted into files.
 const PIECES: [&[u8]; 26] = [
     b",",
     b"\n",
@@ -54,7 +53,7 @@ const PIECES: [&[u8]; 26] = [
     b" ",
 ];
 
-/// Numbers drawn from a seed (a linear congruence of Knuth's).
+/// Pseudo-random numbers from a seed (Knuth's linear congruential generator).
 struct Draw(u64);
 
 impl Draw {
@@ -104,7 +103,7 @@ fn edited_lines(bytes: &[u8], draw: &mut Draw) -> Vec<u8> {
         3 => lines.truncate(first + 1),
         4 => lines[first.min(second)..=first.max(second)].reverse(),
         _ => {
-            // Another cell.
+            // Another cell is copied.
             let line = &mut lines[first];
             let commas: Vec<usize> = (0..line.len()).filter(|&i| line[i] == b',').collect();
             if let Some(&start) = commas.get(draw.below(commas.len())) {
@@ -116,7 +115,7 @@ fn edited_lines(bytes: &[u8], draw: &mut Draw) -> Vec<u8> {
     lines.concat()
 }
 
-/// Puts another value into a place of a summary.
+/// Replaces a value in a summary.
 fn edited_tree(bytes: &[u8], draw: &mut Draw) -> Option<Vec<u8>> {
     let mut tree: Value = serde_json::from_slice(bytes).ok()?;
     let mut here = &mut tree;
@@ -147,7 +146,7 @@ fn edited_tree(bytes: &[u8], draw: &mut Draw) -> Option<Vec<u8>> {
     Some(tree.to_string().into_bytes())
 }
 
-/// Makes the summary fit the tables.
+/// Adapts the summary to the tables.
 fn forge(folder: &Path, draw: &mut Draw) {
     let Ok(Some(mut summary)) =
         fs::read(folder.join("summary.json")).map(|bytes| serde_json::from_slice::<Value>(&bytes).ok())
@@ -172,7 +171,7 @@ fn forge(folder: &Path, draw: &mut Draw) {
     fs::write(folder.join("summary.json"), summary.to_string()).unwrap();
 }
 
-/// Results with all tables, in a folder.
+/// Writes results with all tables to a folder.
 fn results(root: &Path) -> PathBuf {
     let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenarios/p1.json");
     let set = [
@@ -195,7 +194,7 @@ fn results(root: &Path) -> PathBuf {
     job.folder
 }
 
-/// Reads a folder in all ways there are; whether it was refused by all who hold it against something.
+/// Reads a folder by all readers. Returns whether all comparing readers have rejected it.
 fn read(folder: &Path, original: &stickslip_compare::Results) -> bool {
     let drawn = Results::read(folder, &[PlotName::Events]).map(|results| {
         let _ = (springs::read(&results.insides.springs), curves::read(&results.insides.memory, 100));
@@ -204,14 +203,14 @@ fn read(folder: &Path, original: &stickslip_compare::Results) -> bool {
         let _ = Comparison::new(original, &results, &Terms::default());
         Comparison::new(&results, original, &Terms::default()).is_ok()
     });
-    // What is said of it comes into a terminal.
+    // Error messages are printed on a terminal.
     let said =
         [drawn.as_ref().err().map(ToString::to_string), compared.as_ref().err().map(ToString::to_string)];
     said.iter().flatten().for_each(|said| assert!(said.len() < 10_000, "{said:.200}"));
     drawn.is_err() && compared.is_err()
 }
 
-/// Largest memory that the process had so far, bytes, where the system tells.
+/// Returns the peak memory of the process, bytes, if the system reports it.
 fn peak() -> Option<u64> {
     let status = fs::read_to_string("/proc/self/status").ok()?;
     let line = status.lines().find_map(|line| line.strip_prefix("VmHWM:"))?;
@@ -229,7 +228,7 @@ fn mutated_results_are_read_or_refused_at_once() {
     let bytes = FILES.map(|name| fs::read(whole.join(name)).unwrap());
     fs::copy(whole.join("scenario.json"), folder.join("scenario.json")).unwrap();
     let (begun, mut longest, mut refused) = (Instant::now(), Duration::ZERO, 0);
-    // At first all are missing.
+    // At first all files are missing.
     let mut changed: Vec<usize> = (0..FILES.len()).collect();
     for seed in 0..count {
         let mut draw = Draw(seed.wrapping_mul(0x9e37_79b9_7f4a_7c15));

@@ -1,5 +1,5 @@
-//! A million periods of the benchmark drive P1, or as many as asked for (`-- 1000000`): whether steps stay constant, the
-//! energy books closed and the memory flat.
+//! Runs the benchmark drive P1 for a million periods, or for the number of periods given as `-- 1000000`. The benchmark prints the spread
+//! of the step lengths, the error of the energy balance and the memory use.
 
 #![allow(clippy::unwrap_used, clippy::print_stdout, reason = "a benchmark prints, and fails by panicking")]
 
@@ -9,17 +9,17 @@ use stickslip_scenario::Scenario;
 const FILE: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../scenarios/p1.json");
 /// Period of P1, s.
 const PERIOD: f64 = 1e-3;
-/// The step is what it stays from this period on.
+/// Number of periods before the step length is steady.
 const SETTLED: u64 = 10;
 
-/// Watches the slider at the end of each period, and keeps nothing but extremes.
+/// Recorder that reads the slider position at the end of each period and keeps only extremes of the step length.
 struct Watcher {
     columns: [usize; 3],
     period: u64,
     last: f64,
     least: f64,
     most: f64,
-    /// Energy put in and missing at the end, J.
+    /// Input energy and error of the energy balance at the end, J.
     books: [f64; 2],
     resident: Vec<u64>,
     every: u64,
@@ -44,7 +44,7 @@ impl Record for Watcher {
     }
 }
 
-/// Resident memory of this process, kB; 0 where the system does not say.
+/// Returns the resident memory of this process, kB, or 0 if the system does not report it.
 fn resident() -> u64 {
     let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
     let line = status.lines().find_map(|line| line.strip_prefix("VmRSS:"));

@@ -1,18 +1,18 @@
-//! Stepping alone, without reading, writing and events written down: for a profiler, and to see what a change of a scene
-//! costs. What a whole run takes is on record in `.ci/instructions.csv`.
+//! Measures time integration alone, without reading files and writing rows, for use under a profiler. The file `.ci/instructions.csv`
+//! records the instructions of whole runs.
 //!
-//! `instructions NAME KEY=VALUE…` runs one benchmark, or the scenario of a file, with keys of its scenario set and prints what
-//! it took, as in `valgrind --tool=callgrind --toggle-collect='*measured*' BINARY p1 run.cycles=200`.
+//! `instructions NAME KEY=VALUE…` runs one benchmark, or the scenario of a file, with keys replaced. The benchmark prints counts and run
+//! time. Example: `valgrind --tool=callgrind --toggle-collect='*measured*' BINARY p1 run.cycles=200`.
 
 #![allow(clippy::unwrap_used, clippy::print_stdout, reason = "a benchmark prints, and fails by panicking")]
 
 use stickslip_drive::{Model, Plan, State, run};
 use stickslip_scenario::Scenario;
 
-/// A key and what it is set to.
+/// Key and value of a replaced value.
 type Setting = (&'static str, &'static str);
 
-/// Benchmarks: name, file, and what is set in it.
+/// Benchmarks: name, scenario, and replaced values.
 const BENCHMARKS: [(&str, &str, &[Setting]); 7] = [
     ("p1", "p1", &[("run.stepper.event.tolerance", "1e-4"), ("run.cycles", "200")]),
     ("p1-fine", "p1", &[("run.stepper.event.tolerance", "1e-8"), ("run.cycles", "200")]),
@@ -28,7 +28,7 @@ fn measured(model: &Model, plan: &Plan, state: &mut State) {
     run(model, plan, state, &mut ()).unwrap();
 }
 
-/// Runs one scenario and prints what it took.
+/// Runs one scenario and prints counts and run time.
 fn benchmark(name: &str, file: &str, set: &[(&str, &str)]) {
     let mut scenario = Scenario::load_with(file, set).unwrap();
     scenario.plan.every = None;

@@ -1,11 +1,11 @@
-//! Where the parts and fields of a scene and a plan stand in the file: the only table from the one to the other.
+//! Maps parts and fields of the model and the plan to key paths in the file.
 
 use crate::path::{KeyPath, Step};
 use crate::units::Kind;
 use stickslip_drive::scene::{Axis, Named};
 use stickslip_drive::{Accuracy, Field, Part, Plan, Scene, SceneError, Stepper};
 
-/// The key path of a field.
+/// Returns the key path of a field.
 pub(crate) fn path(scene: &Scene, plan: Plan, part: Part, field: Field) -> KeyPath {
     let key = |key: &str| Step::Key(key.to_owned());
     let mut steps = match part {
@@ -14,7 +14,7 @@ pub(crate) fn path(scene: &Scene, plan: Plan, part: Part, field: Field) -> KeyPa
         Part::Spring(i) => named("springs", &scene.springs, i),
         Part::Actuator(i) => named("actuators", &scene.actuators, i),
         Part::Load(i) => vec![key("loads"), Step::Index(i)],
-        // No file brings blocks along.
+        // Blocks have no keys in the file.
         Part::Block(_) => Vec::new(),
         Part::Gravity => vec![key("gravity")],
         Part::Run if field == Field::Interval => vec![key("output")],
@@ -29,7 +29,7 @@ fn named<T>(kind: &str, parts: &[Named<T>], i: usize) -> Vec<Step> {
     [kind.to_owned()].into_iter().chain(name).map(Step::Key).collect()
 }
 
-/// The dimension of a field that has a unit and a range in the file.
+/// Returns the dimension of a field that is a quantity in the file.
 pub(crate) fn kind(error: &SceneError) -> Option<Kind> {
     Some(match (error.part, error.field) {
         (Part::Contact(_), Field::Damping) => Kind::Time,
@@ -44,7 +44,7 @@ pub(crate) fn kind(error: &SceneError) -> Option<Kind> {
     })
 }
 
-/// The keys from a part to its field.
+/// Returns the keys from a part to its field.
 fn keys(field: Field, stepper: Stepper) -> Vec<&'static str> {
     let keys: &[&str] = match field {
         Field::Whole => &[],
@@ -90,7 +90,7 @@ fn keys(field: Field, stepper: Stepper) -> Vec<&'static str> {
     keys.to_vec()
 }
 
-/// The key of the number that says how exact a stepper is.
+/// Returns the key of the accuracy of a time integrator.
 fn accuracy(stepper: Stepper) -> &'static str {
     match stepper.accuracy() {
         Accuracy::Tolerance(_) => "tolerance",

@@ -1,4 +1,4 @@
-//! A scenario's text, its values and the place of each: what every report points into.
+//! Text, values and positions of a scenario.
 
 use crate::error::{Report, ScenarioError};
 use crate::excerpt::{Excerpt, visible};
@@ -11,47 +11,47 @@ use crate::tables::TableFile;
 use serde_json::Value;
 use std::path::PathBuf;
 
-/// A text that values come from.
+/// Text that contains values.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Source {
-    /// The file as it was named; for an override the whole argument.
+    /// File name as given; for an override the whole argument.
     pub(crate) name: String,
     pub(crate) text: String,
     pub(crate) kind: SourceKind,
 }
 
-/// What a text is.
+/// Kind of a source text.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) enum SourceKind {
     Scenario,
-    /// An argument of `--set`.
+    /// Argument of `--set`.
     Override,
-    /// A table that the scenario names under a key.
+    /// File of a table, with the key path that names the file.
     Table(KeyPath),
 }
 
-/// A read scenario before anybody has asked what it means.
+/// Parsed scenario or study file before its keys are interpreted.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Document {
-    /// The scenario, then overrides and tables.
+    /// File, then overrides and tables.
     pub(crate) sources: Vec<Source>,
     pub(crate) value: Value,
     pub(crate) root: Place,
-    /// Tables whose points stand in files of their own.
+    /// Tables whose points are in separate files.
     pub(crate) tables: Vec<TableFile>,
-    /// The folder that these are looked for in; none of a scenario that may name no files.
+    /// Folder of these files; `None` if the scenario may not name files.
     pub(crate) base: Option<PathBuf>,
-    /// What the caller calls an override.
+    /// Name of overrides in messages, such as `--set`.
     pub(crate) word: &'static str,
-    /// What is known of the keys of such files.
+    /// Schema for help texts.
     pub(crate) guide: &'static Guide,
 }
 
-/// Most characters of a value that a message repeats.
+/// Maximum number of characters of a value in a message.
 const SHOWN: usize = 60;
 
 impl Document {
-    /// A text that nobody has read yet.
+    /// Returns a document with a text that is not parsed yet.
     pub(crate) fn new(file: &str, text: &str) -> Self {
         let whole = Span { source: 0, start: 0, end: text.len() };
         let mut document = Self {
@@ -67,7 +67,7 @@ impl Document {
         document
     }
 
-    /// Reads a text as strict JSON and notes where everything stands, and what JSON readers let pass in silence.
+    /// Parses a text as JSON with comments. Returns the document and errors that JSON parsers do not report, such as duplicate keys.
     pub(crate) fn read(file: &str, text: &str) -> Result<(Self, Vec<Fault>), ScenarioError> {
         let text = text.strip_prefix('\u{feff}').unwrap_or(text);
         let mut document = Self::new(file, text);
@@ -81,30 +81,31 @@ impl Document {
         }
     }
 
-    /// The same of a study file.
+    /// Parses a study file like [`Self::read`].
     pub(crate) fn read_study(file: &str, text: &str) -> Result<(Self, Vec<Fault>), ScenarioError> {
         let (document, faults) = Self::read(file, text)?;
         Ok((Self { guide: Guide::of_studies(), ..document }, faults))
     }
 
-    /// The table whose file holds the value at a path.
+    /// Returns the path of the table whose file contains the value at a path.
     pub(crate) fn table(&self, path: &KeyPath) -> Option<&KeyPath> {
         self.tables.iter().find(|table| table.has(path)).map(TableFile::path)
     }
 
-    /// As it was before its tables were read.
+    /// Removes all tables, as before they were read.
     pub(crate) fn forget_tables(&mut self) {
         self.tables.clear();
         self.sources.retain(|source| !matches!(source.kind, SourceKind::Table(_)));
     }
 
-    /// Adds a text to point into.
+    /// Adds a source text and returns it.
     pub(crate) fn add(&mut self, name: String, text: String, kind: SourceKind) -> &str {
         self.sources.push(Source { name, text, kind });
         self.sources.last().map_or("", |source| &source.text)
     }
 
-    /// What stands in the text under a path, strings without their quotes; none where nothing does.
+    /// Returns the value at a path as shown in messages: strings without quotes, containers as words such as "an object". Returns `None`
+    /// if there is no such value.
     pub(crate) fn written(&self, path: &KeyPath) -> Option<String> {
         if let Some(cell) = self.cell(path) {
             return Some(shown(self.slice(cell)));
@@ -126,12 +127,12 @@ impl Document {
         })
     }
 
-    /// The text of a span; empty where the span does not fit, which no caller brings about.
+    /// Returns the text of a span, or an empty text for an invalid span.
     pub(crate) fn slice(&self, span: Span) -> &str {
         self.sources.get(span.source).and_then(|s| s.text.get(span.start..span.end)).unwrap_or("")
     }
 
-    /// A fault with its place in the file.
+    /// Converts an error to a report with its position in the file.
     pub(crate) fn report(&self, mut fault: Fault) -> Report {
         fault.path = self.given(&fault.path);
         let written = if fault.value { self.written(&fault.path) } else { None };
@@ -164,7 +165,7 @@ impl Document {
         report
     }
 
-    /// The path of a value that the file may give by another key.
+    /// Returns the path under which the file gives a value: `radius` may be given as `diameter`.
     fn given(&self, path: &KeyPath) -> KeyPath {
         let mut other = path.clone();
         if let Some(Step::Key(key)) = other.0.last_mut()
@@ -181,7 +182,8 @@ impl Document {
         span.unwrap_or_else(|| self.locate(&fault.path, fault.mark))
     }
 
-    /// Where a fault stands: its source, or the one that names it, the place there, and the place in a table.
+    /// Returns the sort key of an error: source, position in it, position in a table. For a table, source and position are those of the
+    /// key that names its file.
     pub(crate) fn order(&self, fault: &Fault) -> (usize, usize, usize) {
         let span = self.span(fault);
         match self.sources.get(span.source).map(|source| &source.kind) {
@@ -193,7 +195,7 @@ impl Document {
         }
     }
 
-    /// File, line and column of a value.
+    /// Returns file, line and column of a value.
     fn address(&self, path: &KeyPath) -> String {
         let span = self.locate(path, Mark::Value);
         let Some(source) = self.sources.get(span.source) else { return String::new() };
@@ -206,8 +208,7 @@ impl Document {
         }
     }
 
-    /// The place of the deepest part of a path that stands in the file. A value over several lines is pointed at by
-    /// its key.
+    /// Returns the span of the deepest part of a path that exists in the file. For a value of several lines, the span is that of its key.
     fn locate(&self, path: &KeyPath, mark: Mark) -> Span {
         let (place, depth) = self.root.deepest(path);
         let whole = depth == path.0.len();
@@ -218,13 +219,13 @@ impl Document {
         }
     }
 
-    /// The place of a time or value of a table in a file of its own.
+    /// Returns the span of a number in the file of a table.
     fn cell(&self, path: &KeyPath) -> Option<Span> {
         self.tables.iter().find_map(|table| table.locate(path, &self.sources))
     }
 }
 
-/// A value as a message repeats it: on one line and not without end.
+/// Returns a value as shown in messages: on one line and at most 60 characters long.
 pub(crate) fn shown(text: &str) -> String {
     let mut shown: String = text.chars().take(SHOWN).map(visible).collect();
     if text.chars().nth(SHOWN).is_some() {

@@ -1,11 +1,11 @@
-//! The reports of what is wrong with a scenario, as plain values.
+//! Error reports of scenarios as plain values.
 
 use crate::excerpt::Excerpt;
 use std::fmt;
 use std::ops::Deref;
 
-/// What is wrong with a scenario, where, and what would be right: everything that is no consequence of something else, in the
-/// order of the file. It stands for the first [`Report`], [`ScenarioError::reports`] are all.
+/// All errors of a scenario in the order of the file, without follow-on errors. The error dereferences to its first [`Report`];
+/// [`ScenarioError::reports`] returns all reports.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ScenarioError(Box<Reports>);
 
@@ -16,35 +16,35 @@ struct Reports {
     beyond: Beyond,
 }
 
-/// What is beyond the reports.
+/// Completeness of the reports.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub(crate) struct Beyond {
-    /// More is known to be wrong.
+    /// Whether more errors are known than reported.
     pub(crate) more: bool,
-    /// Not everything was judged: more may be wrong.
+    /// Whether the check was incomplete, so that more errors are possible.
     pub(crate) not_checked: bool,
-    /// Stages that were left out, or not gone through to their ends.
+    /// Stages of the check that were omitted or not completed.
     pub(crate) left_out: Vec<Stage>,
 }
 
-/// What a scenario is judged by, one after the other.
+/// Stage of the check of a scenario, in the order of execution.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Stage {
-    /// Keys, units and ranges of each value by itself.
+    /// Keys, units and ranges of each value.
     Form,
-    /// What parts are to each other, and the tables in files.
+    /// Relations between values, and tables in files.
     Meaning,
-    /// Whether there is an equilibrium to start from, where one is asked for.
+    /// Existence of the equilibrium from which a run starts, if requested.
     Equilibrium,
     /// Rows, lines and memory of a run.
     Limits,
 }
 
 impl Stage {
-    /// All of them, in their order.
+    /// All stages in their order.
     pub const ALL: [Self; 4] = [Self::Form, Self::Meaning, Self::Equilibrium, Self::Limits];
 
-    /// Its word.
+    /// Returns the name of the stage.
     pub fn word(self) -> &'static str {
         match self {
             Self::Form => "form",
@@ -55,36 +55,36 @@ impl Stage {
     }
 }
 
-/// What there is to say about a place of a scenario: the parts of a [`ScenarioError`], or a warning.
+/// Message about a position in a scenario: part of a [`ScenarioError`], or a warning.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Report {
-    /// The file as it was named, the table that it names, or the argument of `--set` that is to blame.
+    /// Name of the file or table, or the argument of `--set`.
     pub file: String,
-    /// Whether an argument of `--set` is to blame, not a file.
+    /// Whether the message concerns an argument of `--set`.
     pub is_override: bool,
-    /// What the caller calls an override, such as `--set`; may be empty.
+    /// Name of overrides in messages, such as `--set`; may be empty.
     pub word: &'static str,
-    /// Where in the file; none when the file as a whole is meant.
+    /// Position in the file; `None` for the whole file.
     pub excerpt: Option<Excerpt>,
     /// Key path such as `contacts.ball.friction`; empty for the whole scenario.
     pub path: String,
-    /// What was expected and what came.
+    /// Expected and given value.
     pub message: String,
-    /// What to try.
+    /// Suggested correction.
     pub help: Option<String>,
 }
 
-/// What is allowed and probably not meant, with its place.
+/// Warning about a value that is allowed but implausible, with its position.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Warning {
-    /// What it is about, as one word for machines, such as `unused`; it never changes its meaning.
+    /// Category as one word for programs, such as `unused`. The meaning of a word never changes.
     pub kind: &'static str,
-    /// Where, why and what to try.
+    /// Position, reason and suggestion.
     pub report: Report,
 }
 
 impl Warning {
-    /// The word of what is said about the wording of the file alone: a scenario written out in full says it no more.
+    /// Category of warnings about the wording of the file. A resolved scenario does not give them.
     pub const WORDING: &'static str = "wording";
 }
 
@@ -109,22 +109,22 @@ impl From<Report> for ScenarioError {
 }
 
 impl ScenarioError {
-    /// Several at once: the first, the others, and what is beyond these.
+    /// Returns an error of several reports.
     pub(crate) fn several(first: Report, rest: Vec<Report>, beyond: Beyond) -> Self {
         Self(Box::new(Reports { first, rest, beyond }))
     }
 
-    /// Everything that is told, in the order of the file; at least one.
+    /// Returns all reports in the order of the file; at least one.
     pub fn reports(&self) -> impl Iterator<Item = &Report> {
         std::iter::once(&self.0.first).chain(&self.0.rest)
     }
 
-    /// Nobody could read what it is about: nothing else was judged.
+    /// Marks all stages as omitted, because the file could not be read.
     pub(crate) fn unread(self) -> Self {
         self.without(&Stage::ALL)
     }
 
-    /// The same, told that these stages were left out, too.
+    /// Adds omitted stages.
     #[must_use]
     pub fn without(mut self, stages: &[Stage]) -> Self {
         let left_out = &mut self.0.beyond.left_out;
@@ -134,8 +134,8 @@ impl ScenarioError {
         self
     }
 
-    /// Several that have nothing to do with each other as one, in the order of the file; none of none. What one of them left out
-    /// was left out.
+    /// Joins independent errors in the order of the file. Returns `None` for an empty list. Stages omitted by one error are omitted in
+    /// the result.
     pub fn joined(errors: impl IntoIterator<Item = Self>) -> Option<Self> {
         let (mut reports, mut beyond) = (Vec::new(), Beyond::default());
         for Self(one) in errors {
@@ -154,22 +154,22 @@ impl ScenarioError {
         reports.next().map(|first| Self::several(first, reports.collect(), beyond).without(&[]))
     }
 
-    /// What was not judged, or not all of it, because of what is wrong: in the order of judging.
+    /// Returns the stages that the errors prevented, in the order of the check.
     pub fn left_out(&self) -> &[Stage] {
         &self.0.beyond.left_out
     }
 
-    /// Whether there is more wrong than is told.
+    /// Returns whether more errors are known than reported.
     pub fn has_more(&self) -> bool {
         self.0.beyond.more
     }
 
-    /// Whether not everything could be judged, so that there may be more wrong than is told.
+    /// Returns whether the check was incomplete, so that more errors are possible.
     pub fn may_have_more(&self) -> bool {
         self.0.beyond.not_checked
     }
 
-    /// The first report by itself.
+    /// Returns the first report.
     pub(crate) fn into_first(self) -> Report {
         self.0.first
     }
@@ -185,7 +185,7 @@ impl Deref for ScenarioError {
 
 impl std::error::Error for ScenarioError {}
 
-/// Reports with a blank line between them.
+/// Formats all reports, separated by empty lines.
 impl fmt::Display for ScenarioError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         self.0.first.fmt(f)?;
@@ -193,10 +193,10 @@ impl fmt::Display for ScenarioError {
             write!(f, "\n\n{report}")?;
         }
         if self.0.beyond.more {
-            write!(f, "\n\nand more: these are {}", self.reports().count())?;
+            write!(f, "\n\nand more faults: the first are {}", self.reports().count())?;
         }
         if self.0.beyond.not_checked {
-            f.write_str("\n\nand maybe more: the rest was not judged")?;
+            f.write_str("\n\nand possibly more: the rest was not checked")?;
         }
         Ok(())
     }
@@ -221,7 +221,7 @@ impl fmt::Display for Report {
         if let Some(excerpt) = &self.excerpt {
             let (shown, marker) = excerpt.window();
             let number = if self.is_override { String::new() } else { excerpt.line.to_string() };
-            // The marker is set off by the gutter: five digits, a blank, the bar and a blank.
+            // Indents the marker by the gutter: five digits, a blank, the bar and a blank.
             let indent = number.len().max(5) + 3 + marker.start;
             write!(f, "\n{number:>5} | {shown}\n{:indent$}{}", "", "^".repeat(marker.len()))?;
         }

@@ -1,28 +1,28 @@
-//! The line that a report shows, and the marker under it.
+//! Line of a report, with a marker below it.
 
 use std::ops::Range;
 use unicode_width::UnicodeWidthChar;
 
-/// The line to blame.
+/// Line of the file with the marked range.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Excerpt {
-    /// Line, from 1.
+    /// Line number, from 1.
     pub line: usize,
-    /// Column of the marker, from 1: characters (Unicode scalar values), each counted once, a tab too.
+    /// Column of the marker, from 1, counted in Unicode scalar values. A tab counts as one.
     pub column: usize,
-    /// The whole line without its end.
+    /// Whole line without its line end.
     pub text: String,
-    /// What the marker stands under: characters of [`Self::text`], from 0; never empty.
+    /// Marked characters of [`Self::text`], from 0; never empty.
     pub marker: Range<usize>,
 }
 
-/// Most cells of a line that are shown.
+/// Maximum number of terminal cells shown of a line.
 const WIDTH: usize = 100;
-/// Cells shown before the marker where the line is cut.
+/// Number of cells before the marker if the line is cut.
 const BEFORE: usize = 40;
 
 impl Excerpt {
-    /// The line around a stretch of bytes of a text.
+    /// Returns the line around a byte range of a text.
     pub(crate) fn of(text: &str, range: Range<usize>) -> Self {
         let start = floor_boundary(text, range.start);
         let end = floor_boundary(text, range.end).max(start);
@@ -30,7 +30,7 @@ impl Excerpt {
         let line_end = text[start..].find('\n').map_or(text.len(), |i| start + i);
         let line = text[line_start..line_end].trim_end_matches('\r');
         let column = text[line_start..start].chars().count();
-        // The marker stays on its line; past the end of the line it still shows one caret.
+        // The marker ends at the end of its line. A position beyond the end gives one caret.
         let most = line_start + line.len().max(start - line_start);
         let width = text[start..end.clamp(start, most)].chars().count();
         Self {
@@ -41,7 +41,7 @@ impl Excerpt {
         }
     }
 
-    /// The part of the line to show, and where its marker stands, counted in cells of a terminal.
+    /// Returns the shown part of the line and the marked range in terminal cells.
     pub(crate) fn window(&self) -> (String, Range<usize>) {
         let cells: Vec<(char, usize)> = self.text.chars().map(cell).collect();
         let width = |cells: &[(char, usize)]| cells.iter().map(|(_, width)| width).sum::<usize>();
@@ -49,7 +49,7 @@ impl Excerpt {
         let mut start = 0;
         if width(&cells) > WIDTH {
             start = marked - fitting(cells[..marked].iter().rev(), BEFORE);
-            // Near the end of the line there is room for more before the marker.
+            // Near the end of the line there is room for more text before the marker.
             start = start.min(cells.len() - fitting(cells.iter().rev(), WIDTH));
         }
         let end = start + fitting(cells[start..].iter(), WIDTH);
@@ -77,7 +77,7 @@ fn floor_boundary(text: &str, index: usize) -> usize {
     index
 }
 
-/// How many of the characters fit into some cells.
+/// Returns the number of characters that fit into the given number of cells.
 fn fitting<'a>(cells: impl Iterator<Item = &'a (char, usize)>, room: usize) -> usize {
     let mut taken = 0;
     cells
@@ -88,13 +88,13 @@ fn fitting<'a>(cells: impl Iterator<Item = &'a (char, usize)>, room: usize) -> u
         .count()
 }
 
-/// A character as it is shown, and the cells it takes: wide ones two, combining ones none.
+/// Returns a character as shown, and its width: two cells for wide characters, none for combining ones.
 fn cell(c: char) -> (char, usize) {
     let shown = visible(c);
     (shown, shown.width().unwrap_or(1))
 }
 
-/// A character that moves the marker away from its word, hides or turns the text around it is replaced.
+/// Replaces characters that would shift the marker, hide text or change the text direction.
 pub(crate) fn visible(c: char) -> char {
     match c {
         '\t' | '\r' => ' ',
@@ -103,7 +103,7 @@ pub(crate) fn visible(c: char) -> char {
     }
 }
 
-/// Format characters: joiners, marks of direction, byte order marks and their like.
+/// Returns whether a character is an invisible format character, such as a joiner, direction mark or byte order mark.
 pub(crate) fn is_invisible(c: char) -> bool {
     matches!(c,
         '\u{ad}' | '\u{61c}' | '\u{180e}' | '\u{200b}'..='\u{200f}' | '\u{2028}'..='\u{202e}'
@@ -114,7 +114,7 @@ pub(crate) fn is_invisible(c: char) -> bool {
 mod tests {
     use super::*;
 
-    /// The cells over the marker of a line, as a terminal shows them.
+    /// Returns the cells above the marker of a line, as a terminal shows them.
     fn marked(text: &str, range: Range<usize>) -> String {
         let (shown, marker) = Excerpt::of(text, range).window();
         let mut at = 0;

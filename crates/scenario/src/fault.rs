@@ -1,4 +1,4 @@
-//! What is wrong, by key path; the document turns it into a report with a place in the file.
+//! Errors of a scenario, identified by key path. The document converts them to reports with positions.
 
 use crate::guide::Help;
 use crate::path::{KeyPath, Step};
@@ -6,41 +6,41 @@ use crate::place::Span;
 use serde_json::Value;
 use std::fmt::Display;
 
-/// Which half of an entry the marker stands under.
+/// Half of an entry that the report marks: key or value.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Mark {
-    /// Its value.
+    /// Value.
     Value,
-    /// Its key.
+    /// Key.
     Key,
 }
 
-/// What is put in the place of what is wrong, so that the rest can be judged.
+/// Replacement of an invalid value, so that the rest of the scenario can be checked.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) enum Mend {
-    /// An example of the schema; nothing, where the key itself is to blame.
+    /// Example value from the schema, or removal if the key is wrong.
     Example,
-    /// An example for a key that is missing.
+    /// Example value from the schema for a missing key.
     Add(String),
-    /// The same value under the key that was meant.
+    /// The same value under the intended key.
     Rename(String),
-    /// An example for what the value stands in.
+    /// Example value from the schema for a parent of the value.
     Around(KeyPath),
-    /// Another name for a part, or its section.
+    /// Another name for a part.
     Misnamed,
-    /// Nothing: the key is not known here, and may be one that is missing.
+    /// Removal of an unknown key, which may be a misspelt missing key.
     Stray,
-    /// A value that the check knows to be right.
+    /// Value that the check knows to be valid.
     With(Value),
-    /// The name of a part that is there, for one that is not; where none is, an example of the part itself.
+    /// Name of an existing part instead of an unknown one. If there is none, an example of the part is added.
     Name { section: &'static str, name: String, instead: Option<String> },
-    /// What is there: it can be read, though at this path, if any, it cannot be what was meant.
+    /// No replacement: the value can be read, but at the given path it is not the intended one.
     Leave(Option<KeyPath>),
-    /// Nothing: with this wrong nothing else can be judged.
+    /// No replacement: nothing else can be checked.
     Nothing,
 }
 
-/// Something wrong in a scenario.
+/// Error in a scenario.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Fault {
     pub(crate) path: KeyPath,
@@ -52,15 +52,15 @@ pub(crate) struct Fault {
     pub(crate) bearing: Box<Bearing>,
 }
 
-/// Where a fault is, and what it has to do with others.
+/// Position of an error, and the other values on which its check depends.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Bearing {
-    /// The place itself where it is known; otherwise it is looked up by path.
+    /// Position, if known; otherwise it follows from the path.
     pub(crate) span: Option<Span>,
     pub(crate) mend: Mend,
-    /// Whether what stands inside the value has a say in it.
+    /// Whether the check depends on the contents of the value.
     pub(crate) inside: bool,
-    /// Other places by which it was judged.
+    /// Paths of other values on which the check depends.
     pub(crate) against: Vec<KeyPath>,
 }
 
@@ -77,12 +77,12 @@ impl Fault {
         }
     }
 
-    /// A value that is not what was expected; the report adds what stands in the file.
+    /// Returns the error for an unexpected value; the report adds the value in the file.
     pub(crate) fn expected(path: KeyPath, what: impl Display) -> Self {
         Self::new(path, format!("expected {what}")).with_value().ask(Help::Meaning)
     }
 
-    /// A key that must be there is not.
+    /// Returns the error for a missing key.
     pub(crate) fn missing(path: KeyPath, key: &str) -> Self {
         let fault = Self::new(path, format!("missing key \"{key}\"")).on_key();
         fault.ask(Help::Missing(key.to_owned())).mend(Mend::Add(key.to_owned()))
@@ -100,7 +100,7 @@ impl Fault {
         self
     }
 
-    /// Help from the schema, where there is no better one.
+    /// Sets the help from the schema, if there is no other help.
     pub(crate) fn ask(mut self, help: Help) -> Self {
         if self.help == Help::None {
             self.help = help;
@@ -129,35 +129,36 @@ impl Fault {
         self
     }
 
-    /// Judged by the shape of the value alone, whatever stands inside.
+    /// States that the check depends only on the type of the value, not on its contents.
     pub(crate) fn of_shape(mut self) -> Self {
         self.bearing.inside = false;
         self
     }
 
-    /// Judged by other places, too, such as `contacts.*.between`: where one of them is wrong, this need not be.
+    /// Adds other paths on which the check depends, such as `contacts.*.between`. If one of these values is invalid, the error may be a
+    /// follow-on error.
     pub(crate) fn against<'a>(mut self, patterns: impl IntoIterator<Item = &'a str>) -> Self {
         self.bearing.against.extend(patterns.into_iter().filter_map(KeyPath::parse));
         self
     }
 
-    /// Judged by the value at a path, too.
+    /// Adds one path on which the check depends.
     pub(crate) fn against_path(mut self, path: KeyPath) -> Self {
         self.bearing.against.push(path);
         self
     }
 
-    /// Judged by the scenario as a whole.
+    /// States that the check depends on the whole scenario.
     pub(crate) fn against_all(self) -> Self {
         self.against_path(KeyPath::default())
     }
 
-    /// Whether its key has no place there.
+    /// Returns whether the key is not allowed at its position.
     pub(crate) fn goes(&self) -> bool {
         self.mark == Mark::Key && !matches!(self.bearing.mend, Mend::Add(_) | Mend::Around(_))
     }
 
-    /// What it speaks of: a key that is missing, or the value at its path.
+    /// Returns the path of the missing key or the invalid value.
     pub(crate) fn subject(&self) -> KeyPath {
         let mut subject = self.path.clone();
         if let Mend::Add(key) = &self.bearing.mend {

@@ -1,32 +1,32 @@
-//! The folder of a scenario: it may name files at or below it, and learns nothing of others.
+//! Finds files in the folder of a scenario. Files outside the folder are neither read nor tested for existence.
 
 use std::collections::VecDeque;
 use std::io;
 use std::path::{Component, Path, PathBuf};
 
-/// Most links followed on the way to one file.
+/// Maximum number of symbolic links in the path of a file.
 const MAX_LINKS: u32 = 40;
 
-/// Most names looked at for the one that was meant.
+/// Maximum number of file names compared for a "did you mean" text.
 const MAX_NAMES: usize = 1000;
 
-/// Why a file is not to be had.
+/// Reason why a file is not accessible.
 #[derive(Debug)]
 pub(crate) enum Denied {
-    /// Its way leads out of the folder. Whether there is a file is not looked at.
+    /// The path leads out of the folder. The result does not depend on whether the file exists.
     Outside,
-    /// There is nothing of that name in the folder.
+    /// The folder contains no such file.
     NotThere,
-    /// It is a folder or a device.
+    /// The path is a folder or a device.
     NotAFile,
-    /// The system cannot read it.
+    /// The system cannot read the path.
     Unreadable(io::Error),
 }
 
-/// The place of a file at or below a folder, wherever links and `..` lead on the way.
+/// Returns the resolved path of a file in a folder or its subfolders. Links and `..` may lead through parent folders if they return.
 ///
-/// The way is gone step by step, and only what lies in the folder is ever asked for: the answer for a way that leads
-/// out is the same whether something is there or not.
+/// Path components are resolved one by one, and only paths inside the folder are tested. For a path that ends outside, the result
+/// therefore does not depend on what exists there.
 pub(crate) fn find(folder: &Path, file: &Path) -> Result<PathBuf, Denied> {
     let folder = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
     let folder = folder.canonicalize().map_err(Denied::Unreadable)?;
@@ -37,7 +37,7 @@ pub(crate) fn find(folder: &Path, file: &Path) -> Result<PathBuf, Denied> {
         if step.as_os_str() == ".." {
             here.pop();
         } else {
-            // An absolute step starts over.
+            // An absolute component starts a new path.
             here.push(&step);
         }
         if here.starts_with(&folder) {
@@ -70,7 +70,7 @@ fn denied(error: io::Error) -> Denied {
     }
 }
 
-/// Names of what lies in a folder; none where it cannot be read.
+/// Returns the sorted names in a folder, or none if the folder cannot be read.
 pub(crate) fn names(folder: &Path) -> Vec<String> {
     let folder = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
     let entries = folder.read_dir().into_iter().flatten().take(MAX_NAMES).flatten();
@@ -79,7 +79,7 @@ pub(crate) fn names(folder: &Path) -> Vec<String> {
     names
 }
 
-/// The steps of a way; those of its root are one.
+/// Returns the components of a path; prefix and root together are one component.
 fn steps(path: &Path) -> Vec<PathBuf> {
     let mut steps = Vec::new();
     let mut root = PathBuf::new();
@@ -149,7 +149,7 @@ mod tests {
         assert_eq!(answer(&inner, "round"), "Other");
     }
 
-    /// Whoever gives away scenarios must not learn what lies on the machines they are run on.
+    /// An author of a scenario must not learn which files exist on the machine that runs it.
     #[test]
     fn the_answer_for_a_way_out_does_not_tell_what_is_there() {
         let all = tempfile::tempdir().unwrap();

@@ -1,4 +1,4 @@
-//! Help from the schema: what it says about a key is what a message says that has nothing better to say.
+//! Help texts from the descriptions and examples of the schema, for messages without a more specific help.
 
 use crate::path::{KeyPath, Step};
 use crate::schema;
@@ -8,29 +8,29 @@ use std::collections::HashSet;
 use std::fmt::Write;
 use std::sync::OnceLock;
 
-/// The help of a fault.
+/// Help of an error.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) enum Help {
     None,
-    /// Its own.
+    /// Text given with the error.
     Said(String),
-    /// From the schema: what the value means.
+    /// Description of the value, from the schema.
     Meaning,
-    /// From the schema: what the value looks like.
+    /// Example of the value, from the schema.
     Shape,
-    /// From the schema: what a missing key means, and how it looks.
+    /// Example and description of a missing key, from the schema.
     Missing(String),
 }
 
 impl Help {
-    /// The sentence about the value under a path.
+    /// Returns the help text for the value at a path.
     pub(crate) fn about(self, path: &KeyPath, guide: &Guide) -> Option<String> {
         let mut path = path.clone();
         match self {
             Self::None => None,
             Self::Said(text) => Some(text),
             Self::Meaning => {
-                // What a list means says more than what its entries are.
+                // The description of a list says more than that of its entries.
                 while path.0.pop_if(|last| matches!(last, Step::Index(_))).is_some() {}
                 guide.description(guide.at(&path)?)
             }
@@ -44,31 +44,31 @@ impl Help {
     }
 }
 
-/// The schema as a book to look things up in.
+/// Schema for look-ups by key path.
 #[derive(Debug, PartialEq)]
 pub(crate) struct Guide {
     root: Value,
 }
 
 impl Guide {
-    /// The book, written when it is first asked for.
+    /// Returns the schema of scenario files, generated at the first call.
     pub(crate) fn get() -> &'static Self {
         static GUIDE: OnceLock<Guide> = OnceLock::new();
         GUIDE.get_or_init(|| Self { root: schema::tree() })
     }
 
-    /// That of study files.
+    /// Returns the schema of study files.
     pub(crate) fn of_studies() -> &'static Self {
         static GUIDE: OnceLock<Guide> = OnceLock::new();
         GUIDE.get_or_init(|| Self { root: schema::study_tree() })
     }
 
-    /// What the schema says about the value under a path.
+    /// Returns the schema of the value at a path.
     pub(crate) fn at(&self, path: &KeyPath) -> Option<&Value> {
         path.0.iter().try_fold(&self.root, |schema, step| self.enter(schema, step))
     }
 
-    /// One step further in, whichever of several kinds has it.
+    /// Returns the schema one step deeper, in the first variant that has this key or index.
     pub(crate) fn enter<'a>(&'a self, schema: &'a Value, step: &Step) -> Option<&'a Value> {
         let inner = match step {
             Step::Key(key) => schema.get("properties").and_then(|keys| keys.get(key)),
@@ -84,7 +84,7 @@ impl Guide {
         self.parts(schema).find_map(|part| self.enter(part, step))
     }
 
-    /// The schemas that a schema refers to as a whole: the one of its type, and those of its kinds.
+    /// Returns the schemas that apply to the same value: the referenced type, and the variants.
     fn parts<'a>(&'a self, schema: &'a Value) -> impl Iterator<Item = &'a Value> {
         let name = schema.get("$ref").and_then(Value::as_str).and_then(|name| name.strip_prefix("#/$defs/"));
         let named = name.and_then(|name| self.root.get("$defs")?.get(name));
@@ -92,7 +92,7 @@ impl Guide {
         named.into_iter().chain(kinds)
     }
 
-    /// The first sentence of the description, as part of another one.
+    /// Returns the first sentence of the description, in lower case for use inside a sentence.
     fn description(&self, schema: &Value) -> Option<String> {
         let text = match schema.get("description") {
             Some(text) => text.as_str()?,
@@ -103,26 +103,26 @@ impl Guide {
         let mut chars = text.chars();
         let first = chars.next()?;
         let word = text.split(' ').next()?;
-        // Names of people and abbreviations stay as they are.
+        // Names of people and abbreviations keep their capitals.
         if word.ends_with("'s") || (word.len() > 1 && word.chars().all(char::is_uppercase)) {
             return Some(text);
         }
         Some(first.to_lowercase().chain(chars).collect())
     }
 
-    /// An example of what a schema describes.
+    /// Returns an example of a value of this schema.
     pub(crate) fn example<'a>(&'a self, schema: &'a Value) -> Option<&'a Value> {
         let own = schema.get("examples").and_then(|examples| examples.get(0));
         own.or_else(|| self.parts(schema).find_map(|part| self.example(part)))
     }
 
-    /// An example of the kind of value that has this name.
+    /// Returns an example of the variant with this name.
     pub(crate) fn example_of(&self, path: &KeyPath, kind: &str) -> Option<String> {
         let schema = self.enter(self.at(path)?, &Step::Key(kind.to_owned()))?;
         Some(format!("{{\"{kind}\": {}}}", line(self.example(schema)?)))
     }
 
-    /// Words and keys that say which kind of value stands under a path, without those of later versions.
+    /// Returns the words and keys that select the variant of the value at a path.
     pub(crate) fn kinds(&self, path: &KeyPath) -> Vec<String> {
         let mut kinds = Vec::new();
         if let Some(schema) = self.at(path) {
@@ -131,14 +131,14 @@ impl Guide {
         kinds
     }
 
-    /// The keys of which one says which kind of value stands under a path; none where there is no such choice.
+    /// Returns the keys that select the variant of the value at a path, or none if there is no such choice.
     pub(crate) fn choices(&self, path: &KeyPath) -> Vec<String> {
         let chooses = self.at(path).is_some_and(|schema| self.is_choice(schema));
         if chooses { self.kinds(path) } else { Vec::new() }
     }
 
-    /// Whether a schema is one of several kinds, each a plain value or an object with the one key that it must have. An object whose
-    /// keys may stand beside each other is none of them, nor is a rule about keys.
+    /// Returns whether a schema is a choice between variants, each a plain value or an object with one required key. Objects whose keys
+    /// may occur together and rules about keys are not a choice.
     fn is_choice(&self, schema: &Value) -> bool {
         let name = schema.get("$ref").and_then(Value::as_str).and_then(|name| name.strip_prefix("#/$defs/"));
         if let Some(named) = name.and_then(|name| self.root.get("$defs")?.get(name)) {
@@ -167,7 +167,7 @@ impl Guide {
     fn add_kinds(&self, schema: &Value, kinds: &mut Vec<String>) {
         let words = schema.get("enum").and_then(Value::as_array).into_iter().flatten();
         kinds.extend(words.filter_map(Value::as_str).map(str::to_owned));
-        // Of keys that must all be there none says which kind it is.
+        // If several keys are required, none of them selects the variant.
         let has_several = schema.get("required").and_then(Value::as_array).is_some_and(|keys| keys.len() > 1);
         if schema.get("oneOf").is_none() && !has_several {
             kinds.extend(self.keys_of(schema));
@@ -177,7 +177,7 @@ impl Guide {
         }
     }
 
-    /// Whether a key may stand in the value under a path.
+    /// Returns whether a key is allowed in the value at a path.
     pub(crate) fn knows(&self, path: &KeyPath, key: &str) -> bool {
         let schema = self.at(path).and_then(|schema| self.enter(schema, &Step::Key(key.to_owned())));
         schema.is_some()
@@ -188,11 +188,11 @@ impl Guide {
         keys.filter(|(_, inner)| inner.is_object()).map(|(key, _)| key.clone())
     }
 
-    /// Where in a scenario a key stands: the places that share most with the one where it was looked for, of those the
-    /// ones closest to the root. Names of parts that are not shared are written as NAME.
+    /// Returns the paths of the objects that may contain a key. Of all such objects, those with the longest common path with `sought` are
+    /// returned, and of these the ones closest to the root. Names of parts that are not in common are written as NAME.
     pub(crate) fn homes(&self, sought: &KeyPath, key: &str) -> Vec<String> {
         let mut homes = self.places(sought, key);
-        // The axes of a picture are no home of a coordinate.
+        // Keys of plots are no help for a coordinate.
         let pictures = Step::Key("plots".to_owned());
         homes.retain(|home| home.0.first() != Some(&pictures) || sought.0.first() == Some(&pictures));
         let shared = |home: &KeyPath| home.0.iter().zip(&sought.0).take_while(|(a, b)| a == b).count();
@@ -202,7 +202,7 @@ impl Guide {
         homes.iter().map(KeyPath::to_string).collect()
     }
 
-    /// All places where a key stands.
+    /// Returns the paths of all objects that may contain a key.
     fn places(&self, sought: &KeyPath, key: &str) -> Vec<KeyPath> {
         let mut places: Vec<KeyPath> = Vec::new();
         let mut level = vec![(KeyPath::default(), &self.root)];
@@ -214,7 +214,7 @@ impl Guide {
         places
     }
 
-    /// Places of a key whose paths end in some steps: the ones closest to the root.
+    /// Returns the paths of objects that contain a key and end with some steps; only those closest to the root.
     fn places_ending(&self, steps: &[Step], key: &str) -> Vec<KeyPath> {
         let mut places = self.places(&KeyPath::default(), key);
         places.retain(|place| place.0.ends_with(steps));
@@ -241,14 +241,14 @@ impl Guide {
             let inner = schema.get(keyword).filter(|inner| inner.is_object());
             level.extend(inner.map(|inner| (deeper(name.cloned().unwrap_or(step)), inner)));
         }
-        // What may only be one word has no keys.
+        // A constant has no keys.
         level.retain(|(_, inner)| inner.get("const").is_none());
         level
     }
 }
 
-/// What the schema says about a key of a scenario: by its path, such as `contacts.ball.friction`, or by the end of it. Each
-/// position with its description, those with the same description once; none where there is no such key.
+/// Returns the schema's description of a scenario key, given by its path, such as `contacts.ball.friction`, or by the end of the path.
+/// Each entry is a path and its description. Equal descriptions are returned once; an unknown key gives an empty list.
 pub fn explained(key: &str) -> Vec<(String, String)> {
     let guide = Guide::get();
     let Some(path) = KeyPath::parse(key).filter(|path| !path.0.is_empty()) else { return Vec::new() };
@@ -264,7 +264,7 @@ pub fn explained(key: &str) -> Vec<(String, String)> {
     }
     let Some((Step::Key(name), before)) = path.0.split_last() else { return Vec::new() };
     if !before.is_empty() {
-        // The end of a path, such as `sawtooth.flyback`.
+        // End of a path, such as `sawtooth.flyback`.
         let whole = guide.places_ending(before, name).into_iter().map(|mut place| {
             place.0.push(Step::Key(name.clone()));
             place
@@ -279,7 +279,7 @@ pub fn explained(key: &str) -> Vec<(String, String)> {
     places.filter(|(_, text)| seen.insert(text.clone())).collect()
 }
 
-/// A value on one line, as people write it.
+/// Returns a value as JSON on one line, with blanks.
 fn line(value: &Value) -> String {
     let mut text = String::new();
     match value {

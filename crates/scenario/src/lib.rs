@@ -1,22 +1,26 @@
-//! The scenario file: the only crate that reads its JSON.
+//! Reads and checks scenario files and study files. No other crate reads this JSON.
 //!
-//! [`Scenario::load`] makes a [`Scene`](stickslip_drive::Scene) and a [`Plan`](stickslip_drive::Plan) of a file. The
-//! form of the file and its meaning are two sets of types with one conversion between them. What
-//! a file may hold is checked here; what makes a pair, a profile or a contact in `stickslip-contact`; what makes a scene
-//! or a plan in `stickslip-drive`, when the model is built. Their typed errors get their words and their place in the file
-//! here: [`Scenario::refusal`].
+//! [`Scenario::load`] converts a file into a [`Scene`](stickslip_drive::Scene) (the model) and a [`Plan`](stickslip_drive::Plan) (the
+//! run). The module `form` contains types that mirror the keys of the file. The module `meaning` converts them into the model. This crate
+//! checks keys, units and ranges. The crate `stickslip-contact` checks materials, profiles and contacts; `stickslip-drive` checks model
+//! and run when the model is built. [`Scenario::refusal`] gives their typed errors a message and a position in the file.
 //!
-//! Every error is a [`ScenarioError`] that points into the file: one index from key path to place is kept. It tells everything
-//! that is wrong and no consequence of something else: `mistakes`. What is allowed and odd is a warning, of which a
-//! [`Scenario`] carries several.
+//! Every error is a [`ScenarioError`] with positions in the file, found through one index from key paths to positions. All errors of a
+//! file are reported together. Follow-on errors, which only result from another error, are suppressed. Values that are allowed but
+//! implausible give warnings in [`Scenario::warnings`].
 //!
-//! In reading order: `text` (bytes that are text), `syntax` (JSON with comments, limits, duplicate keys, what people write
-//! instead) and `place` (the index) under `document`; `overrides` (`--set`); `units` and `quantity`; `form` (what may
-//! stand where, with the docs that become the schema), the `reader` that fills it, `misfit` and `refusal` (what does not
-//! fit, as data and in words); `mistakes` (what else does not); `tables` in the scenario's `folder`; `meaning` (the conversion, and its warnings); `resolved`
-//! (canonical JSON); `pairing` (what contacts are made of); `address` (where the parts of a scene stand in the file);
-//! `schema`, and `guide`, which answers from it; `parameter` (numbers that may be varied); `study` (the other file: which of them are, and what is kept of each run); `named` (materials by name) and `substance` (what a material's name means).
-//! [`Report`] is what all of them say, [`Excerpt`] the line it shows.
+//! Reading order of the modules:
+//!
+//! * `text` (UTF-8), `syntax` (JSON with comments, limits, duplicate keys, syntax errors), `place` (position index), `document`.
+//! * `overrides` (`--set`), `units`, `quantity`.
+//! * `form` (all keys; their doc comments are the descriptions in the schema), `reader` (deserializer), `misfit` and `refusal` (type
+//!   errors and their messages).
+//! * `mistakes` (search for all errors), `tables` and `folder` (tables in files), `meaning` (conversion, checks and warnings).
+//! * `resolved` (canonical JSON), `pairing` (materials and profiles of contacts), `address` (key paths of parts of the model).
+//! * `schema`, `guide` (help texts from the schema), `parameter` (numbers that may be varied), `study`; `named` (material constants by
+//!   name), `substance` (classes of materials by name).
+//!
+//! [`Report`] is one message, [`Excerpt`] the line of the file that it shows.
 
 mod address;
 mod document;

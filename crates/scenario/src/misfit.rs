@@ -1,29 +1,29 @@
-//! Why a value does not fit the form: what serde's derived code finds, kept as parts and not as a sentence.
+//! Error type of the deserializer: the reason why a value does not fit its key, as data instead of text.
 
 use crate::quantity::HELP;
 use serde::de::{self, Expected, Unexpected};
 use std::fmt;
 
-/// Why a value does not fit the form.
+/// Reason why a value does not fit its key.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) enum Misfit {
-    /// A key that has no place here, and those that have.
+    /// Unknown key, and the allowed keys.
     UnknownKey { name: String, known: &'static [&'static str] },
-    /// A word or key that names no kind of value.
+    /// Word or key that is not the name of a variant.
     UnknownKind(String),
-    /// A key that must be there is not.
+    /// Missing key.
     Missing(&'static str),
-    /// No key that says which kind of value it is, or several.
+    /// Object without the key that selects a variant, or with several.
     NotOneKind,
-    /// Another sort of value is wanted.
+    /// Value of another type.
     Unfit(Wanted),
-    /// A list of another length is wanted.
+    /// List of another length.
     Length { wanted: String, got: usize },
-    /// What a reader of the form says in its own words.
+    /// Message of a custom deserializer.
     Said { message: String, help: Option<String> },
 }
 
-/// What is wanted in place of a value.
+/// Expected type of a value.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) enum Wanted {
     Number,
@@ -31,17 +31,17 @@ pub(crate) enum Wanted {
     Text,
     List,
     Object,
-    /// A word that names a kind of value, or an object whose only key does.
+    /// Name of a variant, or object with one key that is such a name.
     Kind,
-    /// Nothing inside a kind that has no inside.
+    /// No contents, because the variant has none.
     Nothing,
-    /// The inside of a kind whose name stands alone.
+    /// Contents of a variant whose name stands alone.
     Inside,
-    /// An object or a list that has a name of its own.
+    /// Object or list of a type with this description.
     Shape(String),
-    /// The name of something else in the file, or that thing itself.
+    /// Reference to another part of the file, or the part itself.
     Name(String),
-    /// What a reader of the form calls it.
+    /// Value of a type with this description.
     Value(String),
 }
 
@@ -81,7 +81,7 @@ impl de::Error for Misfit {
 
 impl std::error::Error for Misfit {}
 
-/// For serde, which wants it; whoever wrote the file is told by a refusal.
+/// serde requires this implementation. Users see the message of a refusal.
 impl fmt::Display for Misfit {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{self:?}")

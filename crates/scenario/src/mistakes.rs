@@ -1,9 +1,8 @@
-//! Everything that is wrong with a scenario, and no consequence of it.
+//! Finds all errors of a scenario and suppresses follow-on errors.
 //!
-//! Reading ends at the first fault. Where there is one, what is to blame is mended by something that fits, and the scenario is
-//! read again, until nothing is wrong. A fault that was judged by what was mended is a consequence of it, or may be one, and is
-//! not told. So a file in which one thing is wrong is told what it always was, a good one costs nothing, and no check needs to
-//! know what to do with half a scenario.
+//! Reading stops at the first error. The search then replaces the invalid value by a valid one and reads the scenario again, until no
+//! error remains. An error whose check depended on a replaced value may be a follow-on error and is not reported. A scenario without
+//! errors is read only once, and no check has to handle incomplete scenarios.
 
 use crate::document::Document;
 use crate::error::{Beyond, Report, ScenarioError, Stage};
@@ -16,21 +15,21 @@ use serde_json::Value;
 use std::collections::{HashMap, VecDeque};
 use stickslip_drive::scene::Start;
 
-/// Most that are told of.
+/// Maximum number of reported errors.
 const TOLD: usize = 20;
-/// Most that are looked for: those told are the first in the file.
+/// Maximum number of searched errors. The first of them in the file are reported.
 const SOUGHT: usize = 64;
-/// How often a value is mended before what it stands in is.
+/// Number of replacements of a value before its parent is replaced.
 const TRIES: u32 = 2;
-/// Most bytes that are read again, all readings together, and the fewest that one counts for. It is counted and not timed: the
-/// same file is told the same on every machine.
+/// Limit of bytes read in all repetitions, and minimum counted for one. Bytes instead of time are limited, so that reports are equal on
+/// all machines.
 const WORK: usize = 8 << 20;
 const LEAST_WORK: usize = 64 << 10;
 
-/// Keys that are given in the place of one that is missing.
+/// Pairs of keys of which one may be given instead of the other.
 const KIN: [(&str, &str); 3] = [("period", "frequency"), ("frequency", "period"), ("duration", "length")];
 
-/// All that is wrong, beginning with these faults.
+/// Returns all errors, beginning with the given ones.
 pub(crate) fn all(mut document: Document, first: Vec<Fault>) -> ScenarioError {
     let mut mistakes = Mistakes::default();
     let mut known = VecDeque::from(first);
@@ -51,7 +50,7 @@ pub(crate) fn all(mut document: Document, first: Vec<Fault>) -> ScenarioError {
                 }
             },
         };
-        // A fault that says itself that nothing else can be judged needs no more words.
+        // An error after which nothing can be checked needs no note about unchecked parts.
         let is_all = fault.bearing.mend == Mend::Nothing;
         if !mistakes.take(&mut document, fault) && known.is_empty() {
             not_checked = !is_all;
@@ -64,26 +63,26 @@ pub(crate) fn all(mut document: Document, first: Vec<Fault>) -> ScenarioError {
     mistakes.told(not_checked)
 }
 
-/// Where a report stands: its source, or the one that names it, the place there and the place in a table.
+/// Sort key of a report: source, position in it, and position in a table. A table has the position of the key that names its file.
 pub(crate) type Order = (usize, usize, usize);
 
 struct Mistakes {
     found: Vec<(Order, Report)>,
-    /// What was mended.
+    /// Paths of replaced values.
     spoilt: Vec<KeyPath>,
-    /// How often.
+    /// Number of replacements of each path.
     tried: HashMap<KeyPath, u32>,
-    /// Keys that are not known, by the object that they stood in: one may be what is missing there.
+    /// Unknown keys with their parent and value. One of them may be a misspelt missing key.
     strays: Vec<(KeyPath, Step, Value)>,
-    /// Keys that were missing.
+    /// Missing keys.
     lacking: Vec<Step>,
-    /// Sections with parts that cannot have the names they have: what refers to a part that is not there means one of them.
+    /// Sections with invalid names of parts. References to unknown parts of such a section are follow-on errors.
     misnamed: Vec<Step>,
-    /// Bytes that were read again.
+    /// Number of bytes read again.
     work: usize,
-    /// The stage that judging got to, and was not through with.
+    /// First stage that was not completed.
     reached: Stage,
-    /// Whether an equilibrium is asked for, as far as is known.
+    /// Whether the run starts from an equilibrium, as far as is known.
     balances: bool,
 }
 
@@ -104,12 +103,12 @@ impl Default for Mistakes {
 }
 
 impl Mistakes {
-    /// What is wrong with a scenario that may have been mended; none where enough has been read.
+    /// Reads the scenario again and returns its first error. Returns `None` if the limit of bytes is reached.
     fn judge(&mut self, document: &mut Document) -> Option<Result<(), Fault>> {
         if self.work >= WORK {
             return None;
         }
-        // Tables count, too: they are read again with the rest.
+        // Tables count, because they are read again, too.
         let bytes = document.sources.iter().map(|source| source.text.len()).sum();
         self.work += LEAST_WORK.max(bytes);
         document.forget_tables();
@@ -120,7 +119,7 @@ impl Mistakes {
         Some(meaning.and_then(|meaning| meaning::start(&meaning)))
     }
 
-    /// Notes a fault, if it is one by itself, and mends it; false where nothing can.
+    /// Records an error unless it is a follow-on error, and repairs it. Returns false if no repair is possible.
     fn take(&mut self, document: &mut Document, mut fault: Fault) -> bool {
         if !self.follows(&fault) {
             if self.strayed(document, &fault) {
@@ -134,7 +133,7 @@ impl Mistakes {
         self.mend(&mut document.value, &fault)
     }
 
-    /// Whether a fault may be the consequence of one before.
+    /// Returns whether an error may be a follow-on error.
     fn follows(&self, fault: &Fault) -> bool {
         let subject = fault.subject();
         let ends_like = |key: &Step| subject.0.last() == Some(key);
@@ -152,7 +151,7 @@ impl Mistakes {
         })
     }
 
-    /// Whether a key that is missing stands elsewhere, or there under a name that nobody knows: then its value fits.
+    /// Returns whether a missing key was given elsewhere or under an unknown name whose value fits, and repairs it.
     fn strayed(&mut self, document: &mut Document, fault: &Fault) -> bool {
         if !matches!(fault.bearing.mend, Mend::Add(_)) {
             return false;
@@ -184,7 +183,7 @@ impl Mistakes {
         false
     }
 
-    /// Puts something that fits where a fault is; what it stands in gives way where nothing does.
+    /// Replaces the value of an error by a valid one. If none fits, the parent is replaced.
     fn mend(&mut self, root: &mut Value, fault: &Fault) -> bool {
         let mut target = fault.subject();
         match &fault.bearing.mend {
@@ -232,7 +231,7 @@ impl Mistakes {
         }
     }
 
-    /// The value under the key that was meant, if nothing stands there.
+    /// Moves a value to the intended key unless that key exists.
     fn rename(&mut self, root: &mut Value, target: KeyPath, name: &str) -> bool {
         let mut meant = target.clone();
         meant.0.pop();
@@ -245,7 +244,7 @@ impl Mistakes {
         mended
     }
 
-    /// In the order of the file.
+    /// Returns the errors in the order of the file.
     fn told(mut self, not_checked: bool) -> ScenarioError {
         self.found.sort_by_key(|(order, _)| *order);
         let more = self.found.len() > TOLD;
@@ -262,8 +261,8 @@ impl Mistakes {
     }
 }
 
-/// Mends a value in the first or the second way: what the check knows, or else an example, or nothing in its place. Where the
-/// key is to blame it goes first.
+/// Repairs a value in one of two ways: the value known to the check, otherwise an example, or removal. If the key is wrong, removal is
+/// tried first.
 fn attempt(root: &mut Value, fault: &Fault, target: &KeyPath, (is_first, key_goes): (bool, bool)) -> bool {
     match &fault.bearing.mend {
         Mend::With(value) if is_first => return set(root, target, value.clone()),
@@ -283,7 +282,7 @@ fn attempt(root: &mut Value, fault: &Fault, target: &KeyPath, (is_first, key_goe
     shown(root) || remove(root, target)
 }
 
-/// What the schema shows for a path.
+/// Returns the example of the schema for a path.
 fn example(path: &KeyPath) -> Option<Value> {
     let guide = Guide::get();
     guide.example(guide.at(path)?).cloned()
@@ -307,7 +306,7 @@ fn at<'a>(root: &'a mut Value, path: &KeyPath) -> Option<&'a mut Value> {
     path.0.iter().try_fold(root, step)
 }
 
-/// Puts a value under a path; false where it cannot stand there, or stands there already.
+/// Sets the value at a path. Returns false if that is impossible or changes nothing.
 fn set(root: &mut Value, path: &KeyPath, value: Value) -> bool {
     if let Some(here) = at(root, path) {
         let differs = *here != value;
@@ -323,7 +322,7 @@ fn set(root: &mut Value, path: &KeyPath, value: Value) -> bool {
     }
 }
 
-/// Takes an entry out of an object that has others; false where there is none.
+/// Removes an entry from an object with at least two entries. Returns false if there is none.
 fn remove(root: &mut Value, path: &KeyPath) -> bool {
     let Some((Step::Key(key), parent)) = path.0.split_last() else { return false };
     match parent.iter().try_fold(root, step) {

@@ -1,25 +1,25 @@
-//! Materials by name, for contacts whose scenario says nothing else: elastic constants at room temperature, each with its source.
+//! Elastic constants of materials by name, at room temperature, each with its source. Contacts may name them without a description in the
+//! scenario.
 //!
-//! One table tells what a name usually is (here), another what it can be (`substance`): a test holds them together. Friction is
-//! not a matter of a material, and not here.
+//! A test checks that the values lie in the ranges of `substance`. Friction depends on the pair, so the table has no coefficients.
 
 use crate::form::{Form, MaterialForm};
 use crate::quantity::Pressure;
 
-/// A material that a contact may name without describing it.
+/// Material that a contact may name without a description in the scenario.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct NamedMaterial {
-    /// Its name.
+    /// Name.
     pub name: &'static str,
     /// Young's modulus, Pa.
     pub youngs_modulus: f64,
     /// Poisson's ratio.
     pub poisson_ratio: f64,
-    /// What exactly is meant, and where the numbers are from.
+    /// Grade of the material and source of the numbers.
     pub source: &'static str,
 }
 
-/// All of them. Crystals are anisotropic: what stands here is what an isotropic body of their grains would have.
+/// All named materials. For crystals, the constants are those of an isotropic polycrystal.
 pub const MATERIALS: &[NamedMaterial] = &[
     of(
         "alumina",
@@ -36,7 +36,7 @@ pub const MATERIALS: &[NamedMaterial] = &[
         0.30,
         "bearing steel 100Cr6 (ISO 683-17), 58 to 65 HRC: data sheets (210 GPa, 0.3)",
     ),
-    of("PTFE", 0.5, 0.46, "unfilled; data sheets range from 0.3 to 0.8 GPa, it creeps (0.46)"),
+    of("PTFE", 0.5, 0.46, "unfilled; data sheets range from 0.3 to 0.8 GPa; creeps (0.46)"),
     of("ruby", 400.0, 0.23, SAPPHIRE),
     of("sapphire", 400.0, 0.23, SAPPHIRE),
     of(
@@ -55,20 +55,20 @@ pub const MATERIALS: &[NamedMaterial] = &[
     ),
 ];
 
-/// One word for both: chromium is a fraction of a per cent.
+/// Source for both ruby and sapphire; the chromium of ruby is a fraction of a per cent.
 const SAPPHIRE: &str = "mean over directions of alpha-Al2O3, C11 496, C12 164, C13 115, C33 498, C44 148 GPa of data sheets; a crystal 335 to 470 GPa";
 
 const fn of(name: &'static str, gigapascals: f64, poisson_ratio: f64, source: &'static str) -> NamedMaterial {
     NamedMaterial { name, youngs_modulus: gigapascals * 1e9, poisson_ratio, source }
 }
 
-/// Gives contacts the materials that they name and nobody describes. Only a name as it stands in the table is one of it; where a
-/// material is described whose name differs by capitals alone, that one is meant.
+/// Adds the named materials that contacts use and the scenario does not describe. Names must match exactly. If the scenario describes a
+/// material whose name differs only in capitals, nothing is added.
 pub(crate) fn fill(form: &mut Form) {
     let is_known = |material: &&NamedMaterial, name: &str| material.name == name;
     let named = form.contacts.iter().flat_map(|(_, contact)| &contact.materials.0);
     let mut wanted: Vec<&'static NamedMaterial> = Vec::new();
-    // The table is short: what is in it is found before anything is asked of the form, which may be long.
+    // Searches the short table first, because the scenario may be long.
     for material in named.filter_map(|name| MATERIALS.iter().find(|material| is_known(material, name))) {
         if !wanted.contains(&material) {
             wanted.push(material);
@@ -98,8 +98,7 @@ mod tests {
         assert!(MATERIALS.windows(2).all(|pair| pair[0].name.to_lowercase() < pair[1].name.to_lowercase()));
     }
 
-    /// The mean of Voigt over all directions (Hill 1952), from the constants that the source names; that of Reuss lies a little
-    /// below.
+    /// Mean over all directions by Voigt (Hill 1952), from the constants in the source; the mean by Reuss is slightly lower.
     #[test]
     fn sapphire_is_the_mean_of_its_crystal() {
         let (c11, c12, c13, c33, c44) = (496.0, 164.0, 115.0, 498.0, 148.0);

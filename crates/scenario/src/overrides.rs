@@ -1,4 +1,4 @@
-//! `--set path=value`: values put into a read scenario before it is given its meaning.
+//! Overrides `--set path=value`, applied to a parsed scenario before its keys are interpreted.
 
 use crate::document::{Document, SourceKind};
 use crate::fault::{Fault, Mend};
@@ -9,11 +9,11 @@ use crate::suggest;
 use crate::syntax::{self, Read};
 use serde_json::{Map, Value};
 
-/// Parts that may be left out of a scenario as a whole: an override makes them.
+/// Optional sections that an override may create.
 const SECTIONS: [&str; 4] = ["run", "output", "figures", "gravity"];
-/// Parts that are lists.
+/// Sections that are lists.
 const LISTS: [&str; 2] = ["loads", "plots"];
-/// Keys of which one is given.
+/// Groups of keys that exclude each other.
 const ALTERNATIVES: &[&[&str]] = &[
     &["duration", "cycles"],
     &["period", "frequency"],
@@ -22,10 +22,10 @@ const ALTERNATIVES: &[&[&str]] = &[
     &["heights", "self_affine"],
     &["window", "last"],
 ];
-/// Parts that are maps from names the user gave.
+/// Sections that map names to parts.
 const NAMED: [&str; 6] = ["materials", "waveforms", "bodies", "contacts", "springs", "actuators"];
 
-/// Puts one value under a path; says what is wrong with it.
+/// Sets the value at a path. Returns the errors.
 pub(crate) fn apply(document: &mut Document, path: &str, text: &str) -> Vec<Fault> {
     let source = document.sources.len();
     let argument = format!("{path}={text}");
@@ -36,7 +36,7 @@ pub(crate) fn apply(document: &mut Document, path: &str, text: &str) -> Vec<Faul
         _ => {
             let fault = Fault::new(KeyPath::default(), "expected a key path before the = sign").at_span(name);
             let fault = fault.help("such as contacts.ball.friction or loads[0].x").of_shape();
-            // Nobody knows what it speaks of: it stands for itself.
+            // The path is invalid, so the error is independent of all others.
             return vec![fault.mend(Mend::Leave(None))];
         }
     };
@@ -56,12 +56,12 @@ pub(crate) fn apply(document: &mut Document, path: &str, text: &str) -> Vec<Faul
             document.root.put(&target.0, place);
             faults
         }
-        // What it was to be stays what it was.
+        // The target keeps its old value.
         Err(fault) => vec![fault.of_shape().mend(Mend::Leave(Some(target)))],
     }
 }
 
-/// The path with the number of the next entry where `[+]` adds one.
+/// Replaces each `[+]` in a path by the index of the next entry of its list.
 fn numbered(root: &Value, path: &str) -> String {
     let mut path = path.to_owned();
     while let Some(at) = path.find("[+]") {
@@ -79,14 +79,14 @@ fn look<'a>(root: &'a Value, path: &[Step]) -> Option<&'a Value> {
     })
 }
 
-/// What an override puts out of force: the other key of two that exclude each other, the other kind where one is chosen.
+/// Returns the paths of the values that an override replaces: alternatives of its key, and other variants of its value.
 fn alternatives(root: &Value, target: &KeyPath) -> Vec<KeyPath> {
     let mut others = Vec::new();
     for depth in 1..=target.0.len() {
         let (parent, Step::Key(key)) = (&target.0[..depth - 1], &target.0[depth - 1]) else { continue };
         let parent = KeyPath(parent.to_vec());
         let here = look(root, &parent.0);
-        // What stands there already is changed and puts nothing else out of force; the schema is written for no less.
+        // A change of an existing value replaces nothing else.
         let stays = match here {
             Some(Value::Object(entries)) => entries.is_empty() || entries.contains_key(key),
             Some(Value::String(_) | Value::Number(_)) => false,
@@ -97,7 +97,7 @@ fn alternatives(root: &Value, target: &KeyPath) -> Vec<KeyPath> {
         }
         let kinds = Guide::get().choices(&parent);
         if !kinds.contains(key) {
-            // A word such as "off", where an object could stand that has this key.
+            // The parent is a word such as "off", where an object with this key is allowed.
             if matches!(here, Some(Value::String(_)))
                 && Guide::get().at(&KeyPath(target.0[..depth].to_vec())).is_some()
             {
@@ -113,7 +113,7 @@ fn alternatives(root: &Value, target: &KeyPath) -> Vec<KeyPath> {
             continue;
         }
         match here {
-            // A word or a quantity where now a kind with an inside stands.
+            // The parent is a word or a quantity, and becomes a variant with contents.
             Some(Value::String(_) | Value::Number(_)) => others.push(parent),
             Some(Value::Object(entries)) => {
                 let rest = entries.keys().filter(|other| *other != key && kinds.contains(other));
@@ -126,7 +126,7 @@ fn alternatives(root: &Value, target: &KeyPath) -> Vec<KeyPath> {
     others
 }
 
-/// Takes an entry out of its object, or makes an empty one of a plain value.
+/// Removes an entry from its object.
 fn clear(root: &mut Value, path: &KeyPath) {
     let Some((Step::Key(key), parent)) = path.0.split_last() else { return };
     let parent = parent.iter().try_fold(root, |here, step| match step {
@@ -138,7 +138,7 @@ fn clear(root: &mut Value, path: &KeyPath) {
     }
 }
 
-/// The value is JSON if it reads as JSON, and a string otherwise; so quantities need no quotes on a command line.
+/// Parses a value: JSON if it is JSON, otherwise a string. Quantities therefore need no quotes on a command line.
 fn value(text: &str, origin: &syntax::Origin) -> Result<Read, Fault> {
     let start = text.trim_start();
     let must_be_json = start.starts_with(['{', '[', '"']);
@@ -150,12 +150,12 @@ fn value(text: &str, origin: &syntax::Origin) -> Result<Read, Fault> {
     Ok(Read { value: Value::String(text.to_owned()), place, faults: Vec::new() })
 }
 
-/// An override changes what is there or adds a key to it; it does not invent named parts by a slip of the pen.
+/// Checks that an override changes an existing value or adds a key to an existing part. Misspelt names of parts are refused.
 fn known(document: &Document, target: &KeyPath, name: Span) -> Result<(), Fault> {
     let [Step::Key(part), rest @ ..] = target.0.as_slice() else { return Ok(()) };
     let unknown = |depth: usize, help: Option<String>| {
         let path = KeyPath(target.0[..depth].to_vec());
-        Err(Fault::new(path, "there is nothing under this path").at_span(name).maybe_help(help))
+        Err(Fault::new(path, "the scenario has no value at this path").at_span(name).maybe_help(help))
     };
     let entries = document.value.get(part);
     match rest {
@@ -177,7 +177,7 @@ fn known(document: &Document, target: &KeyPath, name: Span) -> Result<(), Fault>
     }
 }
 
-/// Which entries a list has.
+/// Describes the indices of a list.
 fn extent(length: usize) -> String {
     match length {
         0 => "is empty".to_owned(),
@@ -186,7 +186,7 @@ fn extent(length: usize) -> String {
     }
 }
 
-/// What a step leads into.
+/// Returns the empty container that the next step requires.
 fn empty(step: Option<&Step>) -> Value {
     match step {
         Some(Step::Index(_)) => Value::Array(Vec::new()),

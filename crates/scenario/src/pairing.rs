@@ -1,23 +1,22 @@
-//! What contacts are made of and where numbers stand, in the file's own words: a scene has moduli and a profile, but no names of them.
+//! Names of materials and profiles of contacts, and key paths of parts, which the model does not contain.
 
 use crate::Scenario;
 use crate::form::ProfileForm;
 
 impl Scenario {
-    /// Names of the materials of contact `index`, first and second.
+    /// Returns the names of the two materials of contact `index`.
     pub fn materials_of(&self, index: usize) -> Option<[&str; 2]> {
         let (_, contact) = self.form.contacts.0.get(index)?;
         Some(contact.materials.0.each_ref().map(String::as_str))
     }
 
-    /// The word for the profile of contact `index`, such as `paraboloid`.
+    /// Returns the key of the profile of contact `index`, such as `paraboloid`.
     pub fn profile_of(&self, index: usize) -> Option<&'static str> {
         let (_, contact) = self.form.contacts.0.get(index)?;
         Some(contact.profile.word())
     }
 
-    /// Radius of curvature R of the ball of contact `index`, m, and whether it is a paraboloid in its place; none of other
-    /// profiles.
+    /// Returns the radius of curvature R of a ball, m, and whether its profile is a paraboloid. Returns `None` for other profiles.
     pub fn ball_of(&self, index: usize) -> Option<(f64, bool)> {
         match &self.form.contacts.0.get(index)?.1.profile {
             ProfileForm::Paraboloid(ball) => Some((ball.radius.si, true)),
@@ -26,18 +25,18 @@ impl Scenario {
         }
     }
 
-    /// Materials and their Young's moduli, Pa, in the order of the file.
+    /// Returns materials with their Young's moduli, Pa, in the order of the file.
     pub fn materials(&self) -> impl Iterator<Item = (&str, f64)> {
         self.form.materials.iter().map(|(name, material)| (name, material.youngs_modulus.si))
     }
 
-    /// Young's modulus, Pa, and Poisson's ratio of a material.
+    /// Returns Young's modulus, Pa, and Poisson's ratio of a material.
     pub fn elasticity(&self, material: &str) -> Option<(f64, f64)> {
         let (_, material) = self.form.materials.0.get(self.form.materials.find(material)?)?;
         Some((material.youngs_modulus.si, material.poisson_ratio))
     }
 
-    /// The key path of the stiffness or the capacitance of an actuator: its own, or else that of its data sheet.
+    /// Returns the key path of the stiffness or capacitance of an actuator: its own key if given, otherwise that of its data sheet.
     pub fn stack_path(&self, actuator: &str, key: &str) -> String {
         let actuators = &self.form.actuators;
         let form = actuators.find(actuator).and_then(|place| actuators.0.get(place)).map(|(_, form)| form);
@@ -49,7 +48,7 @@ impl Scenario {
         format!("actuators.{actuator}{sheet}.{key}")
     }
 
-    /// The key path of waveform `index`: it has a name, or stands where it is used and is named by its path.
+    /// Returns the key path of waveform `index`: named waveforms are in `waveforms`, others at the key that follows them.
     pub fn waveform_path(&self, index: usize) -> Option<String> {
         let name = &self.scene.waveforms.get(index)?.name;
         Some(if self.form.waveforms.find(name).is_some() {
@@ -59,7 +58,7 @@ impl Scenario {
         })
     }
 
-    /// Materials of which no contact is made, in the order of the file.
+    /// Returns materials that no contact uses, in the order of the file.
     pub fn unused_materials(&self) -> impl Iterator<Item = &str> {
         let is_used =
             |name: &str| self.form.contacts.iter().any(|(_, c)| c.materials.0.iter().any(|m| m == name));

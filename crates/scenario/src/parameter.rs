@@ -1,4 +1,4 @@
-//! Numbers of a scenario that somebody may vary, found by their key paths.
+//! Finds numbers of a scenario that may be varied, by key path.
 
 use crate::error::ScenarioError;
 use crate::guide::Guide;
@@ -8,45 +8,45 @@ use crate::suggest;
 use crate::units::Kind;
 use serde_json::Value;
 
-/// Longest way from a place in the schema to the name of its dimension.
+/// Maximum depth of the search for the dimension in the schema.
 const DEEPEST: usize = 8;
-/// What a run goes by and steady motion does not.
+/// Sections that concern execution of a run and have no influence on the motion.
 const OF_A_RUN: [&str; 3] = ["output", "plots", "run"];
 
-/// A number of a scenario that may take any value near the one it has.
+/// Number of a scenario that may be varied.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Parameter {
-    /// Its key path, such as `contacts.ball.friction`.
+    /// Key path, such as `contacts.ball.friction`.
     pub path: String,
-    /// What it is, in `unit`, or by default; none where the scenario leaves it out, no default is known and the key may still be given.
+    /// Value in `unit`, or the default. `None` if the scenario omits the key and there is no known default.
     pub value: Option<f64>,
-    /// Its SI unit; empty for a plain number.
+    /// SI unit; empty for a plain number.
     pub unit: &'static str,
-    /// Whether it counts whole things.
+    /// Whether the number is an integer, such as a count.
     pub is_whole: bool,
 }
 
 impl Scenario {
-    /// The number under a key path that a motion changes with continuously.
+    /// Returns the number at a key path, if the motion depends on it continuously.
     ///
     /// # Errors
-    /// Nothing under that path, something else than a number, one that counts whole things, or one that says how a run is run.
+    /// No number at the path, an integer, or a key of `run`, `output` or `plots`.
     pub fn parameter(&self, path: &str) -> Result<Parameter, ScenarioError> {
         let is_in =
             |steps: &KeyPath, part: &&str| KeyPath::parse(part).is_some_and(|part| steps.lies_in(&part));
         if KeyPath::parse(path).is_some_and(|steps| OF_A_RUN.iter().any(|part| is_in(&steps, part))) {
-            let message = "it says how a run is run or written and changes no motion";
+            let message = "this key sets execution or output of the run and has no effect on the motion";
             return Err(self.locate(path, message, None));
         }
         let found = self.number(path)?;
         if found.is_whole {
-            let message = "it counts whole things: a number that can change by any amount is needed here";
+            let message = "this is a count; expected a continuous number";
             return Err(self.locate(path, message, None));
         }
         Ok(found)
     }
 
-    /// Periods, or frequencies, of all named waveforms that have one.
+    /// Returns the periods or frequencies of all named waveforms.
     #[must_use]
     pub fn periods(&self) -> Vec<Parameter> {
         let tree = serde_json::to_value(&self.form).unwrap_or_default();
@@ -60,10 +60,10 @@ impl Scenario {
         periods.collect()
     }
 
-    /// The number under a key path, whatever it says.
+    /// Returns the number at a key path of any section, integers included.
     ///
     /// # Errors
-    /// Nothing under that path, or something else than a number.
+    /// No number at the path.
     pub fn number(&self, path: &str) -> Result<Parameter, ScenarioError> {
         let refused = |message: &str, help: Option<String>| Err(self.locate(path, message, help));
         let Some(steps) = KeyPath::parse(path).filter(|steps| !steps.0.is_empty()) else {
@@ -73,11 +73,11 @@ impl Scenario {
         let tree = serde_json::to_value(&self.form).unwrap_or_default();
         let schema = Guide::get().at(&steps);
         let found = match (look(&tree, &steps.0), schema) {
-            (Err(help), _) => return refused("there is nothing under this path", help),
+            (Err(help), _) => return refused("the scenario has no value at this path", help),
             (Ok(None), None) => {
                 let keys = steps.0.split_last().map(|(_, parent)| keys(&tree, parent));
                 let help = steps.0.last().zip(keys).and_then(|(last, keys)| slip(last, &keys));
-                return refused("there is nothing under this path", help);
+                return refused("the scenario has no value at this path", help);
             }
             (Ok(found), _) => found,
         };
@@ -85,14 +85,14 @@ impl Scenario {
             None => schema.and_then(|schema| schema.get("default")).and_then(Value::as_f64),
             Some(Value::Number(number)) => number.as_f64(),
             Some(other) => {
-                return refused(&format!("expected a number, here stands {}", kind_of(other)), None);
+                return refused(&format!("expected a number, got {}", kind_of(other)), None);
             }
         };
-        let Some(schema) = schema else { return refused("there is nothing under this path", None) };
+        let Some(schema) = schema else { return refused("the scenario has no value at this path", None) };
         let (kind, takes) = dimension(schema, DEEPEST);
         let kind = match takes {
             Takes::Nothing if !is_whole(schema) => return refused("expected the path of a number", None),
-            // That of what follows the waveform. A factor of it has none.
+            // The value of a waveform has the dimension of the quantity that follows the waveform. A factor has no dimension.
             Takes::Values => kind.or_else(|| followed(&tree, &steps)),
             Takes::Numbers | Takes::Nothing => kind,
         };
@@ -101,7 +101,7 @@ impl Scenario {
     }
 }
 
-/// What stands under a path; none where its last key alone is missing. An error is what might have been meant.
+/// Returns the value at a path, or `None` if only the last key is missing. The error is a help text.
 fn look<'a>(tree: &'a Value, path: &[Step]) -> Result<Option<&'a Value>, Option<String>> {
     let mut here = tree;
     for (depth, step) in path.iter().enumerate() {
@@ -116,9 +116,7 @@ fn look<'a>(tree: &'a Value, path: &[Step]) -> Result<Option<&'a Value>, Option<
             }
             None if here.is_array() && matches!(step, Step::Key(_)) => {
                 let list = KeyPath(path[..depth].to_vec());
-                return Err(Some(format!(
-                    "entries of a list are told by their place: {list}[0] is the first"
-                )));
+                return Err(Some(format!("entries of a list have an index: {list}[0] is the first")));
             }
             None => return Err(slip(step, &keys(tree, &path[..depth]))),
         };
@@ -126,7 +124,7 @@ fn look<'a>(tree: &'a Value, path: &[Step]) -> Result<Option<&'a Value>, Option<
     Ok(Some(here))
 }
 
-/// The keys of the object under a path.
+/// Returns the keys of the object at a path.
 fn keys(tree: &Value, path: &[Step]) -> Vec<String> {
     let here = look(tree, path).ok().flatten().and_then(Value::as_object);
     here.into_iter().flat_map(|entries| entries.keys().cloned()).collect()
@@ -149,7 +147,7 @@ fn kind_of(value: &Value) -> &'static str {
     }
 }
 
-/// Whether the schema asks for a whole number.
+/// Returns whether a schema requires an integer.
 fn is_whole(schema: &Value) -> bool {
     let is_integer = |kind: &Value| kind.as_str() == Some("integer");
     schema.get("type").is_some_and(|kind| {
@@ -157,18 +155,18 @@ fn is_whole(schema: &Value) -> bool {
     })
 }
 
-/// What a place takes.
+/// Kind of number that a schema accepts.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 enum Takes {
     /// No number.
     Nothing,
-    /// Plain numbers, or those of a dimension.
+    /// Plain numbers, or quantities of a given dimension.
     Numbers,
-    /// Quantities of a dimension that is told elsewhere.
+    /// Quantities whose dimension depends on other keys.
     Values,
 }
 
-/// The dimension that a schema names, and what it takes.
+/// Returns the dimension in a schema and the kind of number that it accepts. `deepest` limits the recursion.
 fn dimension(schema: &Value, deepest: usize) -> (Option<Kind>, Takes) {
     let named = schema.get("$ref").and_then(Value::as_str).and_then(|name| name.strip_prefix("#/$defs/"));
     if let Some(name) = named {
@@ -193,7 +191,7 @@ fn dimension(schema: &Value, deepest: usize) -> (Option<Kind>, Takes) {
     parts.fold((None, Takes::Nothing), |(kind, takes), (other, also)| (kind.or(other), takes.max(also)))
 }
 
-/// The dimension of a waveform's values: that of the first place that follows it, by its name or in place.
+/// Returns the dimension of the values of a waveform: that of the first quantity that follows it, by name or in place.
 fn followed(tree: &Value, path: &KeyPath) -> Option<Kind> {
     let follows = Step::Key("follows".to_owned());
     if let Some(depth) = path.0.iter().position(|step| *step == follows) {
@@ -209,7 +207,7 @@ fn followed(tree: &Value, path: &KeyPath) -> Option<Kind> {
     }
 }
 
-/// The dimension of a place that may follow a waveform.
+/// Returns the dimension of a quantity that may follow a waveform.
 fn place(path: &[Step]) -> Option<Kind> {
     match path {
         [Step::Key(part), _, Step::Key(axis)] if part == "bodies" => {
@@ -219,7 +217,7 @@ fn place(path: &[Step]) -> Option<Kind> {
     }
 }
 
-/// All places that follow the waveform of this name.
+/// Collects the paths of all quantities that follow the waveform of this name.
 fn following(here: &Value, name: &str, path: &mut Vec<Step>, places: &mut Vec<Vec<Step>>) {
     match here {
         Value::Object(entries) => {
@@ -266,7 +264,7 @@ mod tests {
         assert_eq!(quickstart("materials.ruby.youngs_modulus"), Ok((Some(4e11), "Pa")));
         assert_eq!(quickstart("waveforms.drive.sawtooth.stroke"), Ok((Some(2e-7), "m")));
         assert_eq!(quickstart("waveforms.drive.sawtooth.period"), Ok((Some(1e-2), "s")));
-        // May be given, and is not.
+        // The key is allowed, but not given.
         assert_eq!(quickstart("waveforms.drive.sawtooth.frequency"), Ok((None, "Hz")));
         assert_eq!(quickstart("contacts.ball.damping"), Ok((None, "s")));
         assert_eq!(found(STAGE, "waveforms.drive.sawtooth.stroke"), Ok((Some(120.0), "V")));
@@ -278,13 +276,13 @@ mod tests {
         let refused = |path: &str| found(QUICKSTART, path).unwrap_err();
         assert!(refused("contacts.bal.friction").contains("did you mean \"ball\"?"));
         assert!(refused("contacts.ball.fricton").contains("did you mean \"friction\"?"));
-        assert!(refused("waveforms.drive.sine.amplitude").contains("there is nothing under this path"));
-        assert!(refused("contacts.ball").contains("expected a number, here stands an object"));
-        assert!(refused("contacts.ball.materials[0]").contains("here stands a text"));
-        assert!(refused("contacts.ball.count").contains("counts whole things"));
-        assert!(refused("run.duration").contains("changes no motion"));
-        assert!(refused("run.stepper.event.tolerance").contains("changes no motion"));
-        assert!(refused("loads[7].x").contains("there is nothing under this path"));
+        assert!(refused("waveforms.drive.sine.amplitude").contains("the scenario has no value at this path"));
+        assert!(refused("contacts.ball").contains("expected a number, got an object"));
+        assert!(refused("contacts.ball.materials[0]").contains("got a text"));
+        assert!(refused("contacts.ball.count").contains("this is a count"));
+        assert!(refused("run.duration").contains("has no effect on the motion"));
+        assert!(refused("run.stepper.event.tolerance").contains("has no effect on the motion"));
+        assert!(refused("loads[7].x").contains("the scenario has no value at this path"));
         for path in ["", ".", "a..b", "[0]"] {
             assert!(refused(path).contains("expected a key path"), "{path}");
         }

@@ -1,24 +1,24 @@
-//! Key paths such as `contacts.ball.friction` or `loads[0].x`: how parts of a scenario are named.
+//! Key paths such as `contacts.ball.friction` or `loads[0].x`, which identify values of a scenario.
 
 use crate::document::shown;
 use crate::fault::Fault;
 use std::fmt;
 
-/// One step from a value to one inside it.
+/// Step of a key path.
 #[derive(Debug, Clone, PartialEq, Eq, Hash)]
 pub(crate) enum Step {
-    /// Into an object.
+    /// Key of an object.
     Key(String),
-    /// Into a list.
+    /// Index in a list.
     Index(usize),
 }
 
-/// A key path; empty for the whole scenario.
+/// Key path; empty for the whole scenario.
 #[derive(Debug, Clone, PartialEq, Eq, Hash, Default)]
 pub(crate) struct KeyPath(pub(crate) Vec<Step>);
 
 impl KeyPath {
-    /// Reads `contacts.ball.friction` or `loads[0].x`; none where it is not of that form.
+    /// Parses `contacts.ball.friction` or `loads[0].x`. Returns `None` for texts of another form.
     pub(crate) fn parse(text: &str) -> Option<Self> {
         let mut steps = Vec::new();
         if text.is_empty() {
@@ -40,13 +40,13 @@ impl KeyPath {
         Some(Self(steps))
     }
 
-    /// Whether the value at this path holds the one at another; `*` in the other stands for any key or place.
+    /// Returns whether the value at this path contains the value at another path, or is equal to it. A `*` in `other` matches any step.
     pub(crate) fn holds(&self, other: &Self) -> bool {
         let any = Step::Key("*".to_owned());
         self.0.len() <= other.0.len() && self.0.iter().zip(&other.0).all(|(a, b)| a == b || *b == any)
     }
 
-    /// Whether it lies in the value at another path, with `*` in that.
+    /// Returns whether this path lies in the value at another path, which may contain `*`.
     pub(crate) fn lies_in(&self, other: &Self) -> bool {
         let head = Self(self.0.iter().take(other.0.len()).cloned().collect());
         head.0.len() == other.0.len() && head.holds(other)
@@ -67,7 +67,7 @@ impl fmt::Display for KeyPath {
     }
 }
 
-/// Where a conversion is at work: a key path on the stack, written out only when there is something to report.
+/// Current key path of a conversion: a linked list on the call stack, copied only for a message.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct At<'a> {
     parent: Option<&'a At<'a>>,
@@ -81,20 +81,20 @@ enum StepRef<'a> {
 }
 
 impl<'a> At<'a> {
-    /// The whole scenario.
+    /// Whole scenario.
     pub(crate) const ROOT: At<'static> = At { parent: None, step: None };
 
-    /// The value under a key.
+    /// Value at a key.
     pub(crate) fn key<'b>(&'b self, key: &'b str) -> At<'b> {
         At { parent: Some(self), step: Some(StepRef::Key(key)) }
     }
 
-    /// The entry of a list.
+    /// Entry of a list.
     pub(crate) fn index(&self, index: usize) -> At<'_> {
         At { parent: Some(self), step: Some(StepRef::Index(index)) }
     }
 
-    /// The path, written out.
+    /// Returns the key path.
     pub(crate) fn path(&self) -> KeyPath {
         let mut steps = Vec::new();
         let mut here = Some(self);
@@ -110,17 +110,17 @@ impl<'a> At<'a> {
         KeyPath(steps)
     }
 
-    /// Something is wrong here.
+    /// Returns an error at this position.
     pub(crate) fn fault(&self, message: impl Into<String>) -> Fault {
         Fault::new(self.path(), message)
     }
 
-    /// The value here is not what was expected; the report adds what stands in the file.
+    /// Returns the error for an unexpected value; the report adds the value in the file.
     pub(crate) fn expected(&self, what: impl fmt::Display) -> Fault {
         Fault::expected(self.path(), what)
     }
 
-    /// A key that must be there is not.
+    /// Returns the error for a missing key.
     pub(crate) fn missing(&self, key: &str) -> Fault {
         Fault::missing(self.path(), key)
     }
@@ -130,7 +130,7 @@ impl<'a> At<'a> {
 mod tests {
     use super::*;
 
-    /// A key with a line end in it once broke the one-line message in two.
+    /// Line ends in a key must not break the message into two lines.
     #[test]
     fn keys_with_control_characters_stay_on_one_line() {
         let path = KeyPath(vec![Step::Key("a\nb".to_owned())]);

@@ -1,8 +1,8 @@
-//! The index from key paths to places in the text: one tree, made once by the loader.
+//! Index from key paths to positions in the text. The parser builds this tree once.
 
 use crate::path::{KeyPath, Step};
 
-/// A stretch of bytes of one source text: the file (source 0) or an override.
+/// Byte range of a source text; source 0 is the file, others are overrides and tables.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct Span {
     pub(crate) source: usize,
@@ -10,16 +10,16 @@ pub(crate) struct Span {
     pub(crate) end: usize,
 }
 
-/// Where a value stands, and the values inside it.
+/// Position of a value, and of the values inside it.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Place {
-    /// Its key with quotes; none for the root and for entries of lists.
+    /// Span of the key with its quotes; `None` for the root and for entries of lists.
     pub(crate) key: Option<Span>,
     pub(crate) value: Span,
     pub(crate) inner: Inner,
 }
 
-/// The values inside a value.
+/// Positions of the values inside a value.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) enum Inner {
     Leaf,
@@ -28,7 +28,7 @@ pub(crate) enum Inner {
 }
 
 impl Place {
-    /// The place one step further in.
+    /// Returns the place one step deeper.
     pub(crate) fn step(&self, step: &Step) -> Option<&Self> {
         match (&self.inner, step) {
             (Inner::Object(entries), Step::Key(key)) => {
@@ -49,7 +49,7 @@ impl Place {
         }
     }
 
-    /// The deepest place along a path, and how many of its steps exist.
+    /// Returns the place of the deepest existing part of a path, and its number of steps.
     pub(crate) fn deepest(&self, path: &KeyPath) -> (&Self, usize) {
         let mut here = self;
         for (i, step) in path.0.iter().enumerate() {
@@ -61,7 +61,7 @@ impl Place {
         (here, path.0.len())
     }
 
-    /// Takes the place under a path away.
+    /// Removes the place at a path.
     pub(crate) fn clear(&mut self, path: &[Step]) {
         let Some((Step::Key(last), parent)) = path.split_last() else { return };
         let parent = parent.iter().try_fold(self, |here, step| here.step_mut(step));
@@ -70,7 +70,7 @@ impl Place {
         }
     }
 
-    /// Puts a place under a path; an object is made of what stands in the way of a key that is not there.
+    /// Sets the place at a path. Missing parents become objects, or a list for index 0.
     pub(crate) fn put(&mut self, path: &[Step], place: Self) {
         let Some((first, rest)) = path.split_first() else {
             self.value = place.value;

@@ -1,36 +1,36 @@
-//! The pictures that a scenario may ask for.
+//! Names of the plots of a scenario.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// A picture a scenario asks for.
+/// Name of a predefined plot.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum PlotName {
-    /// The scene to scale: bodies, contacts, springs, forces, and what is free or follows a waveform.
+    /// The model to scale: bodies, contacts, springs, forces and directions of motion.
     Layout,
     /// Tangential force over displacement of each contact.
     Loop,
     /// Positions over time.
     Trajectory,
-    /// Energies over time, and what their books miss.
+    /// Energy balance over time.
     Energy,
     /// Velocity over displacement, of every free coordinate.
     Phase,
-    /// Events over time.
+    /// Events over time, one row per source.
     Events,
-    /// What every spring does over time: open, stick, slip forward or backward; from `springs.csv`.
+    /// State of each spring over time: open, stick, forward slip or backward slip; from `springs.csv`.
     State,
-    /// The memory curve of each contact at some moments, in its wedge; from `memory.csv`.
+    /// Slip memory of each contact at several times: reversal displacements over depth; from `memory.csv`.
     Memory,
-    /// Pressure, shear stress, displacement and slip under each contact at some moments, rings of stick and slip shaded; from
+    /// Pressure, shear stress, displacement and slip under each contact at several times; stick and slip zones are shaded; from
     /// `fields.csv`.
     Fields,
-    /// Each contact as its row of springs at some moments, pressed and sheared; from `memory.csv`.
+    /// Each contact as its row of springs at several times, compressed and sheared; from `memory.csv`.
     Substitute,
     /// Friction work over radius and time; from `friction.csv`.
     Friction,
-    /// Channels over a channel, as the scenario asks for them.
+    /// User-defined plot of channels over a channel.
     #[serde(skip)]
     Xy,
     /// The waveforms and their rates over two periods.
@@ -40,7 +40,7 @@ pub enum PlotName {
 }
 
 impl PlotName {
-    /// All that have a name in the file.
+    /// All names that a scenario may contain.
     pub const ALL: [Self; 13] = [
         Self::Layout,
         Self::Loop,
@@ -57,10 +57,10 @@ impl PlotName {
         Self::Drive,
     ];
 
-    /// Most pictures of channels over a channel.
+    /// Maximum number of user-defined plots of channels over a channel.
     pub const MOST_OWN: usize = crate::meaning::plots::MOST_OWN;
 
-    /// The name in the file.
+    /// Returns the name in the file.
     pub fn name(self) -> &'static str {
         match self {
             Self::Layout => "layout",

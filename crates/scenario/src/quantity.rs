@@ -1,4 +1,4 @@
-//! Quantities: a number in SI, or a string with a unit.
+//! Quantities: numbers in SI, or strings with a unit.
 
 mod pattern;
 mod reading;
@@ -14,29 +14,28 @@ use std::borrow::Cow;
 use std::fmt;
 use std::marker::PhantomData;
 
-/// Separates a message from its help in the plain strings that serde carries.
+/// Character that separates message and help text in error strings of serde.
 pub(crate) const HELP: char = '\u{1e}';
 
-/// Largest magnitude of a quantity in its SI unit. Some twenty orders beyond whatever moves, and so far below the largest number
-/// that energies, which are products of four of them, are numbers, too.
+/// Largest magnitude of a quantity in its SI unit. Products of four such quantities, as in energies, still are finite numbers.
 pub(crate) const LARGEST: f64 = 1e30;
 
-/// Least magnitude of a quantity that must be above zero, for the same reason: it divides. An atom has 1e-26 kg.
+/// Smallest magnitude of a quantity that must be above zero. Divisions by it stay finite.
 pub(crate) const SMALLEST: f64 = 1e-40;
 
-/// A dimension as a type.
+/// Dimension as a type.
 pub(crate) trait Dimension {
     const KIND: Kind;
 }
 
-/// A quantity of a known dimension, in SI.
+/// Quantity of a known dimension, in SI.
 #[derive(Debug)]
 pub(crate) struct Quantity<D> {
     pub(crate) si: f64,
     dimension: PhantomData<D>,
 }
 
-/// A quantity of any dimension, in SI; a bare number does not tell which.
+/// Quantity of any dimension, in SI. A number without a unit has no `kind`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct AnyQuantity {
     pub(crate) si: f64,
@@ -45,7 +44,7 @@ pub(crate) struct AnyQuantity {
 
 macro_rules! dimensions {
     ($($name:ident)*) => {
-        /// The dimensions the form uses.
+        /// Dimensions of the quantities in the file.
         pub(crate) mod dimension {
             $(
                 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -68,14 +67,14 @@ dimensions! {
 }
 
 impl<D> Quantity<D> {
-    /// A quantity in SI.
+    /// Returns a quantity from a value in SI without a check.
     pub(crate) const fn new(si: f64) -> Self {
         Self { si, dimension: PhantomData }
     }
 }
 
 impl<D: Dimension> Quantity<D> {
-    /// A number in SI as a file has it.
+    /// Returns a quantity from a value in SI. Fails if the value is not finite or too large.
     pub(crate) fn from_si(si: f64) -> Result<Self, String> {
         QuantityVisitor(Some(D::KIND)).number(si).map(|quantity| Self::new(quantity.si))
     }
@@ -86,8 +85,11 @@ impl<D: Dimension> Quantity<D> {
     }
 }
 
-/// Reads a quantity in the SI unit `unit`, such as `m/s`: a number in it or, where a scenario knows units of its
-/// dimension, a number with one of them. An error is a message and, on a second line, its help.
+/// Reads a quantity whose SI unit is `unit`, such as `m/s`. The text is a number in this unit, or a number with any unit of the same
+/// dimension.
+///
+/// # Errors
+/// A text that is not such a quantity. The error is a message and, if there is one, a help text on the next line.
 pub fn quantity(text: &str, unit: &str) -> Result<f64, String> {
     if let Ok(value) = text.trim().parse::<f64>() {
         return if value.is_finite() { Ok(value) } else { Err("expected a finite number".to_owned()) };
@@ -136,7 +138,7 @@ impl Visitor<'_> for QuantityVisitor {
 }
 
 impl QuantityVisitor {
-    /// A number in SI.
+    /// Checks a number in SI.
     fn number(&self, si: f64) -> Result<AnyQuantity, String> {
         if !si.is_finite() {
             return Err("expected a finite number".to_owned());
@@ -145,7 +147,7 @@ impl QuantityVisitor {
         Ok(AnyQuantity { si, kind: self.0 })
     }
 
-    /// A number with its unit.
+    /// Reads a number with its unit.
     fn text(&self, text: &str) -> Result<AnyQuantity, String> {
         let (si, kind) = reading::parse(text, self.0)?;
         within_reach(si, Some(kind), format_args!("\"{}\"", shown(text)))?;
@@ -153,7 +155,7 @@ impl QuantityVisitor {
     }
 }
 
-/// Refuses a value in SI that nothing physical has; `got` is as it was written.
+/// Checks that the magnitude of a value in SI is at most [`LARGEST`]; `got` is the text in the file.
 fn within_reach(si: f64, kind: Option<Kind>, got: fmt::Arguments<'_>) -> Result<(), String> {
     if si.abs() <= LARGEST {
         return Ok(());
@@ -218,12 +220,12 @@ mod tests {
         assert_eq!(quantity("3 mm/s", "m/s"), Ok(3e-3));
         assert_eq!((quantity("1e-9", "J"), quantity("0.5", "")), (Ok(1e-9), Ok(0.5)));
         assert_eq!(quantity("1 nJ", "J"), Err("expected a number in J, got \"1 nJ\"".to_owned()));
-        assert!(quantity("1 N", "m").unwrap_err().contains("\n   help: N is the unit of a force"));
+        assert!(quantity("1 N", "m").unwrap_err().contains("\n   help: N is a unit of a force"));
         assert!(quantity("inf", "m").is_err() && quantity("", "m").is_err());
     }
 
     proptest! {
-        /// Printed in SI and read again, a quantity keeps its bits.
+        /// A quantity that is printed in SI and read again keeps all bits.
         #[test]
         fn numbers_survive_printing(value in prop::num::f64::NORMAL | prop::num::f64::ZERO | prop::num::f64::SUBNORMAL) {
             prop_assume!(value.abs() <= LARGEST);

@@ -1,16 +1,15 @@
-//! A value as serde reads it into the form. Beside the error type it differs from serde_json's own in one thing: no list
-//! stands for an object with its values in their order, which nobody who wrote a list meant.
+//! Deserializer from JSON values to the Rust types of the keys. The deserializer differs from that of `serde_json` in its error type and
+//! in one rule. A list never stands for an object with its values in order.
 //!
-//! Where a value does not fit, the method by which it was asked for says what is wanted. Types of the form that take more
-//! than one sort of value ask by `deserialize_any`, those that name something else in the file by
-//! `deserialize_identifier`, and say themselves what they want.
+//! If a value does not fit, the method that serde called gives the expected type. Types that accept several sorts of values use
+//! `deserialize_any`; references to other parts use `deserialize_identifier`. Their visitors describe the expected value.
 
 use crate::misfit::{Misfit, Wanted};
 use serde::de::value::BorrowedStrDeserializer;
 use serde::de::{self, Deserializer, Expected, IntoDeserializer, Visitor};
 use serde_json::{Number, Value};
 
-/// A value to be read.
+/// Value to be deserialized.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Reader<'de>(pub(crate) &'de Value);
 
@@ -18,12 +17,12 @@ fn unfit<T>(wanted: Wanted) -> Result<T, Misfit> {
     Err(Misfit::Unfit(wanted))
 }
 
-/// Whether that is what derived readers call a list of a fixed length.
+/// Returns whether a description is that of a derived reader of fixed-length lists.
 fn is_plain(called: &str) -> bool {
     ["an array of length", "a tuple of size"].iter().any(|plain| called.starts_with(plain))
 }
 
-/// What a visitor calls what it wants.
+/// Returns the description that a visitor gives of its expected value.
 fn called<'de>(visitor: &impl Visitor<'de>) -> String {
     (visitor as &dyn Expected).to_string()
 }
@@ -47,7 +46,7 @@ fn object<'de, V: Visitor<'de>>(
 ) -> Result<V::Value, Misfit> {
     let mut left = Entries { left: entries.iter(), value: None };
     let read = visitor.visit_map(&mut left)?;
-    // Only what reads one key and asks for no more leaves any.
+    // Only a reader of a single key leaves other entries unread.
     if left.left.len() == 0 { Ok(read) } else { Err(Misfit::NotOneKind) }
 }
 
@@ -114,7 +113,7 @@ impl<'de> Deserializer<'de> for Reader<'de> {
 
     fn deserialize_tuple<V: Visitor<'de>>(self, length: usize, visitor: V) -> Result<V::Value, Misfit> {
         match self.0 {
-            // Derived readers of lists of a fixed length stop at their last entry; others say themselves what they want.
+            // Derived readers of fixed-length lists stop at the last entry; others describe themselves what they expect.
             Value::Array(entries) if entries.len() > length && is_plain(&called(&visitor)) => {
                 Err(Misfit::Length { wanted: format!("{length} entries"), got: entries.len() })
             }
@@ -186,10 +185,10 @@ impl<'de> IntoDeserializer<'de, Misfit> for Reader<'de> {
     }
 }
 
-/// The entries of an object that are still to be read.
+/// Entries of an object that are still to be read.
 struct Entries<'de> {
     left: serde_json::map::Iter<'de>,
-    /// The value of the key read last.
+    /// Value of the key that was read last.
     value: Option<&'de Value>,
 }
 
@@ -203,12 +202,12 @@ impl<'de> de::MapAccess<'de> for Entries<'de> {
     }
 
     fn next_value_seed<V: de::DeserializeSeed<'de>>(&mut self, seed: V) -> Result<V::Value, Misfit> {
-        // Serde asks for a value after its key only.
+        // serde requests a value only after its key.
         seed.deserialize(Reader(self.value.take().unwrap_or(&Value::Null)))
     }
 }
 
-/// One of several kinds of value: its name, and what stands inside.
+/// Variant of an enum: its name and its contents.
 struct Choice<'de> {
     kind: &'de str,
     inside: Option<&'de Value>,

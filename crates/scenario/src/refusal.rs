@@ -1,4 +1,4 @@
-//! What does not fit the form, in the words and with the place of a fault.
+//! Converts errors of the deserializer to errors with message and path.
 
 use crate::document::{Document, shown};
 use crate::fault::{Fault, Mend};
@@ -10,13 +10,13 @@ use crate::suggest;
 use serde_json::Value;
 use serde_path_to_error::Segment;
 
-/// Gives a refusal its place and its words.
+/// Converts an error of the deserializer.
 pub(crate) fn fault(document: &Document, error: &serde_path_to_error::Error<Misfit>) -> Fault {
     let refusal = Refusal { document, guide: document.guide, path: path(document, error.path()) };
     refusal.fault(error.inner()).of_shape()
 }
 
-/// The path as far as it stands in the file: serde also counts variants that are bare strings.
+/// Returns the part of a path that exists in the file; serde also counts variants that are bare strings.
 fn path(document: &Document, path: &serde_path_to_error::Path) -> KeyPath {
     let steps = path.iter().map_while(|segment| match segment {
         Segment::Seq { index } => Some(Step::Index(*index)),
@@ -28,7 +28,7 @@ fn path(document: &Document, path: &serde_path_to_error::Path) -> KeyPath {
     path
 }
 
-/// How many steps of a path lead somewhere.
+/// Returns the number of steps of a path that exist in the document.
 fn depth(document: &Document, path: &KeyPath) -> usize {
     let mut here = Some(&document.value);
     let mut enter = |step: &Step| {
@@ -41,7 +41,7 @@ fn depth(document: &Document, path: &KeyPath) -> usize {
     path.0.iter().take_while(|step| enter(step)).count()
 }
 
-/// A value that does not fit.
+/// Value that does not fit, with its path.
 struct Refusal<'a> {
     document: &'a Document,
     guide: &'static Guide,
@@ -84,7 +84,7 @@ impl Refusal<'_> {
         fault.mend(Mend::Rename(meant.to_owned())).against_path(parent)
     }
 
-    /// What is known here, and where the key would have been known.
+    /// Returns the keys allowed here, and the objects that have this key.
     fn elsewhere(&self, parent: &KeyPath, name: &str, known: &[&str]) -> Option<String> {
         let here = suggest::help("", known.iter().copied());
         match self.guide.homes(parent, name).as_slice() {
@@ -127,7 +127,7 @@ impl Refusal<'_> {
             Wanted::List => ("a list", Help::Shape),
             Wanted::Object => ("an object", Help::Shape),
             Wanted::Shape(called) => (called.as_str(), Help::Shape),
-            // What it calls itself says all there is to say.
+            // The description of the visitor is complete.
             Wanted::Name(called) => (called.as_str(), Help::None),
             Wanted::Value(called) => (called.as_str(), Help::Meaning),
             Wanted::Kind => {
@@ -150,7 +150,7 @@ impl Refusal<'_> {
         if unnamed { fault.mend(Mend::Around(section)) } else { fault }
     }
 
-    /// Something inside a kind of value that has no inside.
+    /// Returns the error for a variant that has contents but must stand alone.
     fn with_inside(self) -> Fault {
         let kind = match self.path.0.last() {
             Some(Step::Key(kind)) => shown(kind),
@@ -159,7 +159,7 @@ impl Refusal<'_> {
         Fault::new(self.path, format!("expected \"{kind}\" alone, without an object around it")).on_key()
     }
 
-    /// A kind of value whose inside is missing.
+    /// Returns the error for a variant without its contents.
     fn without_inside(self) -> Fault {
         let kind = self.value().and_then(Value::as_str).unwrap_or("");
         let example = self.guide.example_of(&self.path, kind);
@@ -168,7 +168,7 @@ impl Refusal<'_> {
         Fault::new(self.path, message).maybe_help(example.map(|example| format!("write {example}")))
     }
 
-    /// No key where one says which kind of value it is, or several.
+    /// Returns the error for an object with no key or several keys instead of the one that selects the variant.
     fn not_one_kind(mut self) -> Fault {
         let kinds = self.guide.kinds(&self.path);
         let given: Vec<String> = match self.value() {
@@ -177,19 +177,19 @@ impl Refusal<'_> {
         };
         let message = match given.as_slice() {
             [] => format!("expected {}, got an empty object", one_of(&kinds)),
-            given => format!("expected one key that says which kind, got {}", shown(&given.join(", "))),
+            given => format!("expected one key, the kind, got {}", shown(&given.join(", "))),
         };
         let (known, strange): (Vec<_>, Vec<_>) = given.into_iter().partition(|key| kinds.contains(key));
         let (wrong, help) = match (known.as_slice(), strange.first()) {
             ([], None) => return Fault::new(self.path, message).on_key().ask(Help::Shape),
             ([], Some(_)) => {
-                let help = format!("the kind is a key of its own: {}", kinds.join(", "));
+                let help = format!("the kind is a key: {}", kinds.join(", "));
                 let example = kinds.first().and_then(|kind| self.guide.example_of(&self.path, kind));
                 let help = example.map(|example| format!("{help}; such as {example}"));
                 return Fault::new(self.path, message).on_key().maybe_help(help);
             }
             ([kind], Some(strange)) => {
-                (strange, format!("\"{}\" has no place beside \"{kind}\"", shown(strange)))
+                (strange, format!("\"{}\" is not possible together with \"{kind}\"", shown(strange)))
             }
             ([_, second, ..], _) => (second, "keep one of them".to_owned()),
             ([only], None) => (only, "keep one of them".to_owned()),
@@ -198,7 +198,7 @@ impl Refusal<'_> {
         Fault::new(self.path, message).on_key().help(help)
     }
 
-    /// A number in quotes where no unit is wanted, or one that is none.
+    /// Returns help for a number in quotes where no unit is expected, or for a text that is not a number.
     fn number_in_quotes(&self) -> Option<String> {
         let text = self.value()?.as_str()?.trim();
         match text.parse::<f64>() {
@@ -207,7 +207,7 @@ impl Refusal<'_> {
         }
     }
 
-    /// A key of a part where the part's name should stand.
+    /// Returns help for a key of a part in the position of the part's name.
     fn unnamed(&self) -> Option<String> {
         let [Step::Key(parts), Step::Key(name)] = self.path.0.as_slice() else { return None };
         let inside = KeyPath(vec![Step::Key(parts.clone()), Step::Key("NAME".to_owned())]);
@@ -215,10 +215,10 @@ impl Refusal<'_> {
         named.then(|| format!("each part has a name: \"{parts}\": {{\"NAME\": {{\"{name}\": …}}}}"))
     }
 
-    /// What stands there, strings in quotes.
+    /// Returns the value in the file, strings in quotes.
     fn came(&self) -> Option<String> {
         let written = self.document.written(&self.path)?;
-        // Overrides hold strings without quotes.
+        // Overrides contain strings without quotes.
         let is_string = self.value().is_some_and(Value::is_string);
         Some(if is_string { format!("\"{written}\"") } else { written })
     }
@@ -230,7 +230,7 @@ impl Refusal<'_> {
         })
     }
 
-    /// A bare string is always a quantity: whoever wrote the name of a waveform is told how to follow it.
+    /// Returns help for the name of a waveform where a quantity is expected.
     fn follow_help(&self) -> Option<String> {
         let text = self.value()?.as_str()?;
         self.document.value.get("waveforms")?.get(text)?;

@@ -1,9 +1,9 @@
-//! The scenario as canonical JSON: numbers in SI, defaults written out, tables inlined.
+//! Canonical JSON of a scenario: numbers in SI, defaults written out, tables inlined.
 
 use serde_json::Value;
 use std::fmt::Write;
 
-/// A value as text: objects over several lines, lists of plain values on one.
+/// Formats a value as JSON: objects on several lines, lists of plain values on one.
 pub(crate) fn print(value: &Value) -> String {
     let mut text = String::new();
     write(&mut text, value, 0);
@@ -37,7 +37,7 @@ fn write(text: &mut String, value: &Value, depth: usize) {
     }
 }
 
-/// Plain values and pairs of them stay on one line.
+/// Returns whether a value is written on one line: a plain value, or a list of plain values.
 fn is_plain(value: &Value) -> bool {
     match value {
         Value::Object(_) => false,

@@ -1,4 +1,4 @@
-//! A scenario: the only door from a file to a scene and a plan.
+//! Scenario: the result of reading a file, with the model and the plan of the run.
 
 use crate::document::{Document, SourceKind};
 use crate::error::{Report, ScenarioError, Stage, Warning};
@@ -17,43 +17,43 @@ use serde_json::Value;
 use std::path::Path;
 use stickslip_drive::{Channel, Plan, Scene, SceneError};
 
-/// Version of the form that this program reads.
+/// Version of the file format that this program reads.
 const VERSION: u64 = 1;
-/// Most warnings of one scenario.
+/// Maximum number of warnings of one scenario.
 const MAX_WARNINGS: usize = 20;
 
-/// A scenario, read and checked.
+/// Scenario that has been read and checked.
 #[derive(Debug, Clone)]
 pub struct Scenario {
-    /// A line for people; may be empty.
+    /// Title; may be empty.
     pub title: String,
-    /// What is there.
+    /// Model: bodies, contacts, springs, actuators, loads and waveforms.
     pub scene: Scene,
-    /// How it is run.
+    /// Duration, time integrator and limits of the run.
     pub plan: Plan,
-    /// Whose period and whose motion make steps and speeds.
+    /// Waveform and body that define periods and steps.
     pub figures: Figures,
-    /// Whether the motion that the drive would settle on is looked for beside its run: at all it costs, or not; by default at little cost.
+    /// Whether the periodic orbit is computed in addition to the run: always, never, or by default only at low cost.
     pub steady_motion: Option<bool>,
-    /// Columns of the trace; none: all.
+    /// Columns of the trace; `None` for all.
     pub channels: Option<Vec<String>>,
-    /// What every spring does over time, if asked for.
+    /// Output of spring states over time, if requested.
     pub springs: Option<SpringsOutput>,
-    /// The memory curves, if asked for.
+    /// Output of memory curves, if requested.
     pub memory: Option<MemoryOutput>,
-    /// Stress and displacement under the contacts, if asked for.
+    /// Output of stresses and displacements under the contacts, if requested.
     pub fields: Option<FieldsOutput>,
-    /// Which of the rows and events are written, and how.
+    /// Selection and format of written rows and events.
     pub written: Written,
-    /// Most memory that the run may keep, B; none without a limit.
+    /// Memory limit of the run, B; `None` for no limit.
     pub memory_limit: Option<f64>,
-    /// Pictures to draw.
+    /// Plots to draw.
     pub plots: Vec<PlotName>,
-    /// Those of channels over a channel among them.
+    /// User-defined plots of channels over a channel, which are part of `plots`.
     pub own_plots: Vec<OwnPlot>,
-    /// What is known of each actuator beside what the scene holds.
+    /// Data of each actuator that the model does not contain.
     pub stacks: Vec<Piezo>,
-    /// What is allowed and probably not meant, with its place.
+    /// Warnings about values that are allowed but implausible, with their positions.
     pub warnings: Vec<Warning>,
     pub(crate) form: Form,
     document: Document,
@@ -63,16 +63,16 @@ impl Scenario {
     /// Reads a scenario file.
     ///
     /// # Errors
-    /// Whatever is wrong with it, with its place.
+    /// All errors of the file, with their positions.
     pub fn load(path: impl AsRef<Path>) -> Result<Self, ScenarioError> {
         Self::load_with(path, &[])
     }
 
-    /// Reads a scenario file and overrides values: pairs of key path and value, as in `--set run.duration="20 ms"`.
-    /// A value is JSON where it reads as JSON and a string otherwise.
+    /// Reads a scenario file and overrides values. Overrides are pairs of key path and value, as in `--set run.duration="20 ms"`. A value
+    /// is parsed as JSON if it is JSON; otherwise it is a string.
     ///
     /// # Errors
-    /// Whatever is wrong with the file or an override, with its place.
+    /// All errors of the file and the overrides, with their positions.
     pub fn load_with(path: impl AsRef<Path>, overrides: &[(&str, &str)]) -> Result<Self, ScenarioError> {
         let path = path.as_ref();
         let name = path.display().to_string();
@@ -81,18 +81,18 @@ impl Scenario {
         Self::from_str_with(&text, &name, base, overrides)
     }
 
-    /// Reads a scenario from a text; `name` stands in errors, `base` is the folder its files are looked for in.
+    /// Reads a scenario from a text. `name` is the file name in messages, `base` the folder of files that the scenario names.
     ///
     /// # Errors
-    /// Whatever is wrong with it, with its place.
+    /// All errors of the text, with their positions.
     pub fn from_str(text: &str, name: &str, base: impl AsRef<Path>) -> Result<Self, ScenarioError> {
         Self::from_str_with(text, name, base, &[])
     }
 
-    /// [`Self::from_str`] with overrides as in [`Self::load_with`].
+    /// Reads a scenario like [`Self::from_str`], with overrides as in [`Self::load_with`].
     ///
     /// # Errors
-    /// Whatever is wrong with the text or an override, with its place.
+    /// All errors of the text and the overrides, with their positions.
     pub fn from_str_with(
         text: &str,
         name: &str,
@@ -102,18 +102,18 @@ impl Scenario {
         Self::read(text, (name, "--set"), Some(base.as_ref()), overrides)
     }
 
-    /// Reads a scenario that has no folder, such as one carried by a picture: it may name no files.
+    /// Reads a scenario without a folder, such as one that is embedded in a plot. It may not name files.
     ///
     /// # Errors
-    /// Whatever is wrong with it, with its place.
+    /// All errors of the text, with their positions.
     pub fn from_str_alone(text: &str, name: &str) -> Result<Self, ScenarioError> {
         Self::read(text, (name, "--set"), None, &[])
     }
 
-    /// The same scenario, read again with further overrides after its own.
+    /// Reads the same scenario again with additional overrides after its own.
     ///
     /// # Errors
-    /// Whatever is wrong with one of them, with its place.
+    /// All errors of the overrides, with their positions.
     pub fn with(&self, set: &[(String, String)]) -> Result<Self, ScenarioError> {
         let Document { sources, word, base, .. } = &self.document;
         let overrides = sources.iter().filter(|source| source.kind == SourceKind::Override);
@@ -123,11 +123,12 @@ impl Scenario {
         Self::read(&sources[0].text, (&sources[0].name, word), base.as_deref(), &all)
     }
 
-    /// Reads a scenario from a text: `name` stands in errors, which call overrides by `word`; files are looked for in `base`, and there
-    /// may be none without it. Overrides are pairs as in [`Self::load_with`].
+    /// Reads a scenario from a text. `name` is the file name in messages, `word` the name of overrides, such as `--set`. `base` is the
+    /// folder of files that the scenario names; without it, the scenario may not name files. Overrides are pairs as in
+    /// [`Self::load_with`].
     ///
     /// # Errors
-    /// Whatever is wrong with the text or an override, with its place.
+    /// All errors of the text and the overrides, with their positions.
     pub fn read(
         text: &str,
         (name, word): (&str, &'static str),
@@ -173,46 +174,46 @@ impl Scenario {
         Ok(scenario)
     }
 
-    /// What a run leaves as its scenario must be one that can be run.
+    /// Checks that the resolved scenario, which a run writes, is small enough to be read again.
     fn check_size(&self, inlined: bool) -> Result<(), ScenarioError> {
         if self.resolved().len() <= syntax::MAX_BYTES {
             return Ok(());
         }
         let (root, limit) = (At::ROOT, syntax::MAX_BYTES);
         let fault = if inlined {
-            let message = format!("with its tables the scenario would have more than {limit} bytes");
+            let message = format!("the scenario including its tables would have more than {limit} bytes");
             root.key("waveforms").fault(message).help("keep fewer points")
         } else {
             let message = format!("written out in full the scenario would have more than {limit} bytes");
-            root.fault(message)
-                .help("keep fewer parts and points; long tables fit into a CSV file of their own")
+            root.fault(message).help("use fewer parts and points, or move long tables into CSV files")
         };
         Err(ScenarioError::from(self.document.report(fault)).without(&[Stage::Equilibrium, Stage::Limits]))
     }
 
-    /// The scenario as canonical JSON: SI numbers, overrides applied, defaults written out, tables inlined. Read back, it
-    /// means the same to the last bit.
+    /// Returns the scenario as canonical JSON: SI numbers, overrides applied, defaults written out, tables inlined. Reading it gives the
+    /// same model, bit for bit.
     pub fn resolved(&self) -> String {
-        // The form holds finite numbers and string keys only: serde_json has nothing to refuse.
+        // The form contains only finite numbers and string keys, so serialization cannot fail.
         serde_json::to_value(&self.form).map(|value| resolved::print(&value)).unwrap_or_default()
     }
 
-    /// What the scene or the plan is refused for, pointed into the file, and what else is.
+    /// Returns the error with which model or plan are refused, with positions in the file, together with all other errors.
     pub fn refusal(&self, error: &SceneError) -> ScenarioError {
         let fault = meaning::refused::fault(&self.scene, self.plan, error);
         mistakes::all(self.document.clone(), vec![fault])
     }
 
-    /// What is wrong with another plan than the scenario's own, such as a stepper from a command line; it has no place in the file.
+    /// Returns the report of an error of another plan, such as one with a time integrator from the command line. It has no position in
+    /// the file.
     pub fn refusal_of(&self, plan: Plan, error: &SceneError) -> Report {
         self.document.report(meaning::refused::fault(&self.scene, plan, error))
     }
 
-    /// The places of the columns that are asked for among all channels; none where all are. Those that pictures are drawn over are
-    /// known, too.
+    /// Returns the indices of the requested columns among all channels, or `None` if all are requested. The channels of user-defined
+    /// plots are also checked.
     ///
     /// # Errors
-    /// Names that none of them has, or one twice.
+    /// Unknown names, or a name that occurs twice.
     pub fn columns(&self, channels: &[Channel]) -> Result<Option<Vec<usize>>, ScenarioError> {
         let asked = self.channels.as_ref().map(|names| meaning::channels::places(names, channels));
         let drawn = meaning::plots::check(&self.own_plots, channels);
@@ -220,12 +221,12 @@ impl Scenario {
         places.map_err(|fault| mistakes::all(self.document.clone(), vec![fault]))
     }
 
-    /// Something odd that a later check finds, pointed into the file; `path` as in the file, such as `contacts.ball.normal`.
+    /// Returns a warning of a later check, with its position in the file. `path` is a key path such as `contacts.ball.normal`.
     pub fn warning(&self, kind: &'static str, path: &str, message: String, help: &str) -> Warning {
         Warning { kind, report: self.locate(path, message, Some(help.to_owned())).into_first() }
     }
 
-    /// An error of a later check, pointed into the file: `path` as in the file, such as `contacts.ball.friction`.
+    /// Returns an error of a later check, with its position in the file. `path` is a key path such as `contacts.ball.friction`.
     pub fn locate(&self, path: &str, message: impl Into<String>, help: Option<String>) -> ScenarioError {
         let steps = KeyPath::parse(path).unwrap_or_default();
         let report = self.document.report(Fault::new(steps, message).maybe_help(help));
@@ -233,20 +234,20 @@ impl Scenario {
     }
 }
 
-/// A form and what it means.
+/// Types of the keys, and the model made from them.
 pub(crate) struct Interpreted {
     pub(crate) form: Form,
-    /// Whether points of its tables lie in files.
+    /// Whether points of tables are in files.
     pub(crate) inlined: bool,
     pub(crate) meaning: Meaning,
 }
 
-/// Gives a document its meaning, or the first thing that is wrong with it.
+/// Converts a document to model and plan, or returns the first error.
 pub(crate) fn interpret(document: &mut Document) -> Result<Interpreted, Fault> {
     formed(document).and_then(|form| meant(document, form))
 }
 
-/// Every value by itself, or the first that is wrong.
+/// Reads each value by itself, or returns the first error.
 pub(crate) fn formed(document: &Document) -> Result<Form, Fault> {
     check_version(document)?;
     let mut form: Form = serde_path_to_error::deserialize(Reader(&document.value))
@@ -255,7 +256,7 @@ pub(crate) fn formed(document: &Document) -> Result<Form, Fault> {
     Ok(form)
 }
 
-/// What values are to each other, or the first that does not fit.
+/// Checks relations between values and builds model and plan, or returns the first error.
 pub(crate) fn meant(document: &mut Document, mut form: Form) -> Result<Interpreted, Fault> {
     let inlined = tables::inline(&mut form, document)?;
     let mut meaning = meaning::of(&form)?;
@@ -265,7 +266,7 @@ pub(crate) fn meant(document: &mut Document, mut form: Form) -> Result<Interpret
     Ok(Interpreted { form, inlined, meaning })
 }
 
-/// Each warning looks up its line; a file full of oddities is told of the first.
+/// Returns the first warnings with their positions, sorted by position.
 fn warnings(document: &Document, odd: Vec<Oddity>) -> Vec<Warning> {
     let rest = odd.len().saturating_sub(MAX_WARNINGS);
     let told = |odd: Oddity| Warning { kind: odd.kind, report: document.report(odd.fault) };
@@ -279,7 +280,7 @@ fn warnings(document: &Document, odd: Vec<Oddity>) -> Vec<Warning> {
     warnings
 }
 
-/// The text of a file.
+/// Reads the text of a file.
 pub(crate) fn read(path: &Path, name: &str) -> Result<String, ScenarioError> {
     let failed = |message: String, help: Option<&str>| {
         ScenarioError::from(Report {
@@ -299,7 +300,7 @@ pub(crate) fn read(path: &Path, name: &str) -> Result<String, ScenarioError> {
         failed(message, help.as_deref())
     })?;
     let bytes = bytes.ok_or_else(|| {
-        let help = "long tables fit into a CSV file of their own";
+        let help = "move long tables into CSV files";
         failed(format!("a scenario has at most {limit} bytes, this file has more"), Some(help))
     })?;
     text::decode(bytes).map_err(|garbled| {
@@ -309,7 +310,7 @@ pub(crate) fn read(path: &Path, name: &str) -> Result<String, ScenarioError> {
     })
 }
 
-/// The version comes first: everything else may differ in another one.
+/// Checks the version before all other keys, because other versions may have other keys.
 fn check_version(document: &Document) -> Result<(), Fault> {
     let root = At::ROOT;
     let Some(entries) = document.value.as_object() else {
@@ -324,21 +325,24 @@ fn check_version(document: &Document) -> Result<(), Fault> {
         Some(version) if version.as_f64() == Some(VERSION as f64) => Ok(()),
         Some(Value::String(text)) => {
             let message = format!("expected {VERSION}, got \"{}\"", document::shown(text));
-            let one = at.fault(message).help("the version of the form, a number without quotes");
+            let one = at.fault(message).help("the version of the format, a number without quotes");
             Err(one.mend(Mend::With(VERSION.into())))
         }
         Some(version) => {
             let newer = version.as_f64().is_some_and(|v| v > VERSION as f64);
-            let help =
-                if newer { "this file needs a newer program" } else { "the version of the form, a number" };
-            // In another version everything may mean something else.
+            let help = if newer {
+                "this file needs a newer version of the program"
+            } else {
+                "the version of the format, a number"
+            };
+            // In another version, all keys may have other meanings.
             Err(at.expected(VERSION).help(help).mend(Mend::Nothing))
         }
         None => {
             let near = entries.keys().find(|key| suggest::slip(key, &["stickslip"]).is_some());
             let help = match near {
-                Some(near) => format!("did you mean \"stickslip\" where \"{near}\" stands?"),
-                None => "a scenario starts with { \"stickslip\": 1, the version of its form".to_owned(),
+                Some(near) => format!("did you mean \"stickslip\" instead of \"{near}\"?"),
+                None => "a scenario starts with { \"stickslip\": 1, the version of the format".to_owned(),
             };
             Err(root.missing("stickslip").help(help))
         }

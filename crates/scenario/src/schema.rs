@@ -1,4 +1,4 @@
-//! The JSON Schema of the scenario file, generated from the form's types.
+//! JSON Schema of the scenario file, generated from the types of the keys.
 
 mod rule;
 
@@ -17,24 +17,24 @@ use schemars::transform::transform_subschemas;
 use schemars::{JsonSchema, Schema};
 use serde_json::{Map, Value, json};
 
-/// The JSON Schema (draft 2020-12) of the scenario file, version 1; a copy lies in `schema/scenario-1.json`.
+/// Returns the JSON Schema (draft 2020-12) of the scenario file, version 1. The file `schema/scenario-1.json` is a copy.
 pub fn schema() -> String {
     resolved::print(&tree())
 }
 
-/// The JSON Schema (draft 2020-12) of study files, version 1; a copy lies in `schema/study-1.json`.
+/// Returns the JSON Schema (draft 2020-12) of study files, version 1. The file `schema/study-1.json` is a copy.
 pub fn study_schema() -> String {
     resolved::print(&study_tree())
 }
 
-/// The schema as a value.
+/// Returns the schema of scenario files as a value.
 pub(crate) fn tree() -> Value {
     let mut schema = of::<Form>();
     schema.insert("defaultSnippets".to_owned(), json!([{ "label": "a drive", "body": snippet() }]));
     schema.to_value()
 }
 
-/// That of study files.
+/// Returns the schema of study files as a value.
 pub(crate) fn study_tree() -> Value {
     of::<StudyForm>().to_value()
 }
@@ -42,12 +42,12 @@ pub(crate) fn study_tree() -> Value {
 fn of<T: JsonSchema>() -> Schema {
     let mut schema = SchemaSettings::draft2020_12().into_generator().into_root_schema_for::<T>();
     tidy(&mut schema);
-    // What editors of JSON make of comments and of a comma too many.
+    // Setting for JSON editors: comments are allowed.
     schema.insert("allowComments".to_owned(), json!(true));
     schema
 }
 
-/// What an editor offers for an empty file.
+/// Returns the snippet that an editor offers for an empty file.
 fn snippet() -> Value {
     json!({
         "stickslip": 1,
@@ -75,9 +75,9 @@ fn snippet() -> Value {
     })
 }
 
-/// Makes of what schemars writes what an editor needs.
+/// Simplifies a schema of schemars for JSON editors.
 fn tidy(schema: &mut Schema) {
-    // schemars marks what serde never writes, and the width of numbers; to a reader of the schema that says nothing.
+    // schemars writes `writeOnly` and number formats, which have no meaning for readers of the schema.
     schema.remove("writeOnly");
     schema.remove("format");
     if let Some(Value::String(text)) = schema.get_mut("description") {
@@ -100,7 +100,7 @@ fn tidy(schema: &mut Schema) {
     transform_subschemas(&mut tidy, schema);
 }
 
-/// A key that may be left out is an option in the form's types, and schemars lets options be null. The loader does not.
+/// Removes null. Optional keys are `Option`s in the types, for which schemars allows null; the reader of scenario files does not.
 fn without_null(schema: &mut Schema) {
     if let Some(Value::Array(types)) = schema.get_mut("type") {
         types.retain(|kind| kind != "null");
@@ -123,7 +123,7 @@ fn without_null(schema: &mut Schema) {
     }
 }
 
-/// Adds what is not there: a key's own description says more than that of its type.
+/// Adds missing keywords. Existing ones stay: the description of a key takes precedence over that of its type.
 fn fill(schema: &mut Schema, more: Map<String, Value>) {
     for (key, value) in more {
         if schema.get(&key).is_none() {
@@ -132,7 +132,7 @@ fn fill(schema: &mut Schema, more: Map<String, Value>) {
     }
 }
 
-/// A kind such as `{"force": …}`: its only key is described and shown like the kind as a whole.
+/// Copies description and example of a variant such as `{"force": …}` to its only key.
 fn of_one_key(mut kind: Value) -> Value {
     let described: Vec<_> = ["description", "examples"].map(|key| kind.get(key).cloned()).into();
     let Some(Value::Object(keys)) = kind.get_mut("properties") else { return kind };
@@ -148,7 +148,7 @@ fn of_one_key(mut kind: Value) -> Value {
     kind
 }
 
-/// Words that are kinds of their own, each with its description, as one list: editors complete lists.
+/// Joins variants that are single words into one `enum` with descriptions, because editors complete enums.
 fn words_together(kinds: Vec<Value>) -> Vec<Value> {
     let (words, mut others): (Vec<_>, Vec<_>) =
         kinds.into_iter().partition(|kind| kind.get("const").is_some_and(Value::is_string));

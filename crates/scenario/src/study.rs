@@ -1,4 +1,4 @@
-//! The study file: which numbers of a scenario vary, how, and what is kept of each run.
+//! Study file: varied numbers of a scenario, their distributions, and the results to record.
 
 mod form;
 mod goal;
@@ -22,45 +22,45 @@ pub use form::Sampling;
 pub(crate) use form::StudyForm;
 pub use goal::{Basis, Goal, Shaped};
 
-/// Version of the form that this program reads.
+/// Version of the file format that this program reads.
 const VERSION: u64 = 1;
-/// Cases of a part where the file does not say.
+/// Default number of cases per part.
 const CHUNK: u64 = 1000;
-/// Most cases of a part: they are held in memory.
+/// Maximum number of cases per part, which are held in memory.
 const MOST_CHUNK: u64 = 1 << 20;
 
-/// A study file, read: its numbers in SI.
+/// Study file that has been read; numbers in SI.
 #[derive(Debug, Clone)]
 pub struct StudyFile {
-    /// The scenario with the values of `set`.
+    /// Scenario with the values of `set`.
     pub scenario: Scenario,
-    /// Name of the scenario: that of its file without ending, or that of the study file.
+    /// Name of the scenario: the name of its file without extension; for an inline scenario that of the study file.
     pub name: String,
-    /// How the samples are drawn, as the file has it.
+    /// Sampling method, if given.
     pub sampling: Option<Sampling>,
-    /// Number of samples at each point of the grids.
+    /// Number of samples at each grid point, if given.
     pub cases: Option<u64>,
-    /// Seed of the samples.
+    /// Seed of the random samples.
     pub seed: u64,
-    /// Numbers that vary, in the order of the file.
+    /// Varied numbers in the order of the file.
     pub vary: Vec<(Parameter, Variation)>,
     /// Names of the results.
     pub results: Vec<String>,
-    /// Cases of a part.
+    /// Number of cases per part.
     pub chunk: u64,
-    /// What is optimised instead of varied.
+    /// Optimisation goal; `None` if numbers are varied.
     pub goal: Option<Goal>,
     document: Document,
 }
 
-/// How a number varies, in SI.
+/// Variation of a number, in SI.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Variation {
     /// Values of a grid or a list.
     Values(Vec<f64>),
     /// Uniform distribution: bounds.
     Uniform([f64; 2]),
-    /// Normal distribution: mean, standard deviation and, of the truncated one, bounds.
+    /// Normal distribution: mean, standard deviation and, if truncated, bounds.
     Normal([f64; 2], Option<[f64; 2]>),
     /// Lognormal distribution: median and geometric standard deviation.
     Lognormal([f64; 2]),
@@ -72,7 +72,7 @@ impl StudyFile {
     /// Reads a study file and the scenario that it names.
     ///
     /// # Errors
-    /// Whatever is wrong with one of them, with its place.
+    /// Errors of study or scenario, with their positions.
     pub fn load(path: impl AsRef<Path>) -> Result<Self, ScenarioError> {
         let path = path.as_ref();
         let name = path.display().to_string();
@@ -81,11 +81,11 @@ impl StudyFile {
         Self::from_str(&text, (&name, &stem), path.parent().unwrap_or(Path::new("")))
     }
 
-    /// Reads a study from a text: its file's name stands in errors, its stem is the name of a scenario that stands in it; `base` is the
-    /// folder its files are looked for in.
+    /// Reads a study from a text. `file` is the file name in messages, `stem` the name of an inline scenario, `base` the folder of files
+    /// that the study names.
     ///
     /// # Errors
-    /// Whatever is wrong with it, with its place.
+    /// Errors of study or scenario, with their positions.
     pub fn from_str(text: &str, (file, stem): (&str, &str), base: &Path) -> Result<Self, ScenarioError> {
         let (document, faults) = Document::read_study(file, text)?;
         if let Some(fault) = faults.into_iter().next() {
@@ -113,7 +113,7 @@ impl StudyFile {
         }
         if let Some(path) = form.set.names().find(|path| form.vary.names().any(|varied| varied == *path)) {
             let place = KeyPath(vec![Step::Key("set".to_owned()), Step::Key(path.to_owned())]);
-            return Err(at(Fault::new(place, format!("{path} varies: it has no value of its own")).on_key()));
+            return Err(at(Fault::new(place, format!("{path} varies, so it has no single value")).on_key()));
         }
         let (scenario, name) = form.subject((file, stem), base, &at)?;
         let vary: Result<Vec<_>, Fault> =
@@ -140,7 +140,7 @@ impl StudyFile {
         })
     }
 
-    /// The study as a text that stands alone: with its scenario in it, tables included.
+    /// Returns the study as JSON that needs no other files: the scenario and its tables are inlined.
     #[must_use]
     pub fn portable(&self) -> String {
         let mut value = self.document.value.clone();
@@ -154,8 +154,8 @@ impl StudyFile {
         value.to_string()
     }
 
-    /// An error of a later check, pointed into the file: the value under a key, or, with a name, what stands in it under that name
-    /// or at that place of a list.
+    /// Returns an error of a later check, with its position in the file. `at` is a key of the study. `inside` selects a key in its
+    /// object, or an entry of its list.
     pub fn refusal(
         &self,
         at: &str,
@@ -176,7 +176,7 @@ impl StudyFile {
 }
 
 impl StudyForm {
-    /// The scenario, with its name.
+    /// Returns the scenario and its name.
     fn subject(
         &self,
         (file, stem): (&str, &str),
@@ -214,7 +214,7 @@ fn key(name: &str) -> KeyPath {
     KeyPath(vec![Step::Key(name.to_owned())])
 }
 
-/// A number that varies, and how.
+/// Returns a varied number and its variation.
 fn varied(scenario: &Scenario, path: &str, form: &VariationForm) -> Result<(Parameter, Variation), Fault> {
     let place = KeyPath(vec![Step::Key("vary".to_owned()), Step::Key(path.to_owned())]);
     let parameter = scenario.number(path).map_err(|error| {
@@ -227,7 +227,7 @@ fn varied(scenario: &Scenario, path: &str, form: &VariationForm) -> Result<(Para
         _ => false,
     };
     if parameter.is_whole && !is_good {
-        let message = format!("{path} counts whole things: it takes a list or a grid of whole numbers");
+        let message = format!("{path} is a count: expected a list or a grid of whole numbers");
         return Err(Fault::new(place, message));
     }
     Ok((parameter, variation))

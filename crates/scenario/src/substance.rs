@@ -1,29 +1,30 @@
-//! Kinds of materials by the names that people give them: what modulus and density they have, and what pressure they bear.
+//! Classes of materials by name, with ranges of Young's modulus, density and strength.
 //!
-//! A scene knows moduli only. The name beside them says what was meant, and a number far from it is a slip of the pen.
+//! The model contains only moduli. The name of a material shows what was intended: a modulus far outside the range is probably an error.
 
-/// A kind of material.
+/// Class of materials.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Substance {
-    /// What it is called here.
+    /// Name of the class.
     pub name: &'static str,
-    /// Smallest and largest Young's modulus of its everyday varieties, Pa.
+    /// Smallest and largest Young's modulus of common grades, Pa.
     pub modulus: (f64, f64),
-    /// Uniaxial yield stress of its strong everyday varieties, Pa; of brittle ones a third of their hardness.
+    /// Uniaxial yield stress of strong common grades, Pa; for brittle materials a third of the hardness.
     pub strength: f64,
     /// Typical density, kg/m³.
     pub density: f64,
-    /// Words of a name that mean it.
+    /// Words and phrases that identify the class.
     words: &'static [&'static str],
 }
 
-/// Everyday orders of magnitude, put together by hand and taken from no single table: moduli as handbooks give their ranges (for
-/// comparison M. F. Ashby, *Materials Selection in Mechanical Design*, appendix A), strengths of strong varieties, of ceramics
-/// and glasses a third of the hardness, for H ≈ 3Y (D. Tabor, *The Hardness of Metals*, 1951). Two digits at best: what they are
-/// for is a forgotten prefix. What has several words comes first, and of the classes of one kind the most particular.
+/// All classes. The numbers are typical values with at most two significant digits, chosen to detect missing prefixes.
 ///
-/// Steel without another word is structural: S235 to S355 yield at 235 to 355 MPa (EN 10025-2). Bearing steel of 60 HRC yields at some
-/// 2 GPa, 17-4PH in condition H900 at 1.17 GPa (ASTM A564).
+/// Ranges of moduli agree with handbooks (for comparison M. F. Ashby, *Materials Selection in Mechanical Design*, appendix A). Strengths
+/// are those of strong grades; of ceramics and glasses a third of the hardness, for H ≈ 3Y (D. Tabor, *The Hardness of Metals*, 1951).
+/// Phrases of several words come before single words, and special classes before general ones.
+///
+/// Steel without another word is structural steel: S235 to S355 yield at 235 to 355 MPa (EN 10025-2). Bearing steel of 60 HRC yields at
+/// about 2 GPa, 17-4PH in condition H900 at 1.17 GPa (ASTM A564).
 const SUBSTANCES: &[Substance] = &[
     of("silicon nitride", (280.0, 320.0), 5.0, 3200.0, &["silicon nitride", "si3n4"]),
     of("silicon carbide", (400.0, 460.0), 8.0, 3200.0, &["silicon carbide", "sic"]),
@@ -83,7 +84,7 @@ const SUBSTANCES: &[Substance] = &[
     of("epoxy", (2.3, 3.1), 0.08, 1200.0, &["epoxy"]),
 ];
 
-/// A kind by its numbers in GPa, and its density in kg/m³.
+/// Returns a class from moduli and strength in GPa and density in kg/m³.
 const fn of(
     name: &'static str,
     (low, high): (f64, f64),
@@ -95,12 +96,12 @@ const fn of(
 }
 
 impl Substance {
-    /// Whether both are classes of one kind, as structural and hardened steel: they differ in strength alone.
+    /// Returns whether both are grades of one material that differ only in strength, such as structural and hardened steel.
     fn is_akin_to(&self, other: &Self) -> bool {
         self.modulus == other.modulus && self.density == other.density
     }
 
-    /// The strongest class of its kind, where it is not that itself.
+    /// Returns the grade of the same material with the highest strength, or `None` if this is the strongest.
     pub fn strongest(&self) -> Option<&'static Self> {
         let stronger =
             SUBSTANCES.iter().filter(|other| other.is_akin_to(self) && other.strength > self.strength);
@@ -108,7 +109,8 @@ impl Substance {
     }
 }
 
-/// The kind that a name means, of its classes the most particular; none where it means none, or several.
+/// Returns the class that a material name denotes, the most special one of a material. Returns `None` for an unknown name and for a name
+/// of several materials.
 pub fn substance(name: &str) -> Option<&'static Substance> {
     let words = |text: &str| -> Vec<String> {
         let plain = text.to_lowercase();
@@ -121,7 +123,7 @@ pub fn substance(name: &str) -> Option<&'static Substance> {
     let mut left = words(name);
     let mut found: Option<&Substance> = None;
     for (substance, phrase) in SUBSTANCES.iter().flat_map(|s| s.words.iter().map(move |w| (s, words(w)))) {
-        // steel2 and steel are one.
+        // `steel2` counts as `steel`.
         let same = |have: &String, want: &String| {
             have == want || have.trim_end_matches(|c: char| c.is_ascii_digit()) == want
         };
@@ -177,7 +179,7 @@ mod tests {
         assert!(SUBSTANCES.iter().all(|s| s.modulus.0 < s.modulus.1 && s.strength < s.modulus.1));
     }
 
-    /// A prefix slips by a thousand: densities of solids lie within a factor of 25.
+    /// Densities of solids lie within a factor of 25, so a wrong prefix (a factor of 1000) is detected.
     #[test]
     fn densities_are_those_of_solids_and_classes_of_steel_differ_in_strength() {
         assert!(SUBSTANCES.iter().all(|s| (900.0..20_000.0).contains(&s.density)));

@@ -1,13 +1,13 @@
-//! "Did you mean": the nearest of the names that would have been right.
+//! "Did you mean" texts: the nearest of the allowed names.
 
 use crate::document::shown;
 use std::collections::HashSet;
 
-/// Most names that are listed.
+/// Maximum number of listed names.
 const LISTED: usize = 30;
-/// Longest words that are compared, characters: the work grows with the product of their lengths.
+/// Maximum length of compared words, characters. The cost grows with the product of the lengths.
 const LONGEST: usize = 100;
-/// What people call a key, what it is called here, and why where that is no mere matter of names.
+/// Common names of keys, the names in the file, and an explanation if the meaning differs.
 const SYNONYMS: &[(&str, &str, &str)] = &[
     ("mu", "friction", ""),
     ("µ", "friction", ""),
@@ -33,8 +33,8 @@ const SYNONYMS: &[(&str, &str, &str)] = &[
     ("diameter", "radius", "half the diameter"),
     ("interval", "every", ""),
     ("dt", "every", ""),
-    ("step", "tolerance", "this stepper finds its steps itself"),
-    ("tolerance", "step", "this stepper keeps its step"),
+    ("step", "tolerance", "this stepper controls its time step"),
+    ("tolerance", "step", "this stepper has a fixed time step"),
     ("time", "duration", ""),
     ("t_end", "duration", ""),
     ("version", "stickslip", ""),
@@ -49,7 +49,7 @@ const SYNONYMS: &[(&str, &str, &str)] = &[
     ("cosine", "sine", "with \"phase\": \"90 deg\""),
     ("saw", "sawtooth", ""),
     ("ramp", "sawtooth", ""),
-    ("square", "table", "two points at one time are a jump"),
+    ("square", "table", "two points at the same time are a jump"),
     ("points", "table", ""),
     ("file", "table", ""),
     ("rk45", "dopri5", ""),
@@ -58,7 +58,7 @@ const SYNONYMS: &[(&str, &str, &str)] = &[
     ("prescribed", "follows", ""),
 ];
 
-/// The nearest candidate, where one is near enough to be a slip of the pen.
+/// Returns the nearest candidate, if the difference is small enough for a typing error.
 pub(crate) fn nearest<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     let short = |word: &str| word.chars().nth(LONGEST).is_none();
     if !short(word) {
@@ -71,14 +71,14 @@ pub(crate) fn nearest<'a>(word: &str, candidates: impl IntoIterator<Item = &'a s
         .map(|candidate| (strsim::osa_distance(&lower, &candidate.to_lowercase()), candidate))
         .filter(|&(distance, candidate)| {
             let length = candidate.chars().count().max(word.chars().count());
-            // A third of the letters; two-letter units are one slip away from each other.
+            // At most a third of the letters may differ. Any two units of two letters differ by little.
             distance <= (length / 3).max(1) && distance < length
         })
         .min_by_key(|&(distance, _)| distance)
         .map(|(_, candidate)| candidate)
 }
 
-/// Help for a name that is not known: the nearest one, or all of them.
+/// Returns help for an unknown name: the nearest name, or a list of all names.
 pub fn help<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<String> {
     let mut seen = HashSet::new();
     let all: Vec<&str> = candidates.into_iter().filter(|name| seen.insert(*name)).collect();
@@ -96,7 +96,7 @@ pub fn help<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>) -> Op
     }
 }
 
-/// The key that was meant by another name, or by nearly its own.
+/// Returns the key that was probably intended: a synonym or the nearest key.
 pub(crate) fn meant<'a>(word: &str, known: &[&'a str]) -> Option<&'a str> {
     let lower = word.to_lowercase();
     let synonym = SYNONYMS.iter().find(|(other, name, _)| *other == lower && known.contains(name));
@@ -104,7 +104,7 @@ pub(crate) fn meant<'a>(word: &str, known: &[&'a str]) -> Option<&'a str> {
     synonym.or_else(|| nearest(word, known.iter().copied()))
 }
 
-/// Help for a key that goes by another name here, or by nearly the same.
+/// Returns help for a key with another name in the file, or for a misspelt key.
 pub(crate) fn slip(word: &str, known: &[&str]) -> Option<String> {
     let lower = word.to_lowercase();
     let synonym = SYNONYMS.iter().find(|(other, name, _)| *other == lower && known.contains(name));
@@ -143,7 +143,7 @@ mod tests {
         assert_eq!(help("a\u{1b}b", ["a\u{1b}c"]).unwrap(), "did you mean \"a\u{fffd}c\"?");
     }
 
-    /// Two names of a million letters would be compared for hours.
+    /// The comparison of two names of a million letters would take hours.
     #[test]
     fn endless_words_are_no_slips() {
         let [long, longer] = [1_000_000, 1_000_001].map(|count| "a".repeat(count));

@@ -1,4 +1,4 @@
-//! JSON with comments: limits, syntax, duplicate keys and the places of all values.
+//! Parser of JSON with comments. The parser checks limits, syntax and duplicate keys, and records the positions of all values.
 
 mod bracket;
 mod comment;
@@ -16,20 +16,20 @@ use slip::Slip;
 use std::borrow::Cow;
 use std::collections::HashMap;
 
-/// Largest scenario taken, bytes.
+/// Maximum size of a scenario, bytes.
 pub(crate) const MAX_BYTES: usize = 4 << 20;
-/// Most faults noted of a text.
+/// Maximum number of errors of one text.
 const MAX_FAULTS: usize = 100;
-/// Deepest nesting of objects and lists taken; the form itself needs less than ten.
+/// Maximum nesting depth of objects and lists. Valid scenarios need less than ten.
 const MAX_DEPTH: usize = 64;
 
-/// Where a text belongs: what its places and paths are counted from.
+/// Origin of a text, to which positions and paths refer.
 pub(crate) struct Origin {
-    /// Place of the text in the list of sources.
+    /// Index of the text in the list of sources.
     pub(crate) source: usize,
-    /// Bytes of the source before the text.
+    /// Number of bytes of the source before the text.
     pub(crate) offset: usize,
-    /// Path of the value that the text is.
+    /// Path of the value in the text.
     pub(crate) path: KeyPath,
 }
 
@@ -48,17 +48,17 @@ impl Origin {
     }
 }
 
-/// A text that was read.
+/// Parsed text.
 pub(crate) struct Read {
-    /// Its value for the form.
+    /// JSON value.
     pub(crate) value: Value,
-    /// The place of everything in it.
+    /// Position of each value.
     pub(crate) place: Place,
-    /// What JSON readers let pass in silence.
+    /// Errors that JSON parsers do not report.
     pub(crate) faults: Vec<Fault>,
 }
 
-/// Reads a text; what is not JSON ends the reading where it is.
+/// Parses a text. The first syntax error ends the parsing.
 pub(crate) fn read(text: &str, origin: &Origin) -> Result<Read, Fault> {
     if text.len() > MAX_BYTES {
         let message = format!("a scenario has at most {MAX_BYTES} bytes, this one has {}", text.len());
@@ -72,8 +72,8 @@ pub(crate) fn read(text: &str, origin: &Origin) -> Result<Read, Fault> {
     let tree = parse(text, origin)?;
     let mut walk = Walk { origin, path: origin.path.clone(), faults: Vec::new(), unread: Vec::new() };
     let place = walk.value(&tree, None);
-    // The values are read a second time, by serde_json: it rounds numbers correctly, and it refuses whatever the
-    // first reader let pass that is not JSON.
+    // The values are read a second time by serde_json, which rounds numbers correctly. It also refuses texts that the first
+    // parser accepts although they are not JSON.
     let mut plain = Cow::Borrowed(text);
     for range in walk.unread {
         let number = format!("{:<1$}", 0, range.end - range.start);
@@ -83,7 +83,7 @@ pub(crate) fn read(text: &str, origin: &Origin) -> Result<Read, Fault> {
     Ok(Read { value, place, faults: walk.faults })
 }
 
-/// What must be known before anything recurses: nesting, and strings that swallow the lines after them.
+/// Checks nesting depth and unterminated strings before the recursive parser runs.
 fn check_outline(text: &str, origin: &Origin) -> Result<(), Fault> {
     let (mut depth, mut string, mut escaped) = (0_usize, None, false);
     for (i, byte) in text.bytes().enumerate() {
@@ -92,7 +92,7 @@ fn check_outline(text: &str, origin: &Origin) -> Result<(), Fault> {
             (0..0x20, Some(_)) => {
                 let fault =
                     origin.fault(Range::new(i, i + 1), "not JSON: a control character inside a string");
-                return Err(fault.help("write a blank, or \\t for a tab"));
+                return Err(fault.help("write a space, or \\t for a tab"));
             }
             _ if escaped => escaped = false,
             (b'\\', Some(_)) => escaped = true,
@@ -118,7 +118,7 @@ fn check_outline(text: &str, origin: &Origin) -> Result<(), Fault> {
 
 fn parse<'a>(text: &'a str, origin: &Origin) -> Result<ast::Value<'a>, Fault> {
     let strict = ParseOptions {
-        // They are blanks by now.
+        // Comments are already replaced by blanks.
         allow_comments: false,
         allow_loose_object_property_names: false,
         allow_trailing_commas: false,
@@ -133,14 +133,14 @@ fn parse<'a>(text: &'a str, origin: &Origin) -> Result<ast::Value<'a>, Fault> {
     match jsonc_parser::parse_to_ast(text, &CollectOptions::default(), &strict) {
         Ok(result) => result.value.ok_or_else(|| {
             origin
-                .fault(Range::new(0, 1), "there is nothing here: a scenario is a JSON object")
+                .fault(Range::new(0, 1), "the file is empty: a scenario is a JSON object")
                 .help("start with { \"stickslip\": 1, \"title\": \"…\" }")
         }),
         Err(error) => Err(origin.slipped(slip::of(text, &error))),
     }
 }
 
-/// Refusal by `serde_json`, whose place is a line and a column in bytes.
+/// Converts an error of `serde_json`, whose position is a line and a column in bytes.
 fn second_opinion(text: &str, error: &serde_json::Error, origin: &Origin) -> Fault {
     let line_start: usize =
         text.split_inclusive('\n').take(error.line().saturating_sub(1)).map(str::len).sum();
@@ -153,12 +153,12 @@ fn second_opinion(text: &str, error: &serde_json::Error, origin: &Origin) -> Fau
     origin.fault(Range::new(at, at + 1), format!("not JSON: {message}"))
 }
 
-/// Notes the places, and what JSON readers let pass in silence.
+/// Records positions, and errors that JSON parsers do not report.
 struct Walk<'a> {
     origin: &'a Origin,
     path: KeyPath,
     faults: Vec<Fault>,
-    /// Numbers that no reader takes.
+    /// Numbers too large or too small for a floating-point number.
     unread: Vec<Range>,
 }
 
@@ -183,7 +183,7 @@ impl Walk<'_> {
                 Inner::List(places)
             }
             ast::Value::NumberLit(number) => {
-                // Whatever the parser takes for a number is one.
+                // A number literal of the parser is a number.
                 let value = number.value.parse().unwrap_or(f64::NAN);
                 if let Some(why) = out_of_reach(number.value, value) {
                     self.note(Fault::new(self.path.clone(), why).at_span(span));
@@ -213,7 +213,7 @@ impl Walk<'_> {
             let span = self.origin.span(range);
             self.path.0.push(Step::Key(name.to_owned()));
             if let Some(&before) = first.get(name) {
-                let twice = Fault::new(self.path.clone(), "this key stands here twice").at_span(span);
+                let twice = Fault::new(self.path.clone(), "this key occurs twice").at_span(span);
                 let help = format!("remove one; the first is {}", brief(&object.properties[before].value));
                 self.note(twice.help(help).mend(Mend::Leave(Some(self.path.clone()))));
             } else {

@@ -1,4 +1,4 @@
-//! Tables in files: read once, and from then on points of the scenario.
+//! Reads tables in files and replaces them by points in the scenario.
 
 mod foreign;
 mod head;
@@ -24,35 +24,35 @@ use std::ops::Range;
 use std::path::Path;
 use stickslip_record::smoothed;
 
-/// Most bytes of one file, and of all together: each is kept to point into.
+/// Maximum size of one file and of all files together, bytes.
 const MAX_BYTES: (usize, usize) = (syntax::MAX_BYTES, 16 * syntax::MAX_BYTES);
 
-/// Where the points of a table in a file come from.
+/// Origin of the points of a table in a file.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct TableFile {
     /// Path of the table.
     path: KeyPath,
-    /// The file's place in the list of sources.
+    /// Index of the file in the list of sources.
     source: usize,
-    /// Key of its list: the rows.
+    /// Key of the list that the rows become.
     list: &'static str,
-    /// Columns of an entry's numbers, at least one.
+    /// Columns of the numbers of an entry; at least one for plain tables, none for tables of instruments.
     columns: Vec<usize>,
 }
 
 impl TableFile {
-    /// Whether a value is one of its rows.
+    /// Returns whether a path is that of one of the rows.
     pub(crate) fn has(&self, path: &KeyPath) -> bool {
         let list = self.path.0.iter().cloned().chain([Step::Key(self.list.to_owned())]);
         KeyPath(list.collect()).holds(path)
     }
 
-    /// Path of the table.
+    /// Returns the path of the table.
     pub(crate) fn path(&self) -> &KeyPath {
         &self.path
     }
 
-    /// The place of the time or value at a path such as `waveforms.w.table.points[3][0]`, if it is in this table.
+    /// Returns the span of the number at a path such as `waveforms.w.table.points[3][0]`, if it is in this table.
     pub(crate) fn locate(&self, path: &KeyPath, sources: &[Source]) -> Option<Span> {
         let [Step::Key(points), Step::Index(row), rest @ ..] = path.0.strip_prefix(self.path.0.as_slice())?
         else {
@@ -68,7 +68,7 @@ impl TableFile {
     }
 }
 
-/// Replaces the files of all tables by their points. Says whether there were any.
+/// Replaces the files of all tables by their points. Returns whether there were any.
 pub(crate) fn inline(form: &mut Form, document: &mut Document) -> Result<bool, Fault> {
     let mut shelf = Shelf { document, bytes: 0 };
     let root = At::ROOT;
@@ -112,13 +112,13 @@ pub(crate) fn inline(form: &mut Form, document: &mut Document) -> Result<bool, F
     Ok(!document.tables.is_empty())
 }
 
-/// Rows of a file, and the dimension of each column where its head tells.
+/// Rows of a file, and the dimension of each column if its header has a unit.
 type Rows<const N: usize> = (Vec<[f64; N]>, [Option<Kind>; N]);
 
-/// The files of a scenario.
+/// Reader of the files of a scenario.
 struct Shelf<'a> {
     document: &'a mut Document,
-    /// Bytes read so far.
+    /// Number of bytes read so far.
     bytes: usize,
 }
 
@@ -165,8 +165,9 @@ impl Shelf<'_> {
         Ok(())
     }
 
-    /// The rows of a file by the columns that an object names under these keys, and the dimensions that their heads tell. The list
-    /// is what the rows become. Without a recipe a plain table is read as it is; what is none is read as an instrument's, if no line of it has to be passed over.
+    /// Reads rows of a file by the columns named under the given keys. Returns the rows and the dimensions in the headers. The argument
+    /// `list` is the key that the rows become. Without a recipe, the file is read as a plain table. If this fails, it is read as a table
+    /// of an instrument, provided that no line has to be skipped.
     fn rows<const N: usize>(
         &mut self,
         at: &At<'_>,
@@ -238,19 +239,19 @@ impl Shelf<'_> {
     fn read(&mut self, at: &At<'_>, file: &str) -> Result<Vec<u8>, Fault> {
         let unreadable = |error: io::Error| at.fault(format!("cannot read \"{}\": {error}", shown(file)));
         let Some(base) = self.document.base.as_deref() else {
-            return Err(at.fault("this scenario has no folder: it may name no files").on_key());
+            return Err(at.fault("this scenario has no folder, so it cannot name files").on_key());
         };
         let path = folder::find(base, Path::new(file)).map_err(|denied| match denied {
             Denied::Outside => at
                 .fault(format!("\"{}\" lies outside the scenario's folder", shown(file)))
-                .help("a scenario may name files at or below its own folder only"),
+                .help("a scenario can only name files in its own folder or below"),
             Denied::NotThere => {
                 let fault = at.fault(format!("there is no file \"{}\"", shown(file)));
                 let names = folder::names(base);
                 let near = suggest::nearest(file, names.iter().map(String::as_str));
                 fault.help(match near {
                     Some(near) => format!("did you mean \"{near}\"?"),
-                    None => "files are looked for from the scenario's own folder".to_owned(),
+                    None => "file names are relative to the folder of the scenario".to_owned(),
                 })
             }
             Denied::NotAFile => at.fault(format!("\"{}\" is not a file", shown(file))),
@@ -263,21 +264,21 @@ impl Shelf<'_> {
         self.bytes += bytes.len();
         if self.bytes > most_together {
             let message = format!("the files of all tables have more than {most_together} bytes together");
-            let help = "keep fewer points; a table that is used twice can be a waveform with a name";
+            let help = "use fewer points; a table that is used twice can be a named waveform";
             return Err(at.fault(message).help(help));
         }
         Ok(bytes)
     }
 }
 
-/// Names of columns where there is no file.
+/// Refuses names of columns and recipes without a file.
 fn no_columns(
     at: &At<'_>,
     columns: &[(&str, Option<String>)],
     recipe: Option<&RecipeForm>,
 ) -> Result<(), Fault> {
     if recipe.is_some() {
-        let fault = at.key("recipe").fault("says how a file is read, but there is no file").on_key();
+        let fault = at.key("recipe").fault("describes how to read a file, but there is no file").on_key();
         return Err(fault.help("leave it out").mend(Mend::Around(at.path())));
     }
     match columns.iter().find(|(_, name)| name.is_some()) {
@@ -289,13 +290,13 @@ fn no_columns(
     }
 }
 
-/// A file beside what it would bring.
+/// Returns the error for a file that is given together with points.
 fn given_twice(at: &At<'_>) -> Fault {
-    let fault = at.key("file").fault("the points are given already").on_key().mend(Mend::Around(at.path()));
+    let fault = at.key("file").fault("the points are already given").on_key().mend(Mend::Around(at.path()));
     fault.help("keep one of them")
 }
 
-/// The place of a column by its head, or by its head without the unit where no head is that.
+/// Returns the index of a column by its full header, or by its header without the unit if no full header matches.
 fn column(at: &At<'_>, key: &str, name: Option<&str>, header: &[Head]) -> Result<usize, Fault> {
     let Some(name) = name else {
         return Err(at.missing(key));
@@ -321,11 +322,11 @@ fn column(at: &At<'_>, key: &str, name: Option<&str>, header: &[Head]) -> Result
     }
 }
 
-/// What may help where a column is not found: what is near by, or the commas that a line of heads lacks.
+/// Returns help for a column that was not found: a similar name, or the missing commas of the header line.
 fn help(name: &str, header: &[Head]) -> Option<String> {
     match header {
         [only] if only.full.contains([';', '\t']) => {
-            Some(format!("its first line is \"{}\": put commas between the fields", shown(&only.full)))
+            Some(format!("its first line is \"{}\": separate the fields by commas", shown(&only.full)))
         }
         _ => suggest::help(name, header.iter().map(|head| head.full.as_str())),
     }

@@ -1,4 +1,4 @@
-//! Files as text: read up to a limit, told to be UTF-8 or not.
+//! Reads files as text, with a size limit and a check of the encoding.
 
 use crate::{folder, suggest};
 use std::fs::File;
@@ -6,21 +6,21 @@ use std::io::{self, Read};
 use std::ops::Range;
 use std::path::Path;
 
-/// Bytes that are no UTF-8 text.
+/// Text that is not valid UTF-8.
 #[derive(Debug, PartialEq)]
 pub(crate) struct Garbled {
-    /// The text as far as it can be shown.
+    /// Text, with invalid parts replaced.
     pub(crate) text: String,
-    /// What is no text in it.
+    /// Range of the invalid part.
     pub(crate) range: Range<usize>,
     pub(crate) message: String,
     pub(crate) help: String,
 }
 
-/// The bytes of a file; none where there are more than `limit`.
+/// Returns the bytes of a file, or `None` if there are more than `limit`.
 ///
-/// Refused are folders, devices and pipes that have a name: to open one waits for whoever writes into it, which may be
-/// nobody, and is not to be interrupted. A pipe of the shell has no name, and ends.
+/// Folders, devices and named pipes are refused, because opening a named pipe waits for a writer without limit. Pipes of the shell have
+/// no name and are read.
 pub(crate) fn read(path: &Path, limit: usize) -> io::Result<Option<Vec<u8>>> {
     if path.canonicalize().is_ok_and(|named| !named.is_file()) {
         let kind = if path.is_dir() { io::ErrorKind::IsADirectory } else { io::ErrorKind::InvalidInput };
@@ -31,7 +31,7 @@ pub(crate) fn read(path: &Path, limit: usize) -> io::Result<Option<Vec<u8>>> {
     Ok((bytes.len() <= limit).then_some(bytes))
 }
 
-/// Why a scenario cannot be read, and what would do.
+/// Returns message and help for a scenario that cannot be read.
 pub(crate) fn unreadable(path: &Path, error: &io::Error) -> (String, Option<String>) {
     match error.kind() {
         io::ErrorKind::NotFound => {
@@ -53,7 +53,7 @@ pub(crate) fn unreadable(path: &Path, error: &io::Error) -> (String, Option<Stri
     }
 }
 
-/// The text that bytes are, without the mark of byte order that some editors put before it.
+/// Decodes UTF-8 and removes a byte order mark.
 pub(crate) fn decode(bytes: Vec<u8>) -> Result<String, Garbled> {
     if let Some(text) = utf_16(&bytes) {
         let message = "expected UTF-8 text, got UTF-16".to_owned();
@@ -78,7 +78,7 @@ pub(crate) fn decode(bytes: Vec<u8>) -> Result<String, Garbled> {
     }
 }
 
-/// UTF-16 with its mark of byte order, as some editors write it.
+/// Decodes UTF-16 with a byte order mark; otherwise returns `None`.
 fn utf_16(bytes: &[u8]) -> Option<String> {
     let unit: fn([u8; 2]) -> u16 = match bytes.get(..2)? {
         [0xff, 0xfe] => u16::from_le_bytes,
@@ -94,7 +94,7 @@ fn utf_16(bytes: &[u8]) -> Option<String> {
 mod tests {
     use super::*;
 
-    /// Opening a pipe that nobody writes into would wait for ever; a pipe of the shell has no name and is read.
+    /// Opening a named pipe without a writer would wait forever. A pipe of the shell has no name and is read.
     #[cfg(unix)]
     #[test]
     fn pipes_with_a_name_are_refused_at_once_and_those_of_a_shell_are_read() {

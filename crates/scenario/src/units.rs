@@ -32,32 +32,32 @@ pub(crate) enum Kind {
     Storage,
 }
 
-/// How a unit relates to the SI unit of its dimension.
+/// Conversion of a unit to the SI unit.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Scale {
-    /// A power of ten: shifts the decimal exponent, so that nothing is rounded twice.
+    /// Power of ten, added to the decimal exponent so that the number is rounded only once.
     Ten(i32),
-    /// Any other factor.
+    /// Factor that is not a power of ten.
     Factor(f64),
 }
 
 impl Kind {
-    /// The dimension in a sentence.
+    /// Returns the name of the dimension with its article.
     pub(crate) fn article(self) -> &'static str {
         self.words().0
     }
 
-    /// A quantity of this dimension as one would write it.
+    /// Returns an example of a quantity of this dimension.
     pub(crate) fn example(self) -> &'static str {
         self.words().1
     }
 
-    /// The dimension of this name.
+    /// Returns the dimension of this name.
     pub(crate) fn named(name: &str) -> Option<Self> {
         UNITS.iter().map(|(_, kind, _)| *kind).find(|kind| format!("{kind:?}") == name)
     }
 
-    /// Symbol of the SI unit.
+    /// Returns the symbol of the SI unit.
     pub(crate) fn si(self) -> &'static str {
         self.words().2
     }
@@ -92,7 +92,7 @@ impl Kind {
 /// Blank, tab, no-break space, thin space, narrow no-break space.
 pub(crate) const BLANKS: [char; 5] = [' ', '\t', '\u{a0}', '\u{2009}', '\u{202f}'];
 
-/// All units: symbol as it is compared (see [`normalise`]), dimension, scale.
+/// All units: normalised symbol (see [`normalise`]), dimension, scale.
 pub(crate) const UNITS: &[(&str, Kind, Scale)] = {
     use Kind::*;
     use Scale::{Factor, Ten};
@@ -171,8 +171,7 @@ pub(crate) const UNITS: &[(&str, Kind, Scale)] = {
     ]
 };
 
-/// One spelling for the many of a unit: µ (U+00B5) and μ (U+03BC) are u, ² is ^2, Ω is ohm, ° is deg, a middle dot or
-/// a star is a blank.
+/// Normalises the spelling of a unit. µ (U+00B5) and μ (U+03BC) become u, ² becomes ^2, Ω ohm, ° deg, a middle dot or star a blank.
 pub(crate) fn normalise(unit: &str) -> String {
     let mut plain = String::with_capacity(unit.len());
     for c in unit.chars() {
@@ -189,17 +188,17 @@ pub(crate) fn normalise(unit: &str) -> String {
     plain.split(' ').filter(|word| !word.is_empty()).collect::<Vec<_>>().join(" ")
 }
 
-/// What may stand between number and unit: blanks, also those that keep the two on one line.
+/// Returns whether a character is a blank that may separate number and unit.
 pub(crate) fn is_blank(c: char) -> bool {
     BLANKS.contains(&c)
 }
 
-/// Signs of multiplication between two units.
+/// Returns whether a character is a multiplication sign.
 fn is_times(c: char) -> bool {
     matches!(c, '\u{b7}' | '\u{22c5}' | '*')
 }
 
-/// A unit by its symbol as a user writes it.
+/// Returns dimension and scale of a unit.
 pub(crate) fn find(symbol: &str) -> Option<(Kind, Scale)> {
     let symbol = symbol.trim_matches(is_blank);
     if symbol.starts_with(is_times) || symbol.ends_with(is_times) {
@@ -209,13 +208,13 @@ pub(crate) fn find(symbol: &str) -> Option<(Kind, Scale)> {
     UNITS.iter().find(|(known, ..)| *known == plain).map(|&(_, kind, scale)| (kind, scale))
 }
 
-/// The dimension that has this SI unit; none where no quantity of a scenario has it.
+/// Returns the dimension with this SI unit, or `None` if no quantity of a scenario has it.
 pub(crate) fn of_si(symbol: &str) -> Option<Kind> {
     let plain = normalise(symbol);
     UNITS.iter().map(|(_, kind, _)| *kind).find(|kind| normalise(kind.si()) == plain)
 }
 
-/// Symbols of a dimension, or of all.
+/// Returns the symbols of a dimension, or of all dimensions.
 pub(crate) fn symbols(kind: Option<Kind>) -> impl Iterator<Item = &'static str> {
     UNITS.iter().filter(move |(_, k, _)| kind.is_none_or(|kind| *k == kind)).map(|(symbol, ..)| *symbol)
 }

@@ -1,4 +1,4 @@
-//! Cost of an evaluation beyond the evaluation itself.
+//! Benchmark of the cost of a step beyond its evaluations.
 #![allow(missing_docs, reason = "criterion's macros make undocumented items")]
 
 use criterion::{Criterion, criterion_group, criterion_main};
@@ -35,7 +35,7 @@ impl System for Oscillators {
     }
 }
 
-/// A hundred steps each; divide by 1200 (1100 attempts' evaluations and 100 end slopes), 400 or 100.
+/// A hundred steps each; divide by 1200 (evaluations of 100 attempts and end slopes), 400 or 100.
 fn overhead(c: &mut Criterion) {
     for pairs in [1, 2, 5] {
         let system = Oscillators { pairs };

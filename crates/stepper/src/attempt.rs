@@ -1,60 +1,60 @@
-//! What an event-aware run asks of a method.
+//! Traits of the one-step methods that an event-locating run uses, and the types of their arguments.
 
 use crate::Grade;
 use std::ops::Range;
 
-/// What a method is, whatever it is at.
-// Three small contracts instead of one, and only the last one knows the system: who asks for the ends of a step names no
-// system to do so.
+/// Properties of a one-step method that do not depend on the current step.
+// Three traits instead of one: code that reads a step need not know the type of the system.
 pub trait Method {
-    /// Largest |hλ| at which a motion e^{λt} that swings or fades does not grow.
+    /// Largest |hλ| at which an oscillating or decaying motion e^{λt} does not grow.
     fn stability_limit(&self) -> f64;
-    /// Whether the coming steps are exact and free at any length.
+    /// Whether accelerations stay constant, so that the next steps are exact at any length and need no evaluation.
     fn coasts(&self) -> bool;
-    /// Whether it knows steps whose stages crowd towards an end; otherwise all are even.
+    /// Whether the method supports graded steps ([`Grade`]); otherwise all its steps are even.
     fn grades(&self) -> bool {
         true
     }
-    /// Evaluations of the slopes since construction.
+    /// Number of evaluations of the right-hand side since construction.
     fn evaluations(&self) -> u64;
-    /// Where the motion stands among the methods of a pair.
+    /// Which method of a pair made the last attempt; the default for a single method.
     fn hand(&self) -> Hand {
         Hand::default()
     }
-    /// Stands there again after an attempt that is to be made once more.
+    /// Restores a [`Hand`], so that an attempt can be repeated from the same start.
     fn set_hand(&mut self, hand: Hand) {
         let _ = hand;
     }
 }
 
-/// The step tried: what is known of it, and what becomes of it.
+/// Access to the step attempted: its ends, its dense output, cutting and accepting it.
 pub trait Step {
-    /// Its two ends.
+    /// Times and states at both ends of the step.
     fn span(&self) -> Span<'_>;
-    /// Slope of a velocity, component `i` of the state, at one end of it; known at its start, and at its end once the step is
-    /// [complete](Attempt::complete).
+    /// Returns the slope of component `i`, a velocity, at one end of the step. The slope at the start is known. The slope at the
+    /// end is known once the step is [complete](Attempt::complete).
     fn slope(&self, i: usize, at: End) -> f64;
-    /// Component `i` at time `t` of it, by the dense output.
+    /// Returns component `i` at time `t` (s) by the dense output.
     #[inline]
     fn value(&self, i: usize, t: f64) -> f64 {
         self.value_at(i, self.part(t))
     }
-    /// Where in it time `t` lies, as the dense output counts: asked once for all components of a moment.
+    /// Returns the parameter of the dense output at time `t` (s), 0 at the start and 1 at the end of the step attempted.
     fn part(&self, t: f64) -> f64;
-    /// The time at such a part of it, s, and how fast time goes there, s per part.
+    /// Returns the time (s) at parameter `part`, and the derivative of time by the parameter (s).
     fn moment(&self, part: f64) -> [f64; 2];
-    /// Component `i` at such a part of it.
+    /// Returns component `i` at parameter `part` of the dense output.
     fn value_at(&self, i: usize, part: f64) -> f64;
-    /// Ends it at an earlier time `t`, in the state of the dense output.
+    /// Cuts the step at an earlier time `t` (s). The new end state is that of the dense output.
     fn cut(&mut self, t: f64);
-    /// Moves to its end.
+    /// Accepts the step: its end becomes the start of the next step.
     fn accept(&mut self);
-    /// The slopes at its start, in the stepper's own order, into the room of `slopes`; none where they are not known. They
-    /// belong to a run's state: what the system answers now may round otherwise than what it answered before its memory moved.
+    /// Writes the slopes at the start of the step into `slopes`, in the stepper's own order. Leaves it empty if they are unknown.
+    ///
+    /// The slopes belong to the state of a run. After a change of memory, a new evaluation may differ in the last bit.
     fn first_slopes(&self, slopes: &mut Vec<f64>);
 }
 
-/// A one-step method that attempts; someone else accepts.
+/// A one-step method that attempts a step; the caller decides whether to accept it.
 ///
 /// ```text
 /// start ──► attempt ──► (complete, value, cut) ──► accept ──► attempt …
@@ -62,76 +62,80 @@ pub trait Step {
 ///             └──┘
 /// ```
 pub trait Attempt<S: ?Sized>: Method + Step {
-    /// Puts the stepper at time `t` and state `y`, of which it takes as many components as it has, and evaluates the
-    /// slopes there: due at first, and after anything that makes them jump.
+    /// Sets time `t` (s) and state `y` as the start, and evaluates the slopes there. The stepper takes as many components of `y`
+    /// as it has. Required at first, and after every discontinuity of the slopes.
     fn start(&mut self, system: &S, t: f64, y: &[f64]);
-    /// Puts a new stepper where another one stood with its motion at time `t` and state `y`, with the
-    /// [slopes](Step::first_slopes) that it had there: both go on to the same bits. Without slopes it starts.
+    /// Resumes the motion of another stepper at time `t` and state `y` from its [slopes](Step::first_slopes). Both steppers
+    /// continue with identical bits. With empty `slopes` it starts anew.
     fn take_up(&mut self, system: &S, at: (f64, &[f64]), hand: Hand, slopes: &[f64]);
-    /// A first step for a fresh start, at most `longest`.
+    /// Returns a length for the first step (s), at most `longest`.
     fn first_step(&mut self, system: &S, longest: f64, scale: &[f64]) -> f64;
-    /// Tries a step and returns its error in units of `scale`: 1 is just at the tolerance, [`f64::INFINITY`] not finite.
+    /// Attempts a step and returns its error in units of `scale`. An error of 1 equals the tolerance; [`f64::INFINITY`] means
+    /// that the result is not finite.
     ///
-    /// May be called any number of times from the same start.
+    /// May be called repeatedly from the same start.
     fn attempt(&mut self, system: &S, to: Target, scale: &[f64]) -> f64;
-    /// All components at a time `t` inside the step tried, as exactly as at its end, where the dense output is not as exact as that; false
-    /// where it is, or is all there is. The step stays as it is, and nothing is counted. `scale` as for an attempt.
+    /// Writes all components at time `t` inside the step into `out`, as accurate as at the end of the step. Takes a separate step
+    /// from the start to `t`.
+    ///
+    /// Returns false and writes nothing where the dense output is accurate enough or nothing better exists. The step does not
+    /// change; its evaluations are not counted. `scale` is that of the attempt.
     fn visit(&mut self, system: &S, t: f64, scale: &[f64], out: &mut [f64]) -> bool {
         let _ = (system, t, scale, out);
         false
     }
-    /// Puts some components of a step that was cut as exactly as [`visit`](Self::visit) tells them, and counts that.
+    /// Replaces the given components at the end of a cut step by the values of [`visit`](Self::visit). Counts the evaluations.
     fn settle(&mut self, system: &S, scale: &[f64], components: Range<usize>) {
         let _ = (system, scale, components);
     }
-    /// Cuts the step at an earlier time `t`, where the dense output is there, into the state that [`visit`](Self::visit) tells.
+    /// Cuts the step at an earlier time `t` (s), at the state of [`visit`](Self::visit). Requires the dense output.
     fn cut_exactly(&mut self, system: &S, t: f64, scale: &[f64]) {
         let _ = (system, scale);
         self.cut(t);
     }
-    /// Makes more known of the step tried, at the first call only.
+    /// Computes the end slopes or the dense output of the step attempted, unless they are known.
     fn complete(&mut self, system: &S, what: Completion);
 }
 
-/// Which of two methods carries a motion, and what is known where it stands. It belongs to the state of a run: both methods
-/// evaluate one law, in another order, and what is known is not counted again.
+/// Which method of a pair made the last attempt, and whether the other one is at the same start. Part of the state of a run: both
+/// methods evaluate the same law in different order, and known slopes are not evaluated and counted again.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Hand {
-    /// Whether the last attempt was one with graded stages.
+    /// Whether the last attempt was a graded step.
     pub graded: bool,
-    /// Whether the other method is there, too; of an implicit one whether its derivatives are.
+    /// Whether the other method of a pair is at the same start. For an implicit method: whether its Jacobian is known.
     pub both: bool,
 }
 
-/// Where a step is to end, and how its stages lie in it.
+/// End time of a step and distribution of its stages.
 ///
-/// An end, not a length: t + (end - t) may miss a corner far ahead by a last place, and a waveform has its other side there.
+/// The target is a time, not a length: t + (end - t) may differ from a waveform's corner in the last bit.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Target {
-    /// End, s; met to the last bit, as a waveform's corner wants it.
+    /// End time, s; reached to the last bit.
     pub end: f64,
-    /// How its stages lie in it.
+    /// Distribution of the stages.
     pub grade: Grade,
 }
 
 impl Target {
-    /// An end met by stages that lie evenly.
+    /// Returns a target with evenly distributed stages.
     #[must_use]
     pub fn even(end: f64) -> Self {
         Self { end, grade: Grade::Even }
     }
 }
 
-/// What is to be known of a step beyond its error.
+/// Additional result of a step that [`Attempt::complete`] computes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Completion {
-    /// The slopes at its end.
+    /// Slopes at the end of the step.
     EndSlopes,
-    /// The dense output.
+    /// Dense output.
     Dense,
 }
 
-/// The ends of the step tried.
+/// Times and states at both ends of the step attempted.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Span<'a> {
     /// Time at its start, s.
@@ -144,11 +148,11 @@ pub struct Span<'a> {
     pub end: &'a [f64],
 }
 
-/// An end of a step.
+/// One end of a step.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum End {
-    /// Where it starts.
+    /// Start of the step.
     Start,
-    /// Where it ends.
+    /// End of the step.
     End,
 }

@@ -1,15 +1,15 @@
-//! How long the next step is.
+//! Step-size control.
 
-/// Step control with a proportional and a weak integral part.
+/// Proportional-integral (PI) step-size control.
 ///
-/// factor = safety · ε^-α · ε₋₁^β with α = 1/k - 0.75 β, β = 0.2/k for an estimate that falls with hᵏ; ε the error of
-/// this step, ε₋₁ that of the last accepted one, 1 = just at the tolerance.
-/// After a second rejection in a row α is 1/p with the power p that both show, no weaker than before and 1 at most.
-/// Source: Hairer, Nørsett, Wanner, *Solving ODEs I*, 2nd ed., section II.4 and Hairer, Wanner, *Solving ODEs II*,
-/// section IV.2 (PI control); Gustafsson, ACM Trans. Math. Softw. 17 (1991) 533 (rejections in a row).
+/// factor = safety · ε^-α · ε₋₁^β with β = 0.2/k and α = 1/k - 0.75 β, for an error estimate of order hᵏ. ε is the error of this
+/// step and ε₋₁ that of the last accepted step, both in units of the tolerance. After two rejections in a row, α is 1/p with the
+/// observed order p, at least the usual α and at most 1.
 ///
-/// A proportional part alone (the plain control of that section II.4) overshoots where the error wanders; see
-/// [`StepControl::new`] for what was measured. All that it remembers is part of a run's state: cloneable and comparable.
+/// Source: Hairer, Nørsett, Wanner, *Solving ODEs I*, 2nd ed., section II.4, and Hairer, Wanner, *Solving ODEs II*, section IV.2
+/// (PI control); Gustafsson, ACM Trans. Math. Softw. 17 (1991) 533 (rejections in a row).
+///
+/// Its memory is part of the state of a run: it can be cloned and compared.
 #[derive(Debug, Clone, PartialEq)]
 pub struct StepControl {
     limits: StepLimits,
@@ -18,83 +18,79 @@ pub struct StepControl {
     history: StepHistory,
 }
 
-/// What a [`StepControl`] may do.
+/// Limits of a [`StepControl`].
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct StepLimits {
-    /// Aimed-at part of the step that would just meet the tolerance; 0.5 to 1, default 0.9.
+    /// Safety factor of the step that would just meet the tolerance; 0.5 to 1, default 0.9.
     pub safety: f64,
-    /// Strongest shortening at once, a factor below 1, default 0.2.
+    /// Smallest ratio of two successive steps, below 1; default 0.2.
     pub shrink: f64,
-    /// Strongest lengthening at once, a factor above 1, default 6.
+    /// Largest ratio of two successive steps, above 1; default 6.
     pub grow: f64,
-    /// Longest step, s; default unbounded.
+    /// Largest step, s; default unbounded.
     pub longest: f64,
 }
 
 impl Default for StepLimits {
     fn default() -> Self {
-        // Those of Hairer's DOP853, but for 0.2 in place of 1/3. Tried on slopes with a root of the time in the middle of
-        // every unit of it (order 8, tolerance 1e-9, 15 944 evaluations): safety 0.8 takes 6 % more and 0.95 3 %, `grow` 2
-        // takes 7 % more and 10 6 %, `shrink` 0.5 2 %. On a smooth orbit the safety alone tells, by 2 to 15 % either way.
+        // The values of Hairer's DOP853, except 0.2 in place of 1/3.
         Self { safety: 0.9, shrink: 0.2, grow: 6.0, longest: f64::INFINITY }
     }
 }
 
-/// What the control remembers of earlier steps.
+/// Memory of a step-size control.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct StepHistory {
-    /// Natural logarithm of the last accepted error, in units of the tolerance; not below that of
+    /// Natural logarithm of the error of the last accepted step, in units of the tolerance. At least the logarithm of
     /// [`StepHistory::FLOOR`].
     pub log_error: f64,
-    /// The last attempt, if it was rejected. The next step does not grow then.
+    /// Last attempt, if it was rejected. The next step does not grow in this case.
     pub rejected: Option<Rejection>,
 }
 
-/// An attempt that was rejected.
+/// A rejected attempt.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Rejection {
-    /// Its length, s.
+    /// Step length, s.
     pub step: f64,
-    /// Natural logarithm of its error; ∞ where nothing follows from it.
+    /// Natural logarithm of its error; ∞ if the error was not finite.
     pub log_error: f64,
 }
 
 impl StepHistory {
-    /// Errors below this count as this: a step that fell far below the tolerance says nothing about the next one.
-    // Hairer's value. 1e-8 takes 5 % more evaluations where a root of the time passes by, 1e-2 3 %; smooth motions do not
-    // feel it.
+    /// Smallest error that the control remembers; smaller errors count as this value.
+    // Hairer's value.
     pub const FLOOR: f64 = 1e-4;
-    /// Nothing remembered: as after a step with the error [`StepHistory::FLOOR`], which makes the first factor cautious.
+    /// Empty memory, equal to that after a step with the error [`StepHistory::FLOOR`].
     pub const BLANK: Self = Self { log_error: -9.210_340_371_976_182, rejected: None };
 }
 
-/// What becomes of an attempt.
+/// Decision of a [`StepControl`] about an attempt.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Verdict {
     /// Whether the step met the tolerance.
     pub accepted: bool,
-    /// Length of the next attempt, with the sign of this one.
+    /// Length of the next attempt, s, with the sign of this one.
     pub next: f64,
 }
 
 impl StepControl {
-    /// Control for an error estimate that falls with the power `order` of the step (8 for [`DormandPrince`](crate::DormandPrince)).
+    /// Returns a control for an error estimate of order h^`order` (8 for [`DormandPrince`](crate::DormandPrince)).
     #[must_use]
     pub fn new(order: u32, limits: StepLimits) -> Self {
         let order = f64::from(order.max(1));
-        // Without the integral part van der Pol's oscillator (μ = 20, tolerance 1e-9) rejects 185 of 1 671 attempts instead
-        // of 100 of 1 700, for 2 % fewer evaluations; on slopes with roots of the time 524 instead of 450, for 4 % more.
-        // Twice as much of it rejects 48 and takes a third more evaluations: what is left of α answers too weakly.
+        // 0.2/k is a compromise: without the integral part more attempts are rejected, with more of it steps become shorter.
         let beta = 0.2 / order;
         Self { limits, alpha: 1.0 / order - 0.75 * beta, beta, history: StepHistory::BLANK }
     }
 
-    /// Judges an attempt of length `h` with this `error`; anything but a number up to 1 is rejected.
+    /// Accepts or rejects an attempt of length `h` (s) with this `error`, and proposes the next length. Accepts errors up to 1;
+    /// rejects larger ones and NaN.
     #[inline]
     pub fn propose(&mut self, error: f64, h: f64) -> Verdict {
         let StepLimits { safety, shrink, grow, .. } = self.limits;
         if !error.is_finite() {
-            // Nothing is known but that it was too long: the strongest shortening, and no power is read off it later.
+            // An infinite error shows no order: shorten as much as allowed.
             self.history.rejected = Some(Rejection { step: h, log_error: f64::INFINITY });
             return Verdict { accepted: false, next: h * shrink };
         }
@@ -105,42 +101,39 @@ impl StepControl {
             self.history.rejected = Some(rejection);
             return Verdict { accepted: false, next: h * factor.max(shrink) };
         }
-        // Below the smallest normal number the logarithm would leave the range of the exponential.
+        // The logarithm of a subnormal number would exceed the range of the exponential.
         let log_error = math::ln(error.max(f64::MIN_POSITIVE));
         let factor = safety * math::exp(self.beta * self.history.log_error - self.alpha * log_error);
-        // A step that grew at once after a rejection would be rejected again: 619 times instead of 450 on slopes with
-        // roots of the time, an eighth more evaluations.
+        // A step that grows directly after a rejection is often rejected again.
         let ceiling = if self.history.rejected.is_some() { 1.0 } else { grow };
         self.history = StepHistory { log_error: log_error.max(StepHistory::BLANK.log_error), rejected: None };
         Verdict { accepted: true, next: self.limit(h * factor.max(shrink).min(ceiling)) }
     }
 
-    /// Step after one that an event or a corner cut short.
+    /// Returns the step length after a step that an event or a corner cut short, and clears the history.
     ///
-    /// A step cut to a tenth has an error of 1e-8 of the uncut one and says nothing about the next. The caller passes
-    /// as `wished` the step it would have liked (what [`propose`](Self::propose) gave last before the cut); it comes
-    /// back, at most the longest allowed, and the history is wiped. Do not call `propose` for the cut step.
+    /// `wished` is the last proposal of [`propose`](Self::propose) before the cut. It is returned, limited to the largest step.
+    /// Do not call `propose` for the cut step: its small error does not predict the next one.
     pub fn after_event(&mut self, wished: f64) -> f64 {
         self.history = StepHistory::BLANK;
         self.limit(wished)
     }
 
-    /// What is remembered, to be saved with the state of a run.
+    /// Returns the memory, to be saved with the state of a run.
     #[must_use]
     pub fn history(&self) -> StepHistory {
         self.history
     }
 
-    /// Goes on from a saved history.
+    /// Restores a saved memory.
     pub fn set_history(&mut self, history: StepHistory) {
         self.history = history;
     }
 
-    /// The power of the error with which a rejected step is shortened. Two rejections in a row show the power of the step
-    /// with which the error falls: where something is not smooth, less than the method's.
+    /// Returns the exponent of the error by which a rejected step is shortened. Two rejections in a row show the actual order of
+    /// the error, which is lower than the method's where the right-hand side is not smooth.
     fn decay(&self, now: Rejection) -> f64 {
-        // The method's own power throughout rejects 545 times instead of 450 there: an error that falls with h² is not met
-        // by a step that would quarter one of order 8. Powers that seem stronger than the method's are chance.
+        // Observed orders above the method's are accidental and do not count.
         let power = |before: Rejection| (before.log_error - now.log_error) / math::ln(before.step / now.step);
         let shown = self.history.rejected.map(power).filter(|power| *power > 0.0);
         shown.map_or(self.alpha, |power| power.recip().clamp(self.alpha, 1.0))

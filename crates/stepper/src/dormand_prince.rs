@@ -1,7 +1,7 @@
 //! The explicit Runge–Kutta method DOP853: order 8, error estimate of orders 5 and 3, dense output of order 7.
 //!
-//! Source: E. Hairer, S. P. Nørsett, G. Wanner, *Solving Ordinary Differential Equations I*, 2nd ed., Springer 1993,
-//! sections II.5, II.6, II.10 and the program DOP853.
+//! Source: E. Hairer, S. P. Nørsett, G. Wanner, *Solving Ordinary Differential Equations I*, 2nd ed., Springer 1993, sections
+//! II.5, II.6, II.10 and the program DOP853.
 
 mod coast;
 mod dense;
@@ -22,53 +22,54 @@ use tableau::Slopes;
 /// Order of the method.
 pub const ORDER: u32 = 8;
 
-/// One step of DOP853 at a time: it attempts, someone else accepts.
+/// DOP853 as a one-step method whose steps the caller accepts.
 ///
-/// Stage i is evaluated in y + h Σ a_ij k_j at t + c_i h, and the step ends in y + h Σ b_i k_i; over a [`Grade`] the same holds
-/// for the slopes over its σ. A step costs 11 evaluations and one more for the slopes at its end, which are the next step's first; the dense
-/// output costs three more, only when asked for. Nothing is allocated after construction.
+/// Stage i is evaluated at y + h Σ a_ij k_j and t + c_i h; the step ends at y + h Σ b_i k_i. In a graded step ([`Grade`]) the
+/// same formulas hold for the derivatives by σ.
+///
+/// A step costs 11 evaluations, and one for the slopes at its end, which the next step reuses. The dense output costs three more,
+/// on request only. Nothing is allocated after construction.
 #[derive(Debug, Clone)]
 pub struct DormandPrince {
-    /// Coupled components; quadratures come after them.
+    /// Number of coupled components; quadratures follow them.
     dimension: usize,
-    /// All components.
+    /// Number of all components.
     total: usize,
     extent: Extent,
-    /// States at both ends. As all lists of components here they have one more than there are where that makes them even, for
-    /// ever 0.
+    /// States at both ends. All lists of components are padded with a zero to an even length.
     begin: Vec<f64>,
     end: Vec<f64>,
-    /// Coupled components of the stage under way, and all slopes there.
+    /// Coupled components of the current stage, and all slopes there.
     stage: Vec<f64>,
     newest: Vec<f64>,
     ends: EndSlopes,
-    /// Whether the system said at the start that nothing changes what acts.
+    /// Whether the system reported constant accelerations at the start of the step.
     coasts: bool,
-    /// Slopes of all stages, by pairs of components: the sums of a row run over one of them.
+    /// Slopes of all stages, by pairs of components.
     k: Vec<Slopes>,
-    /// The dense output, component by component.
+    /// Dense output by component.
     polynomials: Vec<dense::Polynomial>,
     dense_known: bool,
-    /// Goes from the start to moments inside the step; there once somebody has asked.
+    /// Stepper for moments inside the step; created on first use.
     visitor: Option<Box<Self>>,
     evaluations: u64,
 }
 
-/// From when to when a step goes, and how its stages lie in it.
+/// Times of a step, and the distribution of its stages.
 #[derive(Debug, Clone, Copy, Default)]
 struct Extent {
     /// Start, s.
     time: f64,
-    /// End, s, where it was cut if it was.
+    /// End, s; the cut of a step that was cut.
     end_time: f64,
-    /// End of the step attempted, s: there the dense output ends, also of a step that is cut.
+    /// End of the step attempted, s. The dense output ends there, even if the step was cut.
     target: f64,
     /// Length of the step attempted, s.
     step: f64,
     grade: Grade,
 }
 
-/// Slopes at both ends of a step, of all components; those of the stages are over σ.
+/// Slopes of all components at both ends of a step, by time. Those of the stages are derivatives by σ.
 #[derive(Debug, Clone)]
 struct EndSlopes {
     first: Vec<f64>,
@@ -78,7 +79,7 @@ struct EndSlopes {
 }
 
 impl DormandPrince {
-    /// Workspace for systems of `dimension` coupled components among `total`.
+    /// Returns a workspace for systems with `dimension` coupled components and `total` components.
     ///
     /// A `total` below `dimension` counts as `dimension`.
     #[must_use]
@@ -113,7 +114,7 @@ impl DormandPrince {
         self.ends.first_known = true;
     }
 
-    /// Evaluates the slopes at the end of the step tried.
+    /// Evaluates the slopes at the end of the step, unless they are known.
     fn end_slopes<S: System + ?Sized>(&mut self, system: &S) {
         if !self.ends.last_known {
             let last = &mut self.ends.last[..self.total];
@@ -130,15 +131,14 @@ impl DormandPrince {
 }
 
 impl Method for DormandPrince {
-    /// The region of stability ends on the imaginary axis at 6.0, on the real axis at -6.4. Steps that events cut end on
-    /// the dense output, which near there is no longer that of a swing.
+    /// Returns 5.0. The stability region ends at 6.0 on the imaginary axis and at -6.4 on the real axis. Near its boundary the
+    /// dense output of an oscillation, where events cut steps, is inaccurate.
     fn stability_limit(&self) -> f64 {
-        // A swing at 5.0 ends with 0.83 of its amplitude, and its dense output has 2.1 of it in the middle; at 6.0 the end
-        // has 1.08 and the middle 16. At 4.0 it were 0.98 and 1.06, for a quarter more steps of a rest.
+        // At |hλ| = 5 an oscillation has 0.83 of its amplitude at the end of a step; at 6 it grows.
         5.0
     }
 
-    /// As [`System::coasts`] said at the last evaluation of a start.
+    /// The answer of [`System::coasts`] at the last evaluation of the start slopes.
     fn coasts(&self) -> bool {
         self.coasts
     }
@@ -155,7 +155,7 @@ impl Step for DormandPrince {
         Span { time: self.extent.time, end_time: self.extent.end_time, begin, end }
     }
 
-    /// Of any component; NaN where it is not known.
+    /// Works for any component. Returns NaN if the slope is unknown.
     fn slope(&self, i: usize, at: End) -> f64 {
         let (slopes, known) = match at {
             End::Start => (&self.ends.first, self.ends.first_known),
@@ -164,7 +164,7 @@ impl Step for DormandPrince {
         slopes[..self.total].get(i).filter(|_| known).map_or(f64::NAN, |slope| *slope)
     }
 
-    /// NaN where there is no dense output.
+    /// Returns NaN without dense output.
     #[inline]
     fn value_at(&self, i: usize, part: f64) -> f64 {
         self.polynomial(i).map_or(f64::NAN, |c| dense::value(c, part))
@@ -180,14 +180,12 @@ impl Step for DormandPrince {
         [time + step * grade.time(part), step * grade.pace(part)]
     }
 
-    /// For an event: its state by the dense output is as good as one more attempt up to it, and free. Without dense
-    /// output nothing happens.
+    /// Does nothing without dense output.
     fn cut(&mut self, t: f64) {
         if !self.dense_known {
             return;
         }
-        // Another attempt up to the event has order 8 instead of 7 and costs 11 evaluations: a fifth of all on the
-        // benchmark drive, at the same error.
+        // Another attempt up to the event would have order 8 instead of 7, but cost 11 evaluations.
         let mut end = std::mem::take(&mut self.end);
         self.values(t, &mut end);
         self.end = end;
@@ -195,9 +193,9 @@ impl Step for DormandPrince {
         self.ends.last_known = false;
     }
 
-    /// Slopes evaluated at the end become the first ones of the next step.
+    /// Slopes known at the end become the first slopes of the next step.
     fn accept(&mut self) {
-        // Swapped, not copied: what was the start is overwritten by the next attempt.
+        // Swapped instead of copied: the next attempt overwrites the old start.
         std::mem::swap(&mut self.begin, &mut self.end);
         self.extent.time = self.extent.end_time;
         std::mem::swap(&mut self.ends.first, &mut self.ends.last);
@@ -214,7 +212,7 @@ impl Step for DormandPrince {
 }
 
 impl<S: System + ?Sized> Attempt<S> for DormandPrince {
-    /// Components of `y` that are missing are 0.
+    /// Missing components of `y` are 0.
     fn start(&mut self, system: &S, t: f64, y: &[f64]) {
         self.extent.time = t;
         self.begin.fill(0.0);
@@ -224,7 +222,7 @@ impl<S: System + ?Sized> Attempt<S> for DormandPrince {
         self.restart_slopes(system);
     }
 
-    /// Slopes of another number than there are components are none.
+    /// Starts anew if `slopes` has another length than there are components.
     fn take_up(&mut self, system: &S, (t, y): (f64, &[f64]), _: Hand, slopes: &[f64]) {
         if slopes.len() != self.total {
             return self.start(system, t, y);
@@ -236,14 +234,13 @@ impl<S: System + ?Sized> Attempt<S> for DormandPrince {
         (self.ends.first_known, self.coasts) = (true, system.coasts());
     }
 
-    /// Hairer, Nørsett, Wanner, section II.4; one evaluation.
+    /// Uses the rule of Hairer, Nørsett, Wanner, section II.4; one evaluation.
     fn first_step(&mut self, system: &S, longest: f64, scale: &[f64]) -> f64 {
         self.starting_step(system, longest, scale)
     }
 
-    /// `scale` is the absolute tolerance of each coupled component, above 0. The error is
-    /// h e₅² / √(e₅² + 0.01 e₃²), where e₅ and e₃ are the largest components of the two embedded estimates in units of
-    /// `scale`; it falls with h⁸.
+    /// `scale` is the absolute tolerance of each coupled component, above 0. The error is h e₅² / √(e₅² + 0.01 e₃²). e₅ and e₃
+    /// are the largest components of the two embedded estimates in units of `scale`. The error is of order h⁸.
     #[inline]
     fn attempt(&mut self, system: &S, to: Target, scale: &[f64]) -> f64 {
         self.attempt_span(system, to, scale)
@@ -258,7 +255,7 @@ impl<S: System + ?Sized> Attempt<S> for DormandPrince {
         self.settle_cut(system, scale, components);
     }
 
-    /// The slopes at the end cost one evaluation, the dense output three more.
+    /// End slopes cost one evaluation, the dense output three more.
     fn complete(&mut self, system: &S, what: Completion) {
         match what {
             Completion::EndSlopes => self.end_slopes(system),

@@ -1,32 +1,34 @@
-//! What a run at a fixed step asks of a method.
+//! Traits of fixed-step methods.
 
 /// A one-step method without an error estimate.
 pub trait FixedStep {
-    /// Workspace for systems of `positions` positions among `dimension` coupled components among `total`.
+    /// Returns a workspace for systems with `positions` positions, `dimension` coupled components and `total` components.
     fn sized(positions: usize, dimension: usize, total: usize) -> Self;
-    /// Forgets slopes of the last step, if it keeps any: due when they jump (a corner of a waveform, a state changed from
-    /// outside).
+    /// Drops slopes kept from the last step. Required where they jump: at a corner of a waveform, or after a change of the state
+    /// from outside.
     fn restart(&mut self);
-    /// Slopes kept from the last step, which belong to a run's state; none where the next step needs none.
+    /// Returns the slopes kept from the last step, which are part of the state of a run. None if the next step needs none.
     fn kept(&self) -> Option<&[f64]> {
         None
     }
-    /// Goes on from slopes kept by another stepper of the same system.
+    /// Restores slopes kept by another stepper of the same system.
     fn keep(&mut self, slopes: &[f64]) {
         let _ = slopes;
     }
-    /// Evaluations of the slopes since construction.
+    /// Number of evaluations of the right-hand side since construction.
     fn evaluations(&self) -> u64;
 }
 
-/// The same for the systems that it can step: some ask for slopes, some for accelerations alone.
+/// A fixed-step method for systems of type `S`. Some methods need a [`System`](crate::System), others a
+/// [`Conservative`](crate::Conservative) system.
 ///
-/// It evaluates through `&S` only; the owner moves the system's memory after a step.
+/// The method evaluates through `&S` only; the owner updates the system's memory after a step.
 pub trait Stepping<S: ?Sized>: FixedStep {
-    /// Moves `y` (all components) from `t` to `t + h`.
+    /// Advances `y` (all components) from `t` to `t + h` (s).
     fn step(&mut self, system: &S, t: f64, y: &mut [f64], h: f64);
 
-    /// The same where forces go with the root of the time that is left until `t + h + left`, `left` ≥ 0.
+    /// Advances `y` from `t` to `t + h` where forces vary with the square root of the time left until `t + h + left`, with `left`
+    /// ≥ 0 (s).
     fn step_to_a_root(&mut self, system: &S, t: f64, y: &mut [f64], (h, left): (f64, f64)) {
         let _ = left;
         self.step(system, t, y, h);

@@ -1,7 +1,7 @@
-//! Gauss's method of order 10 for linear equations, many columns at a time.
+//! Gauss's implicit Runge–Kutta method of order 10 for linear equations with many right-hand sides (columns).
 //!
-//! The coefficients of a linear equation are asked for at five nodes of a step and never again: where they are dear, and known along a
-//! motion that another method has found, no method asks for less.
+//! Each step needs the coefficients of the equation at five nodes, once. This suits variational equations along a known motion,
+//! whose coefficients are expensive.
 
 mod elimination;
 mod rule;
@@ -10,64 +10,67 @@ use elimination::{solve, wide_of};
 use rule::{PLACES, RULE, Reach, SHARES, dot};
 use std::array;
 
-/// Nodes of a step.
+/// Number of nodes in a step.
 pub const NODES: usize = 5;
 
-/// A number for each node.
+/// One number per node.
 pub type Each = [f64; NODES];
 
-/// What a linear equation is at a node: the slopes of `rates` components by all of them, row by row, and what they are of each column
-/// besides.
+/// Coefficients A and b of a linear equation at one node.
 #[derive(Debug, Clone, Default)]
 pub struct Coefficients {
-    /// Row by row.
+    /// Matrix A, row by row: slopes of the `rates` components by all positions and rates.
     pub matrix: Vec<f64>,
-    /// Row by row, a number for each column; empty where there is nothing.
+    /// Inhomogeneous term b, row by row, one number per column; empty if zero.
     pub forcing: Vec<f64>,
 }
 
-/// Which components there are: positions, then as many velocities and perhaps more; the velocities are the slopes of the positions.
+/// Layout of the components in a column: positions, as many velocities, then further components. The velocities are the slopes of
+/// the positions.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Components {
-    /// Positions.
+    /// Number of positions.
     pub positions: usize,
-    /// Components whose slopes the coefficients tell: velocities and what follows them.
+    /// Number of components whose slopes the coefficients give: velocities and the components that follow them.
     pub rates: usize,
-    /// Components of a column, of which the last ones may be none of these.
+    /// Length of a column, which may contain further components at its end.
     pub stride: usize,
 }
 
-/// One step of Gauss's method for columns y of ẋ = v, ẇ = A(t)y + b(t), w being v and what follows it.
+/// One step of Gauss's method for columns y with ẋ = v and ẇ = A(t)y + b(t). w contains v and the components after it.
 ///
-/// With the slopes r_j of w at the nodes, x_i = x + τ_i v + Σ(a²)_ij r_j and w_i = w + Σ a_ij r_j solve one linear system for all columns.
+/// The slopes r_j of w at the nodes satisfy x_i = x + τ_i v + Σ(a²)_ij r_j and w_i = w + Σ a_ij r_j. They solve one linear system
+/// for all columns.
 ///
 /// Source: Hairer, Lubich, Wanner, *Geometric Numerical Integration*, 2nd ed., section II.1.3.
 #[derive(Debug, Clone, Default)]
 pub struct Gauss {
     reach: Reach,
-    /// The linear system, its right sides at the end of each row.
+    /// Linear system, with the right-hand sides at the end of each row.
     system: Vec<f64>,
-    /// The slopes at the nodes, row by row.
+    /// Slopes at the nodes, row by row.
     right: Vec<f64>,
     end: Vec<f64>,
 }
 
 impl Gauss {
-    /// Places of the nodes over [0, 1].
+    /// Returns the positions of the nodes in [0, 1].
     #[must_use]
     pub fn places() -> Each {
         PLACES.map(|x| 0.5 * (1.0 + x))
     }
 
-    /// Time to each node, and to the end, of a step in which it goes at `paces` per step at the nodes, s: as the method itself has it.
+    /// Returns the time to each node and to the end of a step (s), as the method computes them. `paces` are dt/ds at the nodes
+    /// (s), with s the fraction of the step.
     #[must_use]
     pub fn times(paces: Each) -> (Each, f64) {
         let add = |weights: &Each| weights.iter().zip(&paces).map(|(weight, pace)| weight * pace).sum();
         (RULE.inner.each_ref().map(add), add(&SHARES))
     }
 
-    /// Tries a step in which time goes at `paces` per step at the [`NODES`] nodes, s: an even one has its length for all of them. Tells how the rates'
-    /// slopes look by their Legendre coefficients, in units of `scale`; infinite where there is no result.
+    /// Attempts a step with dt/ds = `paces` at the [`NODES`] nodes (s); an even step has its length for all of them.
+    ///
+    /// Returns the last Legendre coefficients of the slopes in units of `scale`; infinite if the linear system is singular.
     pub fn attempt(
         &mut self,
         (paces, nodes): (Each, &[Coefficients]),
@@ -93,13 +96,14 @@ impl Gauss {
         tail
     }
 
-    /// The columns at the end of the step tried.
+    /// Returns the columns at the end of the step attempted.
     #[must_use]
     pub fn end(&self) -> &[f64] {
         &self.end
     }
 
-    /// The positions of the columns at a part of the step tried, others as they began, by the method's own polynomial: of order 5 there.
+    /// Writes the columns at fraction `part` of the step into `to`, with positions by the method's polynomial of order 5. All
+    /// other components keep their values at the start.
     pub fn positions(&self, part: f64, of: Components, columns: &[f64], to: &mut Vec<f64>) {
         let Components { positions, rates, stride } = of;
         let count = columns.len().checked_div(stride).unwrap_or(0);
@@ -120,8 +124,8 @@ impl Gauss {
         }
     }
 
-    /// Adds to `sums`, row by row a number for each column, what the rows of `slopes` come to over the step tried: integrals on which
-    /// nothing depends, `columns` being what it began with.
+    /// Adds to `sums` the integrals of linear forms over the step attempted; no component depends on them. `slopes` has the forms
+    /// at the nodes, `columns` the start of the step. `sums` has one row per form and one number per column.
     pub fn integrate(&self, slopes: &[Coefficients], of: Components, columns: &[f64], sums: &mut [f64]) {
         let Components { positions, rates, stride } = of;
         let (count, wide) = (columns.len().checked_div(stride).unwrap_or(0), positions + rates);
@@ -147,7 +151,7 @@ impl Gauss {
         }
     }
 
-    /// The linear system of the slopes at all nodes.
+    /// Assembles the linear system for the slopes at all nodes.
     fn set_up(&mut self, nodes: &[Coefficients], of: Components, columns: &[f64]) {
         let Components { positions, rates, stride } = of;
         let (size, wide) = (NODES * rates, positions + rates);
@@ -171,7 +175,7 @@ impl Gauss {
                     for (j, reached) in reached.iter().enumerate() {
                         line[j * rates + to] -= a * reached;
                     }
-                    // A place goes on with its velocity.
+                    // The position at a node includes the displacement by the initial velocity.
                     for (right, column) in right.iter_mut().zip(columns.chunks_exact(stride)) {
                         let ahead = if p < positions { time * column[positions + p] } else { 0.0 };
                         *right += a * (column[p] + ahead);
@@ -181,7 +185,7 @@ impl Gauss {
         }
     }
 
-    /// The columns at the end, from the slopes at the nodes.
+    /// Computes the columns at the end from the slopes at the nodes.
     fn finish(&mut self, of: Components, columns: &[f64]) {
         let Components { positions, rates, stride } = of;
         let count = columns.len().checked_div(stride).unwrap_or(0);
@@ -191,7 +195,7 @@ impl Gauss {
         for (number, end) in self.end.chunks_exact_mut(stride).enumerate() {
             for c in 0..rates {
                 let slopes: Each = array::from_fn(|j| right[(j * rates + c) * count + number]);
-                // The velocity is that of before until its place has gone on with it.
+                // The position is updated first: it needs the velocity at the start.
                 if c < positions {
                     end[c] += reach.length * end[positions + c] + dot(&reach.end_twice, &slopes);
                 }
@@ -201,19 +205,19 @@ impl Gauss {
     }
 }
 
-/// How slopes over a step look by their Legendre coefficients.
+/// Last Legendre coefficients of the slopes over a step.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Tail {
-    /// The last coefficient.
+    /// Last coefficient that the nodes give.
     pub last: f64,
-    /// What the tenth one is, which the method misses, where they go on to fall as they do: in a constant proportion, as those of what has
-    /// a root near by.
+    /// Estimate of the tenth coefficient, which the method misses. It is extrapolated by a constant ratio, as valid for functions
+    /// with a nearby singularity.
     pub rest: f64,
 }
 
 impl Tail {
-    /// Of four coefficients, which may vanish by turns: two of them have as much as the two before by a proportion, of which
-    /// the cube leads from there to the tenth.
+    /// Returns the tail of four coefficients. Two successive coefficients are compared with the two before them, as even or odd
+    /// functions have alternate zeros. The cube of this ratio leads to the tenth.
     fn of([first, second, third, fourth]: [f64; 4]) -> Self {
         let (before, after) = (first.max(second), third.max(fourth));
         let falls = if after < before { after / before } else { 1.0 };
@@ -231,14 +235,14 @@ mod tests {
 
     const ONE: Components = Components { positions: 1, rates: 1, stride: 2 };
 
-    /// ẍ = -ω²x - 2cẋ by its place and by its speed over `steps` of one time unit.
+    /// Solves ẍ = -ω²x - 2cẋ for two columns, the derivatives by initial position and velocity, over one unit of time.
     fn led(steps: u32, graded: bool) -> Vec<f64> {
         let node = Coefficients { matrix: vec![-4.0, -0.2], forcing: Vec::new() };
         let (nodes, h) = (vec![node; NODES], f64::from(steps).recip());
         let mut gauss = Gauss::default();
         let mut columns = vec![1.0, 0.0, 0.0, 1.0];
         for k in 0..steps {
-            // The first step goes as the square of its part.
+            // In the first step time is the square of the fraction.
             let paces = if graded && k == 0 { Gauss::places().map(|s| 2.0 * s * h) } else { [h; NODES] };
             assert!(gauss.attempt((paces, &nodes), ONE, &columns, &[1.0]).last.is_finite());
             columns.copy_from_slice(gauss.end());
@@ -246,8 +250,7 @@ mod tests {
         columns
     }
 
-    /// A damped swing has a closed form; errors fall with the tenth power of the step. In a graded one time goes with the square of its
-    /// part, which halves the order.
+    /// Compares a damped oscillation with its closed form. Errors are of order h¹⁰; graded steps halve the order.
     #[test]
     fn a_damped_swing_is_met_with_order_ten() {
         let (damping, omega): (f64, f64) = (0.1, (4.0_f64 - 0.01).sqrt());
@@ -269,7 +272,7 @@ mod tests {
         assert!(error(4, true) > 30.0 * error(8, true), "{:e} {:e}", error(4, true), error(8, true));
     }
 
-    /// Inside a step a swing is met to a few parts in a million, and at its end as by the step itself.
+    /// Inside a step the error of an oscillation is a few parts in a million; at the end it equals that of the step.
     #[test]
     fn places_inside_a_step_are_those_of_the_swing() {
         let nodes = vec![Coefficients { matrix: vec![-1.0, 0.0], forcing: Vec::new() }; NODES];
@@ -283,7 +286,7 @@ mod tests {
         assert!((inside[0] - gauss.end()[0]).abs() < 1e-15);
     }
 
-    /// Over a swing x = cos t from 0 to 1 the integral of 2x + 3ẋ + t, in closed form.
+    /// Integral of 2x + 3ẋ + t for x = cos t from 0 to 1, in closed form.
     #[test]
     fn an_integral_beside_is_that_of_the_swing() {
         let nodes = vec![Coefficients { matrix: vec![-1.0, 0.0], forcing: Vec::new() }; NODES];
@@ -295,7 +298,7 @@ mod tests {
         assert!((sums[0] - exact).abs() < 1e-9, "{:e}", sums[0] - exact);
     }
 
-    /// ẍ = t² from rest: x = t⁴/12, forced alone.
+    /// ẍ = t² from rest: x = t⁴/12, from the inhomogeneous term alone.
     #[test]
     fn a_forcing_is_integrated_twice() {
         let nodes = Gauss::places().map(|t| Coefficients { matrix: vec![0.0, 0.0], forcing: vec![t * t] });

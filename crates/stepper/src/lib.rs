@@ -1,27 +1,27 @@
-//! Time stepping for systems with memory; knows no contact.
+//! Time integrators for systems with memory.
 //!
-//! A stepper attempts; someone else accepts. Every stepper evaluates a [`System`] through a shared borrow, so that a
-//! trial leaves no trace, and the owner of the system moves its memory after an accepted step. After a jump the stepper
-//! is told.
+//! A stepper attempts a step; the caller decides whether to accept it. Every stepper evaluates a [`System`] through a shared
+//! reference, so a rejected step leaves no trace. The owner of the system updates its memory after an accepted step, and restarts
+//! the stepper after a discontinuity.
 //!
-//! In reading order:
+//! Contents:
 //!
-//! * [`System`]: coupled components and quadratures.
-//! * [`Attempt`]: one attempt at a time, by a [`Method`], of a [`Step`] that an event may cut short.
-//! * [`DormandPrince`]: order 8(5,3) with dense output.
-//! * [`Nystrom`]: order 8(6) for [`Conservative`] systems, whose forces know no velocities.
+//! * [`System`]: system of ordinary differential equations with quadratures.
+//! * [`Attempt`]: adaptive one-step method; [`Method`] and [`Step`] are its parts that do not depend on the system.
+//! * [`DormandPrince`]: DOP853, order 8(5,3) with dense output.
+//! * [`Nystrom`]: Runge–Kutta–Nyström, order 8(6), for [`Conservative`] systems, whose forces do not depend on velocities.
 //! * [`Paired`]: both, for conservative systems with singular moments.
 //! * [`Radau`]: implicit, order 9, for stiff systems.
-//! * [`Gauss`]: order 10, for linear equations along a motion that is known.
-//! * [`StepControl`]: how long the next step is.
-//! * [`root()`], [`narrow`], [`Cubic`]: where inside a step a guard crosses zero.
-//! * [`FixedStep`], [`Rk4`], [`Verlet`]: steps of a given length.
-//! * [`reference`](mod@reference): the pair of order 5(4) of Dormand and Prince, without events.
+//! * [`Gauss`]: order 10, for linear equations along a known motion.
+//! * [`StepControl`]: step-size control.
+//! * [`root()`], [`narrow`], [`Cubic`]: zero crossings of event functions within a step.
+//! * [`FixedStep`], [`Rk4`], [`Verlet`]: methods with a fixed step.
+//! * [`reference`](mod@reference): Dormand–Prince 5(4) without events.
 //!
 //! ```
 //! use stickslip_stepper::{Attempt, Completion, DormandPrince, Step, StepControl, StepLimits, System, Target};
 //!
-//! /// ẍ = -x, and the work ∫ẋ² dt of a damper that is not there.
+//! /// Oscillator ẍ = -x with the quadrature ∫ẋ² dt, the work of a damper of unit strength.
 //! struct Oscillator;
 //!
 //! impl System for Oscillator {

@@ -1,13 +1,12 @@
-//! The Runge–Kutta–Nyström pair RKN8(6)9 for forces without velocities: order 8, error estimate of order 6.
+//! The Runge–Kutta–Nyström pair RKN8(6)9 for forces that do not depend on velocities: order 8, error estimate of order 6.
 //!
-//! Where accelerations depend on time and positions alone, positions need no stages of their own for the velocities: a
-//! step costs 8 evaluations instead of the 12 of [`DormandPrince`](crate::DormandPrince), and each carries half the components. At equal
-//! evaluations, 72 per period, a swing is 3e-10 off after ten periods instead of 2e-8.
+//! Accelerations depend on time and positions only, so stages need no velocities. A step costs 8 evaluations instead of the 12 of
+//! [`DormandPrince`](crate::DormandPrince).
 //!
-//! Source: J. R. Dormand, M. E. A. El-Mikkawy, P. J. Prince, *High-order embedded Runge–Kutta–Nyström formulae*,
-//! IMA Journal of Numerical Analysis 7 (1987) 423–430. The dense output is Hermite–Birkhoff: accelerations at seven
-//! nodes of the step, those inside evaluated again on the interpolant of the stages. Steps of [few stages](crate::Grade::Few) go
-//! by Nyström's method of order 5.
+//! Source: J. R. Dormand, M. E. A. El-Mikkawy, P. J. Prince, *High-order embedded Runge–Kutta–Nyström formulae*, IMA Journal of
+//! Numerical Analysis 7 (1987) 423–430. The dense output is a Hermite–Birkhoff interpolant of accelerations at seven nodes; the
+//! inner ones are evaluated again at interpolated positions. [Steps with few stages](crate::Grade::Few) use Nyström's method of
+//! order 5.
 
 mod dense;
 mod estimate;
@@ -23,69 +22,69 @@ pub use track::Track;
 use crate::{Attempt, Completion, End, Grade, Hand, Method, Span, Step, Target};
 use tableau::END;
 
-/// Power of the step with which the error estimate falls.
+/// Order of the error estimate: it is proportional to this power of the step.
 pub const ORDER: u32 = 7;
 
-/// A system whose accelerations, and the rates of whose quadratures, depend on time and positions alone.
+/// A system whose accelerations and quadrature rates depend on time and positions only.
 ///
-/// Its state has n positions, n velocities and then the quadratures.
+/// Its state has n positions, n velocities and the quadratures, in this order.
 pub trait Conservative {
-    /// Accelerations (n) and then the rates of the quadratures at time `t` (s) and positions `x`; all to be filled.
+    /// Writes the n accelerations and then the rates of the quadratures at time `t` (s) and positions `x` into `out`. All of
+    /// `out` must be filled.
     fn accelerations(&self, t: f64, x: &[f64], out: &mut [f64]);
 
-    /// Whether accelerations and rates are the same at all times and positions of the coming step: then they are not
-    /// asked for again.
+    /// Whether accelerations and rates are constant during the next step. Then the step needs no evaluation.
     fn coasts(&self) -> bool {
         false
     }
 }
 
-/// One step of RKN8(6)9 at a time, as [`DormandPrince`](crate::DormandPrince) does it.
+/// RKN8(6)9 as a one-step method whose steps the caller accepts.
 ///
 /// ```text
 /// x₁ = x + h v + h² Σ b_j k_j     v₁ = v + h Σ b'_j k_j     q₁ = q + h Σ b'_j r_j
 /// ```
 ///
-/// with k_j the accelerations and r_j the rates of the quadratures at stage j, which stands in
-/// x + c_j h v + h² Σ a_ji k_i. Nothing is allocated after construction.
+/// k_j are the accelerations and r_j the quadrature rates at stage j, whose position is x + c_j h v + h² Σ a_ji k_i. Nothing is
+/// allocated after construction.
 #[derive(Debug, Clone)]
 pub struct Nystrom<N: Storage = Many> {
     /// Start of the step, s.
     time: f64,
-    /// End of the step, s, where it was cut if it was.
+    /// End of the step, s; the cut of a step that was cut.
     end_time: f64,
     /// Length of the step attempted, s.
     step: f64,
-    /// Whether its stages are few: those of order 5.
+    /// Whether the step has few stages (order 5).
     few: bool,
     /// States at both ends: positions, velocities, quadratures.
     begin: N::State,
     end: N::State,
-    /// Positions of the stage under way.
+    /// Positions of the current stage.
     stage: N::Positions,
-    /// Accelerations and then rates of quadratures there.
+    /// Accelerations and quadrature rates at the current stage.
     rates: N::Rates,
-    /// Of each position and then each quadrature.
+    /// One track for each position and each quadrature.
     tracks: N::Tracks,
-    /// Whether the system said at the start that they stay the same.
+    /// Whether the system reported constant accelerations at the start of the step.
     constant: bool,
     known: Known,
     evaluations: u64,
 }
 
-/// What of all that belongs to the step as it stands.
+/// Which results of the current step are known.
 #[derive(Debug, Clone, Copy, Default)]
 struct Known {
-    /// What acts at its start.
+    /// Accelerations at the start.
     first: bool,
-    /// What acts at its end.
+    /// Accelerations at the end.
     last: bool,
-    /// Its dense output.
+    /// Dense output.
     dense: bool,
 }
 
 impl Nystrom {
-    /// Workspace for `positions` positions and `quadratures` quadratures.
+    /// Returns a workspace for `positions` positions and `quadratures` quadratures.
     #[must_use]
     pub fn new(positions: usize, quadratures: usize) -> Self {
         Self::with_room(positions, quadratures)
@@ -93,7 +92,7 @@ impl Nystrom {
 }
 
 impl Nystrom<One> {
-    /// Workspace for one position and one quadrature.
+    /// Returns a workspace for one position and one quadrature.
     #[must_use]
     pub fn one() -> Self {
         Self::with_room(1, 1)
@@ -119,13 +118,13 @@ impl<N: Storage> Nystrom<N> {
         }
     }
 
-    /// Number of positions: a constant where the storage is of one size.
+    /// Number of positions; a constant for storage of fixed size.
     #[inline(always)]
     fn positions(&self) -> usize {
         self.stage.as_ref().len()
     }
 
-    /// Takes the start of the step over into the tracks.
+    /// Copies positions and velocities at the start of the step into the tracks.
     #[inline]
     fn set_out(&mut self) {
         let (positions, velocities) = self.begin.as_ref().split_at(self.positions());
@@ -142,7 +141,7 @@ impl<N: Storage> Nystrom<N> {
         self.known.dense = false;
     }
 
-    /// Evaluates the slopes at the start of the step.
+    /// Evaluates the accelerations at the start of the step.
     fn restart_slopes<S: Conservative + ?Sized>(&mut self, system: &S) {
         self.forget_step();
         self.set_out();
@@ -153,7 +152,7 @@ impl<N: Storage> Nystrom<N> {
         self.known.first = true;
     }
 
-    /// Evaluates the slopes at the end of the step tried: those of a step that was cut; the last stage has them of any other.
+    /// Evaluates the accelerations at the end of a step that was cut. For other steps the last stage has them.
     fn end_slopes<S: Conservative + ?Sized>(&mut self, system: &S) {
         if !self.known.last {
             let n = self.positions();
@@ -165,13 +164,13 @@ impl<N: Storage> Nystrom<N> {
 }
 
 impl<N: Storage> Method for Nystrom<N> {
-    /// Swings grow from 3.3 on; they fade fastest here.
+    /// Returns 3.0. Oscillations grow from |hλ| = 3.3 on.
     fn stability_limit(&self) -> f64 {
-        // A step's matrix has the spectral radius 0.9999 from 2.5 to 3.2 and 1.0002 at 3.4.
+        // The matrix of a step has a spectral radius of 0.9999 between 2.5 and 3.2, and of 1.0002 at 3.4.
         3.0
     }
 
-    /// Never: the error of a parabola is its rounding, and its evaluations are spared all the same.
+    /// Returns false. Steps under constant accelerations need no evaluation, but are treated like other steps.
     fn coasts(&self) -> bool {
         false
     }
@@ -222,7 +221,7 @@ impl<N: Storage> Step for Nystrom<N> {
         self.time = self.end_time;
         self.set_out();
         let known = self.known.last;
-        // First the same as last: a step that nothing cut costs 8 evaluations, not 9.
+        // First same as last: a step that was not cut costs 8 evaluations instead of 9.
         if known {
             self.tracks.as_mut().iter_mut().for_each(|track| track.k[0] = track.k[END]);
         }
@@ -246,7 +245,7 @@ impl<S: Conservative + ?Sized, N: Storage> Attempt<S> for Nystrom<N> {
         self.restart_slopes(system);
     }
 
-    /// Slopes of another number than there are positions and quadratures are none.
+    /// Starts anew if `slopes` has another length than the number of positions and quadratures.
     fn take_up(&mut self, system: &S, (t, y): (f64, &[f64]), _: Hand, slopes: &[f64]) {
         if slopes.len() != self.tracks.as_ref().len() {
             return self.start(system, t, y);
@@ -266,13 +265,13 @@ impl<S: Conservative + ?Sized, N: Storage> Attempt<S> for Nystrom<N> {
         self.starting_step(longest, scale)
     }
 
-    /// Stages lie evenly, whatever grade is asked for; few of them where that is.
+    /// Uses the method of order 5 for [`Grade::Few`]; all other grades give an even step.
     fn attempt(&mut self, system: &S, Target { end, grade }: Target, scale: &[f64]) -> f64 {
         self.step_to(system, end, grade == Grade::Few);
         if self.few { self.error_of_fifth(scale) } else { self.error(scale) }
     }
 
-    /// The slopes at the end are known already, but for a step that was cut; the dense output costs the samples inside.
+    /// End slopes are known unless the step was cut. The dense output evaluates the inner nodes again.
     fn complete(&mut self, system: &S, what: Completion) {
         match what {
             Completion::EndSlopes => self.end_slopes(system),

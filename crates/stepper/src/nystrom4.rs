@@ -1,35 +1,35 @@
-//! Nyström's method of order 4 at a fixed step, for forces without velocities.
+//! Nyström's method of order 4 with a fixed step, for forces that do not depend on velocities.
 
 use crate::{Conservative, FixedStep, Stepping};
 
-/// Nyström's method of order 4 (Nyström 1925; Hairer, Nørsett, Wanner, *Solving ODEs I*, table II.14.2): three evaluations
-/// per step where [`Rk4`](crate::Rk4) takes four, no error estimate.
+/// Nyström's method of order 4 (Nyström 1925; Hairer, Nørsett, Wanner, *Solving ODEs I*, table II.14.2). It needs three
+/// evaluations per step, where [`Rk4`](crate::Rk4) needs four, and has no error estimate.
 ///
 /// ```text
 /// k₁ = a(t, x)   k₂ = a(t + h/2, x + h/2 v + h²/8 k₁)   k₃ = a(t + h, x + h v + h²/2 k₂)
 /// x₁ = x + h v + h²/6 (k₁ + 2k₂)   v₁ = v + h/6 (k₁ + 4k₂ + k₃)   q₁ = q + h/6 (r₁ + 4r₂ + r₃)
 /// ```
 ///
-/// with r the rates of the quadratures q.
+/// r are the rates of the quadratures q.
 #[derive(Debug, Clone)]
 pub struct Nystrom4 {
     positions: usize,
-    /// Positions of the stage under way.
+    /// Positions of the current stage.
     stage: Vec<f64>,
-    /// k and then r of the three stages.
+    /// Accelerations and quadrature rates of the three stages.
     rates: [Vec<f64>; 3],
     evaluations: u64,
 }
 
 impl Nystrom4 {
-    /// Workspace for `positions` positions and `quadratures` quadratures.
+    /// Returns a workspace for `positions` positions and `quadratures` quadratures.
     #[must_use]
     pub fn new(positions: usize, quadratures: usize) -> Self {
         let rates = || vec![0.0; positions + quadratures];
         Self { positions, stage: vec![0.0; positions], rates: [rates(), rates(), rates()], evaluations: 0 }
     }
 
-    /// One position without a loop: what most drives are.
+    /// Steps a system with one position and one quadrature without loops.
     #[inline(always)]
     fn step_one<S: Conservative + ?Sized>(&self, system: &S, t: f64, y: &mut [f64; 3], h: f64) {
         let [x, v, q] = *y;
@@ -67,7 +67,7 @@ impl Nystrom4 {
         for i in 0..n {
             y[i] += h * y[n + i] + h * sixth * (first[i] + 2.0 * second[i]);
         }
-        // Velocities, and quadratures after them, by the same weights.
+        // Velocities and quadratures have the same weights.
         for (y, ((a, b), c)) in y[n..].iter_mut().zip(first.iter().zip(second).zip(third)) {
             *y += sixth * (a + 4.0 * b + c);
         }
@@ -75,12 +75,12 @@ impl Nystrom4 {
 }
 
 impl FixedStep for Nystrom4 {
-    /// Components are positions, velocities and quadratures: none is coupled beside the motion.
+    /// All components are positions, velocities or quadratures.
     fn sized(positions: usize, _: usize, total: usize) -> Self {
         Self::new(positions, total - 2 * positions)
     }
 
-    /// It keeps none.
+    /// Does nothing: the method keeps no slopes.
     fn restart(&mut self) {}
 
     fn evaluations(&self) -> u64 {

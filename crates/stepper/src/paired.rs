@@ -1,25 +1,25 @@
-//! Nyström's method, and DOP853 for steps that end at a singular moment.
+//! Nyström's method, with DOP853 for steps that begin or end at a singular moment.
 //!
-//! Grading a step multiplies ẍ by the pace of time and adds a term with ẋ: what a Nyström method spares is lost there, and
-//! with it its order. Such steps are few, one before each start of gross slip; they go by [`DormandPrince`].
+//! In a graded step the acceleration by σ contains a velocity term. A Nyström method would lose its order there, so the few
+//! graded steps use [`DormandPrince`].
 //!
-//! Both carry one motion: whichever makes an attempt is first put where the other one has brought it.
+//! Both methods carry the same motion: the method of an attempt first takes over the state of the other one.
 
 use crate::{
     Attempt, Completion, Conservative, DormandPrince, End, Hand, Many, Method, Nystrom, One, Span, Step,
     Storage, System, Target,
 };
 
-/// [`Nystrom`] for even steps, [`DormandPrince`] for graded ones, of one and the same motion.
+/// [`Nystrom`] for even steps and [`DormandPrince`] for graded steps of the same motion.
 #[derive(Debug, Clone)]
 pub struct Paired<N: Storage = Many> {
-    /// For steps whose stages lie evenly: nearly all.
+    /// Method for even steps.
     even: Nystrom<N>,
-    /// For those that end at a singular moment.
+    /// Method for graded steps.
     graded: DormandPrince,
-    /// Which of both made the last attempt; it is where the motion is.
+    /// Method of the last attempt, which has the current state.
     last: By,
-    /// Whether the other one is there, too.
+    /// Whether the other method has the current state, too.
     both: bool,
 }
 
@@ -30,7 +30,7 @@ enum By {
 }
 
 impl Paired {
-    /// Workspace for `positions` positions and `quadratures` quadratures; `total` components as [`System::total`] has them.
+    /// Returns a workspace for `positions` positions and `quadratures` quadratures; `total` is that of [`System::total`].
     #[must_use]
     pub fn new(positions: usize, quadratures: usize, total: usize) -> Self {
         Self::of(Nystrom::new(positions, quadratures), DormandPrince::new(2 * positions, total))
@@ -38,7 +38,7 @@ impl Paired {
 }
 
 impl Paired<One> {
-    /// Workspace for one position and one quadrature.
+    /// Returns a workspace for one position and one quadrature; `total` is that of [`System::total`].
     #[must_use]
     pub fn one(total: usize) -> Self {
         Self::of(Nystrom::one(), DormandPrince::new(2, total))
@@ -46,15 +46,14 @@ impl Paired<One> {
 }
 
 impl<N: Storage> Paired<N> {
-    /// Both where nothing has begun.
+    /// Returns the pair before its start.
     fn of(even: Nystrom<N>, graded: DormandPrince) -> Self {
         Self { even, graded, last: By::Even, both: false }
     }
 
-    /// Puts one of both where the motion is.
+    /// Makes a method the current one, at the current state.
     fn take<S: System + Conservative + ?Sized>(&mut self, system: &S, by: By) {
-        // One evaluation where the method changes, and none where the other one is at the same start already, as after an
-        // attempt that was rejected. Starting both anew each time would cost that one in every step.
+        // Costs one evaluation at a change of method, and none if the other method is at the same start, as after a rejection.
         if self.last != by && !self.both {
             match by {
                 By::Even => {
@@ -71,7 +70,7 @@ impl<N: Storage> Paired<N> {
         self.last = by;
     }
 
-    /// Apart from even attempts, which are to be inlined into the loop of a run.
+    /// Separate from even attempts, which are inlined into the loop of a run.
     fn attempt_graded<S: System + Conservative + ?Sized>(
         &mut self,
         system: &S,
@@ -83,7 +82,7 @@ impl<N: Storage> Paired<N> {
     }
 }
 
-/// What the one of both says that made the last attempt.
+/// Calls the method that made the last attempt.
 macro_rules! last {
     ($self:ident, $method:ident($($argument:expr),*)) => {
         match $self.last {
@@ -160,7 +159,7 @@ impl<S: System + Conservative + ?Sized, N: Storage> Attempt<S> for Paired<N> {
         (self.last, self.both) = (By::Even, false);
     }
 
-    /// The slopes are those of the method that made the last attempt; the other one was started where it stands, if it is there.
+    /// The slopes are those of the method of the last attempt. The other method is started at the same state if it was there.
     fn take_up(&mut self, system: &S, at: (f64, &[f64]), hand: Hand, slopes: &[f64]) {
         let (t, y) = at;
         match (hand.graded, hand.both) {

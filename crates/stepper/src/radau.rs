@@ -1,9 +1,7 @@
-//! The implicit Runge–Kutta method Radau IIA of order 9, for stiff systems: error estimate and dense output of order 5. What is to be
-//! known of a moment as exactly as an end is had by a step up to there.
+//! The implicit Runge–Kutta method Radau IIA of order 9 for stiff systems, with error estimate and dense output of order 5.
 //!
-//! Where something settles within nanoseconds what is to be seen for milliseconds, an explicit method takes steps of
-//! nanoseconds all the time, or its own errors grow. This one is L-stable: what fades within a step is gone at its end, whatever
-//! its length.
+//! An explicit method needs steps as short as the fastest decay. Radau IIA is L-stable: a component that decays within a step has
+//! decayed at its end, for any step length.
 //!
 //! Source: E. Hairer, G. Wanner, *Solving Ordinary Differential Equations II*, 2nd ed., Springer 1996, sections IV.5 and IV.8.
 
@@ -21,20 +19,19 @@ use jacobian::Jacobian;
 use std::ops::Range;
 use tableau::{NODES, STAGES, Stages};
 
-/// Power of the step with which the error estimate falls, and the error of the dense output.
+/// Order of the error estimate and of the error of the dense output: both are proportional to this power of the step.
 pub const ORDER: u32 = 6;
 
-/// One step of Radau IIA with five stages at a time: it attempts, someone else accepts.
+/// Five-stage Radau IIA as a one-step method whose steps the caller accepts.
 ///
-/// Stage i is at y + h Σ aᵢⱼ kⱼ with the slopes kⱼ of all stages, the last one at the end. A step costs one evaluation
-/// for each coupled component and one more, for the derivatives at its start, and five for each of two or three corrections;
-/// its slopes at the end and the dense output are free. Grades are not known to it: all steps are even. Nothing is allocated
-/// after construction.
+/// Stage i is at y + h Σ aᵢⱼ kⱼ with the slopes kⱼ of all stages; the last stage is the end. The Jacobian costs one evaluation
+/// per coupled component and one more. Each of two or three Newton corrections costs five. End slopes and dense output cost none.
+/// All steps are even. Nothing is allocated after construction.
 #[derive(Debug, Clone)]
 pub struct Radau {
-    /// Coupled components; quadratures come after them.
+    /// Number of coupled components; quadratures follow them.
     dimension: usize,
-    /// Positions among them.
+    /// Number of positions among them.
     positions: usize,
     extent: Extent,
     /// States at both ends.
@@ -46,32 +43,32 @@ pub struct Radau {
     first_known: bool,
     last_known: bool,
     coasts: bool,
-    /// By component: slopes of the stages, and the stages less the start.
+    /// Slopes of the stages and states of the stages minus the start, by component.
     k: Vec<Stages>,
     z: Vec<Stages>,
     jacobian: Jacobian,
-    /// Of the corrections, and of the estimate.
+    /// Factored matrices of the Newton corrections and of the error estimate.
     matrix: Elimination,
     filter: Elimination,
-    /// What the slopes of the stages miss, then their corrections; and what these make of the stages.
+    /// Residuals of the stage slopes, then their corrections; and the resulting shifts of the stages.
     missed: Vec<f64>,
     shift: Vec<Stages>,
-    /// Coupled components of a stage, and all slopes there.
+    /// Coupled components of the current stage, and all slopes there.
     stage: Vec<f64>,
     newest: Vec<f64>,
     polynomials: Vec<dense::Polynomial>,
     dense_known: bool,
-    /// Goes from the start to moments inside the step; there once somebody has asked.
+    /// Stepper for moments inside the step; created on first use.
     visitor: Option<Box<Self>>,
     evaluations: u64,
 }
 
-/// From when to when a step goes.
+/// Times of a step.
 #[derive(Debug, Clone, Copy, Default)]
 struct Extent {
     /// Start, s.
     time: f64,
-    /// End, s, where it was cut if it was.
+    /// End, s; the cut of a step that was cut.
     end_time: f64,
     /// End of the step attempted, s.
     target: f64,
@@ -80,11 +77,11 @@ struct Extent {
 }
 
 impl Radau {
-    /// Workspace for systems of `dimension` coupled components, `positions` of them as [`System::positions`] has them, among
-    /// `total`. Derivatives are differences over `differences` of each coupled component, in its unit: small against what
-    /// bends its slopes, and far above its rounding.
+    /// Returns a workspace for systems with `total` components, of which `dimension` are coupled and `positions` are positions
+    /// ([`System::positions`]).
     ///
-    /// A `total` below `dimension` counts as `dimension`.
+    /// Derivatives are finite differences over `differences` of the coupled components, in their units. They should be small
+    /// compared with the scale on which slopes bend, and well above rounding. A `total` below `dimension` counts as `dimension`.
     #[must_use]
     pub fn new((dimension, positions): (usize, usize), total: usize, differences: Vec<f64>) -> Self {
         let total = total.max(dimension);
@@ -130,12 +127,12 @@ impl Radau {
         (self.last_known, self.dense_known) = (false, false);
     }
 
-    /// Derivatives at the start, and what the first step needs beside them.
+    /// Computes the Jacobian at the start of the step.
     fn linearise<S: System + ?Sized>(&mut self, system: &S) {
         self.jacobian.take(system, self.extent.time, &self.begin);
     }
 
-    /// A parabola under constant forces: its stages, without an evaluation.
+    /// Computes a parabola under constant forces and its stages without an evaluation.
     fn coast(&mut self) {
         let (h, p) = (self.extent.step, self.positions);
         for (i, slope) in self.first.iter().enumerate() {
@@ -148,12 +145,12 @@ impl Radau {
 }
 
 impl Method for Radau {
-    /// None: what fades fades in any step.
+    /// Returns infinity: the method is L-stable.
     fn stability_limit(&self) -> f64 {
         f64::INFINITY
     }
 
-    /// As [`System::coasts`] said at the last evaluation of a start.
+    /// The answer of [`System::coasts`] at the last evaluation of the start slopes.
     fn coasts(&self) -> bool {
         self.coasts
     }
@@ -166,7 +163,7 @@ impl Method for Radau {
         self.evaluations
     }
 
-    /// Whether the derivatives at the start are known, and counted.
+    /// `both` says whether the Jacobian at the start is known and its evaluations are counted.
     fn hand(&self) -> Hand {
         Hand { graded: false, both: self.jacobian.known }
     }
@@ -182,8 +179,8 @@ impl Step for Radau {
         Span { time: self.extent.time, end_time: self.extent.end_time, begin: &self.begin, end: &self.end }
     }
 
-    /// Of any component; NaN where it is not known. At the end it is that of the method's own polynomial: slopes of a state
-    /// that is off by rounding are off by as much as it settles fast.
+    /// Works for any component; NaN if unknown. The slope at the end is that of the method's polynomial. The right-hand side
+    /// would amplify rounding of the state by the fastest decay rate.
     fn slope(&self, i: usize, at: End) -> f64 {
         let (slopes, known) = match at {
             End::Start => (&self.first, self.first_known),
@@ -192,7 +189,7 @@ impl Step for Radau {
         slopes.get(i).filter(|_| known).map_or(f64::NAN, |slope| *slope)
     }
 
-    /// NaN where there is no dense output.
+    /// Returns NaN without dense output.
     #[inline]
     fn value_at(&self, i: usize, part: f64) -> f64 {
         self.polynomial(i).map_or(f64::NAN, |c| self.begin[i] + dense::rise(c, part))
@@ -207,7 +204,7 @@ impl Step for Radau {
         [self.extent.time + part * self.extent.step, self.extent.step]
     }
 
-    /// Its state and its slopes by the dense output. Without dense output nothing happens.
+    /// State and slopes follow from the dense output. Does nothing without dense output.
     fn cut(&mut self, t: f64) {
         if !self.dense_known {
             return;
@@ -220,7 +217,7 @@ impl Step for Radau {
         self.extent.end_time = t;
     }
 
-    /// Slopes at the end become the first ones of the next step.
+    /// Slopes at the end become the first slopes of the next step.
     fn accept(&mut self) {
         std::mem::swap(&mut self.begin, &mut self.end);
         self.extent.time = self.extent.end_time;
@@ -238,7 +235,7 @@ impl Step for Radau {
 }
 
 impl<S: System + ?Sized> Attempt<S> for Radau {
-    /// Components of `y` that are missing are 0.
+    /// Missing components of `y` are 0.
     fn start(&mut self, system: &S, t: f64, y: &[f64]) {
         self.extent.time = t;
         self.begin.fill(0.0);
@@ -248,7 +245,7 @@ impl<S: System + ?Sized> Attempt<S> for Radau {
         self.restart_slopes(system);
     }
 
-    /// Slopes of another number than there are components are none.
+    /// Starts anew if `slopes` has another length than there are components.
     fn take_up(&mut self, system: &S, (t, y): (f64, &[f64]), hand: Hand, slopes: &[f64]) {
         if slopes.len() != self.first.len() {
             return self.start(system, t, y);
@@ -268,7 +265,8 @@ impl<S: System + ?Sized> Attempt<S> for Radau {
         self.starting_step(system, longest, scale)
     }
 
-    /// `scale` is the absolute tolerance of each component, above 0. Infinite where no stages are found: the step is too long.
+    /// `scale` is the absolute tolerance of each component, above 0. The error is infinite if the Newton iteration fails: the
+    /// step is too long.
     fn attempt(&mut self, system: &S, to: Target, scale: &[f64]) -> f64 {
         if !self.first_known {
             self.restart_slopes(system);
@@ -306,7 +304,7 @@ impl<S: System + ?Sized> Attempt<S> for Radau {
         self.settle_cut(system, scale, 0..self.end.len());
     }
 
-    /// Neither costs an evaluation.
+    /// Needs no evaluation.
     fn complete(&mut self, _: &S, what: Completion) {
         match what {
             Completion::EndSlopes => self.last_known = true,

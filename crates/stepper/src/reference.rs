@@ -1,5 +1,4 @@
-//! The plain explicit reference: the pair of order 5(4) of Dormand and Prince, without events. One call covers one smooth stretch of a
-//! waveform.
+//! Dormand–Prince 5(4) without events, as a reference method. One call integrates one smooth section of a waveform.
 
 use crate::dormand_prince::ORDER;
 use crate::{
@@ -7,21 +6,21 @@ use crate::{
 };
 use std::ops::Range;
 
-/// A system that is told of each accepted step, and moves its memory then.
+/// A system that is notified of each accepted step and then updates its memory.
 pub trait Accepting: System {
-    /// Commits the step that ended at time `t` in the state `y` (`total` components); `false` ends the stretch there.
+    /// Accepts the step that ended at time `t` (s) in the state `y` (`total` components). Returning `false` ends the integration
+    /// there.
     fn accept(&mut self, t: f64, y: &[f64]) -> bool;
 }
 
-/// How [`integrate`] steps.
+/// Options of [`integrate`].
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ReferenceOptions {
-    /// First step, s; none: chosen at the price of two evaluations. A stretch that goes on from another one knows better:
-    /// [`ReferenceRun::step`].
+    /// First step, s. None means an automatic choice for two evaluations. A continued integration uses [`ReferenceRun::step`].
     pub first: Option<f64>,
-    /// Longest step, s, above 0; default unbounded. To be set where slopes are deaf to what a long step passes over.
+    /// Largest step, s, above 0; default unbounded. Set it if long steps could pass over changes of the slopes.
     pub longest: f64,
-    /// Most steps tried, rejected ones included; default a million.
+    /// Largest number of attempts, including rejected ones; default a million.
     pub steps: u32,
 }
 
@@ -31,25 +30,25 @@ impl Default for ReferenceOptions {
     }
 }
 
-/// What came of a stretch.
+/// Result of an integration.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ReferenceRun {
     /// State at the end, `total` components.
     pub y: Vec<f64>,
-    /// Accepted steps.
+    /// Number of accepted steps.
     pub steps: u64,
-    /// Rejected steps.
+    /// Number of rejected steps.
     pub rejected: u64,
-    /// Evaluations of the slopes.
+    /// Number of evaluations of the slopes.
     pub evaluations: u64,
-    /// Longer one of the last two accepted steps, s: a good first step for the next stretch, whose end did not cut it.
+    /// Longer one of the last two accepted steps, s: a first step for the next section.
     pub step: f64,
 }
 
-/// Why a stretch was not finished.
+/// Reason why an integration failed.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 pub enum ReferenceError {
-    /// Times that do not lead forward.
+    /// The times are not finite or not increasing.
     #[error("expected finite times with start < end, got {start} and {end}")]
     Span {
         /// Start, s.
@@ -57,7 +56,7 @@ pub enum ReferenceError {
         /// End, s.
         end: f64,
     },
-    /// A state of the wrong length.
+    /// The state has a wrong length.
     #[error("expected {expected} components, got {got}")]
     State {
         /// `total` of the system.
@@ -65,47 +64,46 @@ pub enum ReferenceError {
         /// Length given.
         got: usize,
     },
-    /// A tolerance that is missing or not positive.
+    /// A tolerance is missing or not positive.
     #[error("expected an absolute tolerance above 0 for component {index}, got {got}")]
     Scale {
-        /// Coupled component.
+        /// Index of the coupled component.
         index: usize,
         /// Tolerance given; NaN if missing.
         got: f64,
     },
-    /// Options that allow no step.
-    #[error("expected a longest step above 0 and a first step above 0, got {longest} and {first:?}")]
+    /// The options allow no step.
+    #[error("expected a maximum step above 0 and a first step above 0, got {longest} and {first:?}")]
     Options {
-        /// Longest step, s.
+        /// Largest step, s.
         longest: f64,
         /// First step, s.
         first: Option<f64>,
     },
-    /// More steps than allowed; also where the slopes are not finite.
+    /// More attempts than allowed; also if the slopes are not finite.
     #[error("stopped at t = {t} s after {steps} steps")]
     TooManySteps {
         /// Time reached, s.
         t: f64,
-        /// Steps tried.
+        /// Number of attempts.
         steps: u32,
     },
-    /// The step fell below the spacing of doubles.
-    #[error("the step vanished at t = {t} s")]
+    /// The step fell below the spacing of floating-point numbers.
+    #[error("the step size became 0 at t = {t} s")]
     StepTooSmall {
         /// Time reached, s.
         t: f64,
     },
 }
 
-/// Integrates `system` over a `span` of time (s), starting in `y`, and tells it of every accepted step.
+/// Integrates `system` over a `span` of time (s) from the state `y`, and reports every accepted step to it.
 ///
-/// `scale` is the absolute tolerance of each coupled component, above 0; the largest error counts.
-/// Quadratures are carried along but do not steer.
+/// `scale` is the absolute tolerance of each coupled component, above 0; the largest error counts. Quadratures are integrated
+/// without error control. A `system` that refuses a step ends the integration.
 ///
 /// # Errors
 ///
-/// [`ReferenceError`]: arguments that fit no system, or a stretch that could not be finished; what was accepted until
-/// then stays accepted.
+/// [`ReferenceError`]: invalid arguments, or an integration that could not be finished. Steps accepted before stay accepted.
 pub fn integrate<S: Accepting>(
     system: &mut S,
     span: Range<f64>,
@@ -126,7 +124,7 @@ pub fn integrate<S: Accepting>(
         if run.steps + run.rejected >= u64::from(options.steps) {
             return Err(ReferenceError::TooManySteps { t, steps: options.steps });
         }
-        // A last step a little longer than wished rather than a sliver behind it.
+        // Extends the last step slightly to avoid a very short one.
         let to = if t + 1.01 * h >= end { end } else { t + h };
         if to - t <= f64::EPSILON * t.abs() {
             return Err(ReferenceError::StepTooSmall { t });
@@ -141,7 +139,7 @@ pub fn integrate<S: Accepting>(
         step.complete(system, Completion::EndSlopes);
         step.accept();
         run.y.copy_from_slice(step.span().begin);
-        // Not the last step alone, which the end of the stretch has cut.
+        // The last step alone may be cut by the end of the section.
         (run.step, before) = (before.max(to - t), to - t);
         (run.steps, t) = (run.steps + 1, to);
         if !system.accept(t, &run.y) {

@@ -1,9 +1,9 @@
-//! The classical Runge–Kutta method of order 4 at a fixed step.
+//! The classical Runge–Kutta method of order 4 with a fixed step.
 
 use crate::{FixedStep, Stepping, System};
 
-/// Classical Runge–Kutta method (Kutta 1901; Hairer, Nørsett, Wanner, *Solving ODEs I*, table II.1.2): four evaluations
-/// per step, no error estimate.
+/// Classical Runge–Kutta method of order 4 (Kutta 1901; Hairer, Nørsett, Wanner, *Solving ODEs I*, table II.1.2). It needs four
+/// evaluations per step and has no error estimate.
 ///
 /// ```text
 /// k₁ = f(t, y)   k₂ = f(t + h/2, y + h/2 k₁)   k₃ = f(t + h/2, y + h/2 k₂)   k₄ = f(t + h, y + h k₃)
@@ -11,20 +11,20 @@ use crate::{FixedStep, Stepping, System};
 /// ```
 #[derive(Debug, Clone)]
 pub struct Rk4 {
-    /// Coupled components.
+    /// Number of coupled components.
     dimension: usize,
-    /// Coupled components of the stage under way, and all slopes there.
+    /// Coupled components of the current stage, and all slopes there.
     stage: Vec<f64>,
     slope: Vec<f64>,
-    /// k₁ + 2k₂ + 2k₃ + k₄ as far as it is known.
+    /// Partial sum of k₁ + 2k₂ + 2k₃ + k₄.
     sum: Vec<f64>,
-    /// What a step to a root adds to the straight way.
+    /// Nonlinear part of a step before a singular moment.
     rise: Vec<f64>,
     evaluations: u64,
 }
 
 impl Rk4 {
-    /// Workspace for systems of `dimension` coupled components among `total`.
+    /// Returns a workspace for systems with `dimension` coupled components and `total` components.
     #[must_use]
     pub fn new(dimension: usize, total: usize) -> Self {
         let total = total.max(dimension);
@@ -38,7 +38,7 @@ impl Rk4 {
         }
     }
 
-    /// Evaluates at `t` in the state that the newest slopes lead to from `y` in `ahead` s.
+    /// Evaluates the slopes at time `t` in the state y + `ahead` · slope.
     #[inline(always)]
     fn stage<S: System + ?Sized>(&mut self, system: &S, t: f64, y: &[f64], ahead: f64) {
         for ((to, y), k) in self.stage.iter_mut().zip(y).zip(&self.slope) {
@@ -47,7 +47,7 @@ impl Rk4 {
         system.slopes(t, &self.stage, &mut self.slope);
     }
 
-    /// Adds the newest slopes to the sum: four rows of slopes need not be kept.
+    /// Adds the newest slopes to the sum with a weight.
     #[inline(always)]
     fn add(&mut self, weight: f64) {
         for (sum, k) in self.sum.iter_mut().zip(&self.slope) {
@@ -61,7 +61,7 @@ impl FixedStep for Rk4 {
         Self::new(dimension, total)
     }
 
-    /// It keeps none.
+    /// Does nothing: the method keeps no slopes.
     fn restart(&mut self) {}
 
     fn evaluations(&self) -> u64 {
@@ -89,8 +89,9 @@ impl<S: System + ?Sized> Stepping<S> for Rk4 {
         self.evaluations += 4;
     }
 
-    /// By σ, the time being t + aσ(2 - σ) with a = h + left, in which the root is straight, from 0 to s = 1 - √(left/a): slopes over σ/s
-    /// are 2as(1 - σ)f. Of y what goes on with the first slope is taken apart, which σ would bend: k₁ = 0 of what is left.
+    /// Integrates by σ with the time t + aσ(2 - σ), a = h + left, from 0 to s = 1 - √(left/a). In σ the square root of the
+    /// remaining time is linear; the derivatives by σ/s are 2as(1 - σ)f. The linear motion with the first slope is split off, so
+    /// k₁ = 0 for the rest.
     fn step_to_a_root(&mut self, system: &S, t: f64, y: &mut [f64], (h, left): (f64, f64)) {
         let a = h + left;
         let s = 1.0 - (left / a).sqrt();
@@ -98,7 +99,7 @@ impl<S: System + ?Sized> Stepping<S> for Rk4 {
         let [half, whole] = [0.5, 1.0].map(|share| 2.0 * a * s * (1.0 - s * share));
         self.stage.copy_from_slice(&y[..self.dimension]);
         system.slopes(t, &self.stage, &mut self.slope);
-        // The first slope.
+        // `sum` holds the first slope.
         self.sum.copy_from_slice(&self.slope);
         self.rise.fill(0.0);
         for (time, ahead, weight) in

@@ -1,49 +1,47 @@
-//! Zeros inside a step: bracketed search.
+//! Zeros within a step by bracketing.
 
-/// Three times the halvings that any bracket of doubles takes.
+/// Three times the number of bisections that any bracket of `f64` needs.
 const MOST: u32 = 3 * 2200;
 
-/// A point (x, y) of a graph.
+/// Point (x, y) of a graph.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Point {
-    /// Where.
+    /// Abscissa.
     pub x: f64,
-    /// The value there.
+    /// Ordinate.
     pub y: f64,
 }
 
-/// Two points of a graph between which it crosses zero: their values have opposite signs.
+/// Two points of a graph with values of opposite sign, which bracket a zero.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Bracket {
-    /// One of them.
+    /// First point.
     pub from: Point,
-    /// The other one, before or behind it.
+    /// Second point, on either side of the first.
     pub to: Point,
 }
 
-/// A zero of `f` inside a bracket, to within `tolerance` (half the width of the last bracket, in the unit of x; not
-/// below the spacing of doubles there).
+/// Returns a zero of `f` in a bracket. `tolerance` is half the width of the last bracket, in the unit of x, at least the spacing
+/// of floating-point numbers there.
 ///
-/// Middle of the bracket that [`narrow`] returns, or its end where `f` is exactly zero.
+/// The result is the middle of the bracket of [`narrow`], or a point where `f` is exactly zero.
 pub fn root(f: impl FnMut(f64) -> f64, bracket: Bracket, tolerance: f64) -> f64 {
     root_near(f, bracket, 0.5, tolerance)
 }
 
-/// The same with the search begun at a `guess`, a fraction of the way through the bracket.
+/// Returns a zero of `f` in a bracket, as [`root()`], beginning at `guess`, a fraction of the bracket.
 pub fn root_near(f: impl FnMut(f64) -> f64, bracket: Bracket, guess: f64, tolerance: f64) -> f64 {
     let (left, right) = search(f, bracket, guess, tolerance);
     0.5 * (left + right)
 }
 
-/// A bracket narrowed to (left, right) with right - left at most 2·`tolerance`: `f(left)` has the sign at its start,
-/// `f(right)` that at its end (the width up to rounding), and both are the same point where `f` is exactly zero.
+/// Narrows a bracket to (left, right), with right - left at most 2·`tolerance` up to rounding. `f(left)` has the sign of the
+/// first point and `f(right)` that of the second. Both are the same point if `f` is exactly zero there.
 ///
-/// Chandrupatla's method (Adv. Eng. Softw. 28, 145, 1997): inverse quadratic interpolation where its three points allow
-/// it, bisection elsewhere. Bound: three times the evaluations of bisection, counted; smooth functions take five to
-/// seven.
+/// Uses Chandrupatla's method (Adv. Eng. Softw. 28, 145, 1997): inverse quadratic interpolation where its three points allow it,
+/// otherwise bisection. It needs at most three times the evaluations of bisection; smooth functions need five to seven.
 ///
-/// A value that is NaN ends the search at its point. Ends of equal sign are no bracket; the result is then the end
-/// with the smaller magnitude, twice.
+/// NaN ends the search at its point. For ends of equal sign the result is the end with the smaller magnitude, twice.
 pub fn narrow(f: impl FnMut(f64) -> f64, bracket: Bracket, tolerance: f64) -> (f64, f64) {
     search(f, bracket, 0.5, tolerance)
 }
@@ -61,12 +59,10 @@ fn search(mut f: impl FnMut(f64) -> f64, bracket: Bracket, guess: f64, tolerance
     }
     let spacing = f64::EPSILON * a.abs().max(b.abs()).max(f64::MIN_POSITIVE);
     let tolerance = tolerance.max(spacing);
-    // To 1e-12 of the bracket √2, π/2 and ln 3 take 7 evaluations each; bisection takes 39, regula falsi (Illinois) 7 to 9
-    // but 107 for the zero of (x - 0.3)³, where this falls back to 39. No method that wants derivatives: guards have none
-    // that are exact.
-    // `new` is the latest point, `old` the end across the zero, `last` the point before.
+    // Derivatives of event functions are not exact, so no method with derivatives is used. `new` is the latest point, `old` the
+    // end across the zero, `last` the point before.
     let (mut new, mut old) = (bracket.to, bracket.from);
-    // Rates that overflow give no guess.
+    // Without a finite guess the search begins in the middle.
     let mut part = if guess.is_finite() { 1.0 - guess } else { 0.5 };
     for _ in 0..MOST {
         let x = new.x + part * (old.x - new.x);
@@ -77,7 +73,7 @@ fn search(mut f: impl FnMut(f64) -> f64, bracket: Bracket, guess: f64, tolerance
         let last = if (value > 0.0) == (new.y > 0.0) { new } else { std::mem::replace(&mut old, new) };
         new = Point { x, y: value };
         let width = (old.x - new.x).abs();
-        // Not a number, either, can be narrowed.
+        // A NaN width cannot be narrowed.
         if width.is_nan() || width <= 2.0 * tolerance {
             break;
         }
@@ -88,8 +84,8 @@ fn search(mut f: impl FnMut(f64) -> f64, bracket: Bracket, guess: f64, tolerance
     if (new.y > 0.0) == (fa > 0.0) { (new.x, old.x) } else { (old.x, new.x) }
 }
 
-/// Where between `new` and `old` (as a part of the way) the inverse parabola through the three points crosses zero, or
-/// the middle where it is not monotone.
+/// Returns where the inverse parabola through three points crosses zero, as a fraction from `new` to `old`. Returns the middle
+/// where the parabola is not monotone.
 fn inverse_quadratic(new: Point, old: Point, last: Point) -> f64 {
     let xi = (new.x - old.x) / (last.x - old.x);
     let phi = (new.y - old.y) / (last.y - old.y);
@@ -105,7 +101,7 @@ fn inverse_quadratic(new: Point, old: Point, last: Point) -> f64 {
 mod tests {
     use super::*;
 
-    /// The bracket between two places.
+    /// Returns the bracket between two abscissas.
     fn between(f: impl Fn(f64) -> f64, a: f64, b: f64) -> Bracket {
         Bracket { from: Point { x: a, y: f(a) }, to: Point { x: b, y: f(b) } }
     }
@@ -125,7 +121,7 @@ mod tests {
 
     #[test]
     fn closed_form_zeros_within_the_bound() {
-        // Zeros known in closed form, among the hard ones of the ITP paper: flat, steep, triple, jump.
+        // Difficult zeros in closed form, as in the ITP paper: flat, steep, multiple, jump.
         type Case = (fn(f64) -> f64, f64, f64, f64);
         let cases: [Case; 7] = [
             (|x| x * x - 2.0, 0.0, 2.0, std::f64::consts::SQRT_2),

@@ -1,11 +1,15 @@
-//! The curves of a machine: what its steady motion makes of a number that is varied.
+//! Curves of a drive: step length, velocity or power of the steady motion versus one parameter.
 //!
-//! A [`Curve`] is of a scenario and a [`Kind`]; its points are variants of it, each by what `--set` would put into it.
-//! What is wrong with one of them stands in its [`Point`], and the others go on.
+//! A [`Curve`] has a scenario and a [`Kind`]. Each [`Point`] is a variant of the scenario, given by arguments of
+//! `--set`. A point that cannot be computed contains the
+//! reason; the other points are still computed.
 //!
-//! In reading order: `kind`, the curves that have a name; `variation`, what they vary; `range`, where their points lie; `motion`,
-//! the steady motion of a point, `waiting`, that of a run; `point`, all of them on all cores; `edge` and `peak`, how a place between them is closed in on, `ahead`, how on several cores,
-//! `landmark`, which places have a name; `table`, what is told of them; [`holding`], what the drive holds at rest.
+//! Modules in reading order:
+//! * `kind`: types of curves; `variation`: the varied parameter; `range`: the values of the points.
+//! * `motion`: steady motion at a point by shooting; `waiting`: the same by simulation; `point`: results at a point.
+//! * `edge`: bracketing of a zero; `peak`: golden section search for a maximum; `ahead`: both on several cores;
+//!   `landmark`: special points.
+//! * `table`: output files. [`holding`]: holding force of the drive at rest.
 
 mod ahead;
 mod edge;
@@ -42,65 +46,66 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use stickslip_run::{Job, Warning, Watcher};
 use stickslip_scenario::ScenarioError;
 
-/// How exactly the stall is known that a range ends beyond, and how far beyond.
+/// Relative tolerance of the stall force that sets the default range, and the factor by which the range exceeds it.
 const ROUGHLY: f64 = 0.05;
 const BEYOND: f64 = 1.1;
-/// Halvings on the way to the last place of a range that makes a scenario.
+/// Number of bisections to find the last value of a range that gives a valid scenario.
 const HALVINGS: u32 = 8;
 
-/// Which way round the waveforms run, where a drive is asked for both.
+/// Direction of the waveforms in time, for curves with both directions.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Sense {
-    /// As in the scenario.
+    /// Forward in time, as in the scenario.
     Forward,
-    /// Reversed in time, so that a drive steps the other way.
+    /// Reversed in time, so that the drive steps in the opposite direction.
     Backward,
 }
 
 /// A curve of a scenario.
 pub struct Curve {
-    /// What reverses the waveforms of the backward sense; points are told with it.
+    /// Overrides that reverse the waveforms. They are part of the overrides of each point.
     reversal: Vec<(String, String)>,
-    /// Which way round, where both are asked for.
+    /// Direction of the waveforms. `None` if only one direction is computed.
     pub sense: Option<Sense>,
-    /// Which one.
+    /// Type of the curve.
     pub kind: Kind,
-    /// What is varied.
+    /// The varied parameter.
     pub variation: Variation,
-    /// The scenario without it.
+    /// The scenario without the variation.
     pub job: Job,
-    /// Where motions are looked up and written down.
+    /// Journal that stores the motions at points.
     pub journal: Arc<Journal>,
 }
 
-/// The points of a curve.
+/// Points of a curve.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Traced {
-    /// Sense of the steps without load, 1 or -1 along x, that loads act against; 1 where there are none.
+    /// Direction of the steps without load, 1 or -1 along x; loads act against it. 1 for curves without loads.
     pub direction: f64,
-    /// Whether the unloaded drive, whose sense that is, could be computed: else loads act against +x.
+    /// False if the motion without load could not be computed. Loads then act along -x.
     pub is_known: bool,
-    /// In the order of the values.
+    /// Points in the order of the values.
     pub points: Vec<Point>,
-    /// Places with a name, where they were looked for.
+    /// Special points, if they were computed.
     pub landmarks: Vec<Landmark>,
 }
 
 impl Curve {
-    /// The curve of a scenario.
+    /// Creates a curve of a scenario.
     ///
     /// # Errors
-    /// A scenario that has no such curve.
+    /// Fails if the scenario does not have this curve.
     pub fn new(job: Job, kind: Kind) -> Result<Self, CurveError> {
         let variation = Variation::of(&kind, &job)?;
         let journal = Arc::default();
         Ok(Self { reversal: Vec::new(), sense: None, kind, variation, job, journal })
     }
 
-    /// The curves of a scenario in both senses: forward, as it is, and backward, the waveforms of the steps' period reversed in time.
+    /// Returns the curves for both directions: with the waveforms of the scenario, and with all waveforms of the steps'
+    /// period reversed in time.
     ///
     /// # Errors
-    /// As of one; a waveform that cannot be reversed, as one that jumps.
+    /// Fails as [`Self::new`] does, or if a waveform cannot be reversed, such as one with a jump.
     pub fn both(job: Job, kind: &Kind) -> Result<[Self; 2], CurveError> {
         let reversal = Variation::reversal(&job, kind)?;
         let backward = Self::new(job.with(&reversal)?, kind.clone())?;
@@ -108,8 +113,9 @@ impl Curve {
         Ok([forward, Self { reversal, sense: Some(Sense::Backward), ..backward }])
     }
 
-    /// A range worth looking at, SI: about what the scenario has, and of loads up to a little more than it takes to stall the
-    /// drive. None where nobody knows.
+    /// Returns a default range of the parameter in SI units, around its value in the scenario. Ranges of loads end
+    /// slightly above the stall force. Returns `None` if no default is
+    /// known.
     #[must_use]
     pub fn range(&self, watcher: &dyn Watcher) -> Option<[f64; 2]> {
         let [from, most] = self.variation.range?;
@@ -125,10 +131,10 @@ impl Curve {
         Some([from, self.allowed(to.unwrap_or(most), sense)])
     }
 
-    /// About where a drive stalls that makes a step without load.
+    /// Returns a bracket of the stall force of a drive that makes steps without load.
     fn stall(&self, unloaded: &Motion, [from, to]: [f64; 2], watcher: &dyn Watcher) -> Option<Bracket> {
         let sense = unloaded.sense();
-        // What is dragged away is stalled as well.
+        // A drive that is dragged away counts as stalled.
         let try_at = |load, _: f64| -> Result<Option<f64>, Infallible> {
             let motion = self.motion_at(load, sense, watcher).ok().filter(|motion| motion.steps(sense));
             Ok(motion.map(|motion| sense * motion.step))
@@ -136,7 +142,9 @@ impl Curve {
         Bracket::narrow(vec![(from, sense * unloaded.step)], to, ROUGHLY, try_at).ok().flatten()
     }
 
-    /// A little more than what a drive holds that makes no step by itself, where it has a motion there still; nothing above `most`.
+    /// Returns a load slightly above the largest load that a drive without steps of its own withstands. At this load
+    /// the drive still has a steady motion. The load is at most
+    /// `most`.
     fn held(&self, most: f64, sense: f64, watcher: &dyn Watcher) -> Option<f64> {
         let try_at = |load, _: f64| -> Result<Option<f64>, Infallible> {
             let motion = self.motion_at(load, sense, watcher).ok();
@@ -150,8 +158,11 @@ impl Curve {
         Some(if self.motion_at(beyond, sense, watcher).is_ok() { beyond } else { held.steps })
     }
 
-    /// An end of a range, or the place nearest to it that makes a scenario: a frequency may leave a waveform's rise no room, and a load
-    /// a start no equilibrium. The end where there is none.
+    /// Returns the given end of a range, or the nearest value that gives a valid scenario. Returns the end itself if
+    /// there is none.
+    ///
+    /// Invalid values are, for example, a frequency that leaves no time for the rise of a waveform, or a load without
+    /// initial equilibrium.
     fn allowed(&self, end: f64, direction: f64) -> f64 {
         let makes = |at: f64| self.variant(&self.overrides(at, direction)).is_ok();
         let Some(present) = self.variation.present.filter(|_| !makes(end)) else { return end };
@@ -162,8 +173,9 @@ impl Curve {
         if nearest == present { end } else { nearest }
     }
 
-    /// A range whose larger end is at most where a stack's command meets the window of its driver or the nominal voltage of its data
-    /// sheet; commands are straight lines over what is varied. The range itself where the smaller end lies beyond these already.
+    /// Shortens a range so that the stacks' commands stay within the driver window and the nominal voltage of the data
+    /// sheet. Commands are linear in the varied parameter.
+    /// Returns the range unchanged if its smaller end already exceeds these limits.
     fn within_data_sheets(&self, range: [f64; 2]) -> [f64; 2] {
         let is_mirrored = range[0].abs() > range[1].abs();
         let [from, to] = if is_mirrored { [range[1], range[0]] } else { range };
@@ -174,7 +186,7 @@ impl Curve {
             let ends = [(before, &low), (after, &high)].map(|(it, job)| it.commanded(&job.scenario.scene));
             let [[least, most], [lower, higher]] = [ends[0]?, ends[1]?];
             let [floor, ceiling] = after.allowed();
-            // How far the command may go of how far it would.
+            // Allowed fraction of the change of the command.
             Some([(ceiling - most) / (higher - most), (floor - least) / (lower - least)])
         });
         let share = shares.flatten().filter(|share| *share > 0.0).fold(1.0, f64::min);
@@ -182,14 +194,16 @@ impl Curve {
         if is_mirrored { [end, from] } else { [from, end] }
     }
 
-    /// Why there is no range by default.
+    /// Returns the reason why there is no default range.
     #[must_use]
     pub fn no_range(&self) -> CurveError {
         self.variation.no_range(&self.job)
     }
 
-    /// The points at some values, on so many cores; the same for any number. The watcher is told how many are done; where it wants
-    /// an end, those not yet done are [`Motionless::NotRun`].
+    /// Computes the points at the given values on `cores` threads. The result does not depend on the number of threads.
+    ///
+    /// The watcher receives the number of finished points. If it interrupts, the remaining points are
+    /// [`Motionless::NotRun`].
     pub fn trace(&self, values: &[f64], cores: usize, watcher: &(dyn Watcher + Sync)) -> Traced {
         let unloaded = self.kind.is_of_load().then(|| self.unloaded(watcher));
         let is_known = unloaded.as_ref().is_none_or(Result::is_ok);
@@ -206,19 +220,19 @@ impl Curve {
         Traced { direction, is_known, points, landmarks: Vec::new() }
     }
 
-    /// The steady motion at a value; loads act against a direction.
+    /// Returns the steady motion at a value. Loads act against `direction`.
     fn motion_at(&self, value: f64, direction: f64, watcher: &dyn Watcher) -> Result<Motion, Motionless> {
         self.motion_with(&self.overrides(value, direction), watcher)
     }
 
-    /// What makes a point of it: its sense, and a value; loads act against a direction.
+    /// Returns the overrides of a point: those of the reversal and of the value. Loads act against `direction`.
     fn overrides(&self, value: f64, direction: f64) -> Vec<(String, String)> {
         let varied = self.variation.overrides(value, direction);
         self.reversal.iter().cloned().chain(varied).collect()
     }
 
     fn motion_with(&self, set: &[(String, String)], watcher: &dyn Watcher) -> Result<Motion, Motionless> {
-        // What is read and built before a period is computed takes its time, too.
+        // Reading and building the scenario takes time before the first period is computed.
         if !watcher.goes_on() {
             return Err(Motionless::NotRun);
         }
@@ -226,13 +240,13 @@ impl Curve {
         self.journal.found(&set, compute, Motionless::is_no_end)
     }
 
-    /// The motion of the scenario as it stands.
+    /// Returns the steady motion of the unchanged scenario.
     fn unloaded(&self, watcher: &dyn Watcher) -> Result<Motion, Motionless> {
         let compute = || Motion::of(&self.job, watcher);
         self.journal.found(&("unloaded", &self.reversal), compute, Motionless::is_no_end)
     }
 
-    /// The scenario with something set, as a run would have it, without what a run would write.
+    /// Returns the scenario with overrides applied and without output tables.
     fn variant(&self, set: &[(String, String)]) -> Result<Job, ScenarioError> {
         let mut scenario = self.job.scenario.with(set)?;
         scenario.plan.every = None;
@@ -242,7 +256,7 @@ impl Curve {
 }
 
 impl Sense {
-    /// Its name.
+    /// Returns the name in output files.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
@@ -252,7 +266,7 @@ impl Sense {
     }
 }
 
-/// What `check` warns of in a scenario with overrides; nothing of one that is refused.
+/// Returns the warnings of `check` for a scenario with overrides. Returns none if the scenario is invalid.
 fn warnings(job: &Job, set: &[(String, String)]) -> Vec<Warning> {
     job.with(set).map(|job| stickslip_run::warning::of_check(&job)).unwrap_or_default()
 }

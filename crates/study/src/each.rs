@@ -1,10 +1,10 @@
-//! Many things side by side, in order.
+//! Parallel map with results in order.
 
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Mutex, PoisonError};
 use std::thread;
 
-/// Computes so many things on so many cores, each by its place; they come in order.
+/// Calls `of` for the indices 0 to `count` - 1 on `cores` threads. Returns the results in the order of the indices.
 pub(crate) fn each<T: Send>(count: usize, cores: usize, of: impl Fn(usize) -> T + Sync) -> Vec<T> {
     let (next, done) = (AtomicUsize::new(0), Mutex::new(Vec::with_capacity(count)));
     let work = || {

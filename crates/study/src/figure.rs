@@ -1,36 +1,36 @@
-//! Figures of a variant: the few numbers that are kept of its run.
+//! Results of a variant: the few numbers that a sweep keeps of each run.
 
 use stickslip_drive::{Event, Model, Plan, Record, Scene};
 use stickslip_run::Watcher;
 use thiserror::Error;
 
-/// A number that is told of every variant.
+/// A result that is evaluated for every variant.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) enum Figure {
-    /// Value of a channel at the end, such as `slider.x_m`.
+    /// Value of a channel at the end of the run, such as `slider.x_m`.
     End(String),
-    /// What a channel gains in the last whole period of a waveform: of `slider.x_m` the step of a drive. NaN where no period is
-    /// over.
+    /// Change of a channel over the last whole period of a waveform. For `slider.x_m` it is the step length of a drive.
+    /// NaN without a whole period.
     Step {
         /// Name of the channel.
         channel: String,
-        /// Place of the waveform in [`Scene::waveforms`].
+        /// Index of the waveform in [`Scene::waveforms`].
         waveform: usize,
     },
 }
 
-/// A figure that a scene does not have.
+/// Error: a result that the scenario does not have.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 pub(crate) enum FigureError {
-    /// No channel of that name.
+    /// There is no channel of this name.
     #[error("\"{0}\": expected the name of a channel, such as {1}")]
     Channel(String, String),
-    /// No waveform at that place.
-    #[error("expected the place of a waveform with a period, got {0}")]
+    /// There is no periodic waveform with this index.
+    #[error("expected the index of a waveform with a period, got {0}")]
     Waveform(usize),
 }
 
-/// A figure by the place of its channel in a row.
+/// A result with the index of its channel in a row of samples.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct Placed {
     channel: usize,
@@ -44,7 +44,10 @@ enum Kind {
 }
 
 impl Figure {
-    /// Where it stands in a row.
+    /// Returns the result with the index of its channel.
+    ///
+    /// # Errors
+    /// Fails if the channel does not exist, or the waveform does not exist or has no period.
     pub(crate) fn place(&self, scene: &Scene, model: &Model) -> Result<Placed, FigureError> {
         let (name, kind) = match self {
             Self::End(name) => (name, Kind::End),
@@ -63,22 +66,24 @@ impl Figure {
     }
 }
 
-/// Reads figures off a run: its first and its last row, and those where the last whole period begins and ends.
+/// Record that evaluates results during a run, from the first and last row and the rows at both ends of the last whole
+/// period.
 pub(crate) struct Reading<'a> {
     figures: &'a [Placed],
     watcher: &'a dyn Watcher,
-    /// The figures as they are known so far: before the last row what their channels were at the start, or where the period began.
+    /// Results so far. Before the end of the run, an entry is the channel's value at the start of the run or of the
+    /// last whole period.
     pub(crate) values: Vec<f64>,
-    /// Moments to read at, s, ascending, and which of them is next.
+    /// Times at which rows are needed, s, ascending; and the index of the next one.
     moments: Vec<f64>,
     next: usize,
-    /// Of each figure from when to when it counts, s.
+    /// Start and end time of each result, s.
     spans: Vec<[f64; 2]>,
     is_first: bool,
     end: f64,
 }
 
-/// Times within this share of each other are one: rounding of multiples of a period.
+/// Relative tolerance for equal times, against rounding of multiples of a period.
 const SAME: f64 = 4.0 * f64::EPSILON;
 
 impl<'a> Reading<'a> {
@@ -96,7 +101,7 @@ impl<'a> Reading<'a> {
         }
     }
 
-    /// Before a run.
+    /// Prepares for a run.
     pub(crate) fn begin(&mut self, scene: &Scene, plan: &Plan) {
         (self.next, self.is_first, self.end) = (0, true, plan.duration);
         self.values.fill(f64::NAN);
@@ -119,7 +124,7 @@ impl<'a> Reading<'a> {
         t >= self.end * (1.0 - SAME)
     }
 
-    /// Takes what begins or ends at t, s.
+    /// Evaluates results whose time span starts or ends at time t, s.
     fn take(&mut self, t: f64, row: &[f64]) {
         let is_now = |moment: f64| (t - moment).abs() <= SAME * t;
         let is_last = !self.is_first && self.is_end(t);
@@ -135,7 +140,8 @@ impl<'a> Reading<'a> {
     }
 }
 
-/// Beginning and end of the last whole period before an end, s; never, where none is.
+/// Returns start and end of the last whole period of a waveform before `end`, s. Returns infinite times if there is
+/// none.
 fn last_period(scene: &Scene, waveform: usize, end: f64) -> [f64; 2] {
     let never = [f64::INFINITY; 2];
     let Some(waveform) = scene.waveforms.get(waveform).map(|named| &named.part) else { return never };

@@ -1,8 +1,8 @@
-//! Numbers of a scenario fitted to a measured loop or to rows of a trajectory: least squares, with intervals, and with the names of numbers that the data cannot tell
-//! apart.
+//! Least-squares fit of scenario parameters to a measured loop or trajectory, with confidence intervals. Parameters
+//! that the data cannot distinguish are reported.
 //!
-//! In reading order: `data`, what was measured; `model`, what a variant of the scenario has in its place; `squares`, the search; this file, what is
-//! told of its end.
+//! Modules in reading order: `data`, measured rows; `model`, the simulated counterpart; `squares`, the minimisation.
+//! This file evaluates the result.
 
 mod data;
 mod error;
@@ -24,83 +24,86 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use stickslip_run::measured::{How, Measured};
 use stickslip_run::{Job, Watcher};
 
-/// A direction of the numbers, as logarithms, is free along which the data leave more than so many e-folds, or in which they say so little
-/// beside the others.
+/// Thresholds for undetermined directions in the space of the logarithms of the parameters. A direction is undetermined
+/// if its standard deviation is at least `FREE`, or if its effect relative to the strongest direction is at most `WEAK`.
 const FREE: f64 = 3.0;
 const WEAK: f64 = 1e-6;
-/// Numbers with at least this share of the largest part of a free direction are in it.
+/// Smallest component, relative to the largest, for a parameter to be reported in an undetermined direction.
 const SHARE: f64 = 0.2;
-/// Harmonics along the loop in which a wrong model leaves most of what it leaves.
+/// Number of harmonics along the loop that contain most of the residual of a wrong model.
 const HARMONICS: usize = 6;
-/// Quantile of the normal distribution beyond which a model does not fit: each of two tests at 0.0005.
+/// Quantile of the normal distribution above which the model does not fit; each of two tests has a significance level
+/// of 0.0005.
 const MISFIT: f64 = 3.29;
-/// What is left of a model that fits whatever the noise, as a share of the largest force: loops of rows are no better.
+/// Residual relative to the largest force below which a model fits, whatever the noise; and the 97.5 % quantile of the
+/// normal distribution.
 const LITTLE: f64 = 1e-3;
 const NORMAL: f64 = 1.96;
 
-/// What is to be fitted, and to what.
+/// Settings of a fit.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Asked {
-    /// Key paths of the numbers that are free.
+    /// Key paths of the free parameters.
     pub free: Vec<String>,
-    /// Name of the contact, where there are several.
+    /// Name of the contact, if there are several.
     pub contact: Option<String>,
-    /// Channel that the measured displacement is, such as `rig.x`; by default the displacement of the contact.
+    /// Channel of the measured displacement, such as `rig.x`; default: the displacement of the contact.
     pub displacement: Option<String>,
-    /// Channel that the measured force is; by default the tangential force of the contact.
+    /// Channel of the measured force; default: the tangential force of the contact.
     pub force: Option<String>,
-    /// Standard deviation of the force of a row, N; by default it is found from the rows.
+    /// Standard deviation of the force in a row, N; default: estimated from the rows.
     pub noise: Option<f64>,
-    /// Number of drawn data sets from which intervals are taken; 0 for those of the linear theory.
+    /// Number of bootstrap samples for the intervals; 0 for intervals of linear theory.
     pub bootstrap: usize,
 }
 
-/// A number that was fitted.
+/// A fitted parameter.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Fitted {
-    /// Its key path.
+    /// Key path.
     pub path: String,
-    /// Its SI unit.
+    /// SI unit.
     pub unit: &'static str,
-    /// As the scenario has it.
+    /// Value in the scenario.
     pub start: f64,
-    /// As it fits best.
+    /// Best value.
     pub value: f64,
     /// Standard deviation.
     pub sd: f64,
-    /// Low end of the interval of 95 %.
+    /// Lower end of the 95 % interval.
     pub low: f64,
-    /// High end.
+    /// Upper end of the 95 % interval.
     pub high: f64,
 }
 
-/// What came of a fit.
+/// Result of a fit.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Fit {
-    /// The numbers in the order asked for.
+    /// Parameters in the requested order.
     pub parameters: Vec<Fitted>,
-    /// Correlations of their errors.
+    /// Correlation matrix of their errors.
     pub correlations: Vec<Vec<f64>>,
-    /// Sum of the squares of what is left, over the variance of the noise.
+    /// Sum of squared residuals divided by the variance of the noise.
     pub chi_squared: f64,
-    /// Rows less numbers, and less the offset of the force.
+    /// Number of rows minus the numbers of parameters and force offset.
     pub degrees_of_freedom: f64,
-    /// Standard deviation of the force of a row, N.
+    /// Standard deviation of the force in a row, N.
     pub noise: f64,
-    /// How many variants of the scenario were computed.
+    /// Number of simulated variants.
     pub runs: usize,
-    /// Whether what is left is noise: the probability of as much by chance is more than 0.001.
+    /// Whether the residual is consistent with noise, at a significance level of 0.001.
     pub model_fits: bool,
-    /// The data, and the forces of the model with its offset, N.
+    /// Measured data.
     pub data: Data,
-    /// Forces of the model.
+    /// Forces of the model including the fitted offset, N.
     pub force: Vec<f64>,
 }
 
-/// Fits numbers of a scenario.
+/// Fits parameters of a scenario to measured data.
 ///
 /// # Errors
-/// Numbers or channels that are not there, data that the model cannot follow, numbers that the data cannot tell apart; the watcher's wish.
+/// Fails if parameters or channels do not exist, or the model cannot follow the data. Fails if the data cannot
+/// distinguish the parameters, the fit does not converge, or the watcher interrupts.
 pub fn fit(
     job: &Job,
     (measured, how): (&mut Measured, &How),
@@ -113,7 +116,7 @@ pub fn fit(
     let start = vec![0.0; asked.free.len()];
     told_apart(&squares.slopes(&start)?, data.sigma(asked.noise), &asked.free)?;
     let first = squares.least(&start)?;
-    // The noise of displacements counts by the slope of the loop.
+    // Noise of the displacement acts through the slope of the loop.
     let squares = Squares { weights: data.weights(Some(&first.force)), ..squares };
     let mut found = squares.least(&first.place)?;
     found.runs += first.runs;
@@ -147,7 +150,10 @@ pub fn fit(
     })
 }
 
-/// Refuses numbers that the data cannot tell apart: directions of their logarithms in which hardly anything changes.
+/// Checks whether the data distinguish all parameters, by singular value decomposition.
+///
+/// # Errors
+/// Returns [`FitError::Undetermined`] with the parameters of each undetermined direction.
 fn told_apart(slopes: &DMatrix<f64>, sigma: f64, free: &[String]) -> Result<(), FitError> {
     let parts = slopes.clone().svd(false, true);
     let Some(directions) = parts.v_t else { return Ok(()) };
@@ -165,7 +171,7 @@ fn told_apart(slopes: &DMatrix<f64>, sigma: f64, free: &[String]) -> Result<(), 
     if groups.is_empty() { Ok(()) } else { Err(FitError::Undetermined(groups)) }
 }
 
-/// Places fitted to data that are drawn about the best ones; the watcher is told how many there are.
+/// Returns the parameters fitted to bootstrap samples of the data. The watcher receives their number.
 fn drawn(
     squares: &Squares<'_>,
     found: &Found,
@@ -190,7 +196,7 @@ fn drawn(
     if watcher.goes_on() { Ok(places) } else { Err(FitError::Interrupted) }
 }
 
-/// Whether what is left lies in the first harmonics along the loop far more than noise would.
+/// Returns whether the residual is concentrated in the first harmonics along the loop, which noise is not.
 fn is_smooth(left: &DVector<f64>) -> bool {
     let rows = left.len();
     let mut inside = 0.0;
@@ -209,7 +215,8 @@ fn is_smooth(left: &DVector<f64>) -> bool {
     others > within && beyond((inside / within) / (rest / others), within, others) > MISFIT
 }
 
-/// By how many standard deviations a quotient of two variances is too large (Wilson and Hilferty 1931; Paulson 1942).
+/// Returns the normal quantile of a ratio of two variances, from its F distribution (Wilson and Hilferty 1931; Paulson
+/// 1942).
 fn beyond(quotient: f64, above: f64, below: f64) -> f64 {
     let [a, b] = [above, below].map(|freedom| 2.0 / (9.0 * freedom));
     let root = math::cbrt(quotient);
@@ -217,7 +224,7 @@ fn beyond(quotient: f64, above: f64, below: f64) -> f64 {
 }
 
 impl Model<'_> {
-    /// A number at a place, with its interval: of the drawn places where there are any.
+    /// Returns a parameter with its interval, from bootstrap samples if there are any.
     fn fitted(&self, k: usize, place: &[f64], covariance: &DMatrix<f64>, drawn: &[Vec<f64>]) -> Fitted {
         let quantity = &self.free[k];
         let value = quantity.at(place[k]);
@@ -247,7 +254,7 @@ impl Model<'_> {
 }
 
 impl Fit {
-    /// All of it but the rows, for machines.
+    /// Returns the content of `fit.json` without data rows.
     #[must_use]
     pub fn json(&self) -> Value {
         let mut parameters = Map::new();
@@ -268,7 +275,7 @@ impl Fit {
         })
     }
 
-    /// The assignments that make the scenario the fitted one.
+    /// Returns the arguments of `--set` for the fitted scenario.
     #[must_use]
     pub fn assignments(&self) -> Vec<String> {
         self.parameters.iter().map(|fitted| format!("{}={:e}", fitted.path, fitted.value)).collect()

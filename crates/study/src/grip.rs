@@ -1,30 +1,31 @@
-//! Whether something holds a body: how far it flies, or slides, in a period is no step, however even.
+//! Detects whether friction holds a body. A distance that the body flies or slides in a period does not count as a
+//! step.
 
 use stickslip_drive::scene::Side;
 use stickslip_drive::{Event, Model, Run, Source};
 use stickslip_run::Job;
 
-/// What a body does that nothing holds.
+/// State of a body that no contact holds.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Loose {
     /// All its contacts are open.
     Flies,
-    /// All of them slip grossly, or are open.
+    /// All its contacts are in gross slip or open.
     Slides,
 }
 
-/// Watches the contacts of a body.
+/// Observer of the contacts of a body.
 pub(crate) struct Grip {
     contacts: Vec<usize>,
-    /// Places of their indentations among all channels.
+    /// Indices of their indentation channels.
     depths: Vec<usize>,
-    /// Whether anything has happened to one of them since [`Self::begin`].
+    /// True if one of these contacts had an event since [`Self::begin`].
     was_met: bool,
     row: Vec<f64>,
 }
 
 impl Grip {
-    /// Of a body, by its place.
+    /// Creates the observer for the body with index `body`.
     pub(crate) fn new(job: &Job, body: usize) -> Self {
         let contacts = job.scenario.scene.contacts.iter().enumerate();
         let own = contacts.filter(|(_, contact)| contact.part.between.contains(&Side::Body(body)));
@@ -37,18 +38,20 @@ impl Grip {
         Self { contacts, depths, was_met: false, row: Vec::new() }
     }
 
-    /// A stretch of time begins.
+    /// Starts a new time interval.
     pub(crate) fn begin(&mut self) {
         self.was_met = false;
     }
 
-    /// An event in it.
+    /// Records an event.
     pub(crate) fn event(&mut self, event: &Event) {
         self.was_met |= matches!(event.source, Source::Contact(c) if self.contacts.contains(&c));
     }
 
-    /// What the body did all through it if nothing held it. To touch and to stick are events: without one, contacts were all the
-    /// time what they are at its end, where the run stands.
+    /// Returns the state of the body if no contact held it during the whole interval, and `None` otherwise.
+    ///
+    /// Touching and sticking are events. Without an event, the state of the contacts at the end of the interval holds
+    /// for the whole interval.
     pub(crate) fn loose(&mut self, model: &Model, run: &Run<'_>) -> Option<Loose> {
         let gives_way = |c: &usize| run.state().has_given_way(model, *c);
         if self.was_met || self.contacts.is_empty() || !self.contacts.iter().all(gives_way) {

@@ -1,4 +1,4 @@
-//! What a scenario means, before it runs: `stickslip info --json`.
+//! Properties of a scenario before it runs: `stickslip info --json`.
 
 use crate::steady::outlook;
 use schemars::JsonSchema;
@@ -14,10 +14,10 @@ use stickslip_run::{Job, Parts, Warning, warning};
 pub struct Info {
     /// name of the scenario
     pub scenario: String,
-    /// the scenario's
+    /// title of the scenario. Absent if it has none.
     #[serde(skip_serializing_if = "String::is_empty")]
     pub title: String,
-    /// SHA-256 of the resolved scenario, as in the summary of a run
+    /// SHA-256 of the complete scenario, with all defaults and --set values, the same as in summary.json of a run
     pub scenario_sha256: String,
     /// Bodies.
     #[schemars(extend("x-name" = "BODY"))]
@@ -28,26 +28,27 @@ pub struct Info {
     /// Contacts.
     #[schemars(extend("x-name" = "CONTACT"))]
     pub contacts: Parts<ContactInfo>,
-    /// Normal modes with all contacts stuck, by rising frequency.
+    /// Normal modes with all contacts in full stick, by increasing frequency.
     pub modes: Vec<ModeInfo>,
     /// Piezo stacks and their drivers.
     #[schemars(extend("x-name" = "ACTUATOR"))]
     pub actuators: Parts<PiezoInfo>,
-    /// What the drive would settle on if its waveforms never ended.
+    /// Periodic orbit with endless waveforms.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub steady_motion: Option<Outlook>,
-    /// How time is stepped.
+    /// Time integration.
     pub stepping: Stepping,
-    /// What a run is expected to write.
+    /// Expected output of a run.
     pub expected: Expectation,
-    /// What a run computes, and what it skips.
+    /// Computations of a run, and omitted ones.
     pub usage: Usage,
-    /// What is odd about the scenario, as in the summary of a run.
+    /// Warnings about the scenario, as in the summary of a run.
     pub warnings: Vec<Warning>,
 }
 
 impl Info {
-    /// Of a job. The search for the steady motion asks `goes_on` before every period; `false` gives it up.
+    /// Computes the properties of a job. The search for the periodic orbit calls `goes_on` before every period and
+    /// stops if it returns `false`.
     #[must_use]
     pub fn of(job: &Job, goes_on: &dyn Fn() -> bool) -> Self {
         let modes = info::modes(job);

@@ -1,8 +1,8 @@
-//! A record whose run may be given up.
+//! Record of a run that can be cancelled.
 
 use stickslip_drive::{Event, Record, State};
 
-/// Passes on what a run between located events tells, and whether its caller has had enough.
+/// Passes all calls to `record`, except for `goes_on`, which cancels the run.
 pub(crate) struct Interruptible<'a> {
     pub(crate) record: &'a mut dyn Record,
     pub(crate) goes_on: &'a dyn Fn() -> bool,

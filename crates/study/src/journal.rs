@@ -1,7 +1,10 @@
-//! What a study has computed, in a file as it comes: the same command continues after a kill, or computes nothing anew.
+//! Journal: file with the results of a study, written as they are computed. After an interruption, the same command
+//! reads it and computes only the missing
+//! results.
 //!
-//! A line for each result: what was asked for and what came of it, both as JSON with a tab between. Numbers are read back to the bit.
-//! A result depends on what was asked for and on what the first line says alone; so one that stands in the file counts as computed.
+//! Each line has one result: its key and its value as JSON, separated by a tab. Numbers are restored to all bits. A
+//! result depends only on its key and on the first line of
+//! the file.
 
 use serde::{Serialize, de::DeserializeOwned};
 use std::collections::BTreeMap;
@@ -11,7 +14,7 @@ use std::path::PathBuf;
 use std::sync::{Mutex, MutexGuard, PoisonError};
 use stickslip_run::{folder, program};
 
-/// Results by what was asked for; without a file it remembers nothing.
+/// Results by their keys. A default journal has no file and stores nothing.
 #[derive(Debug, Default)]
 pub struct Journal(Option<Mutex<Lines>>);
 
@@ -20,40 +23,42 @@ struct Lines {
     path: PathBuf,
     head: String,
     known: BTreeMap<String, String>,
-    /// None before the first line that is added.
+    /// `None` before the first line is written.
     file: Option<File>,
-    /// Why it cannot be written, where it cannot.
+    /// First write error.
     fault: Option<io::Error>,
 }
 
-/// What the file of a journal is.
+/// Content of a journal file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Held {
-    /// New, or empty.
+    /// The file is missing or empty.
     Nothing,
-    /// Results of the same study.
+    /// The file has results of the same study.
     Own,
-    /// Results of another study, or of another version of the program.
+    /// The file has results of another study or program version.
     Foreign,
 }
 
 impl Journal {
-    /// Opens the journal of a study: the scenario and all that its results depend on stand in `of`. One of another study, or of another version of the
-    /// program, begins anew, as does any where `is_fresh`. Nothing is written before the first result.
+    /// Opens the journal of a study. `of` contains everything on which the results depend, such as the scenario.
+    ///
+    /// Results of another study or program version are discarded, or all results if `is_fresh`. The file is written
+    /// with the first new result.
     ///
     /// # Errors
-    /// What cannot be read.
+    /// Fails if the file cannot be read.
     pub fn open(path: PathBuf, of: &impl Serialize, is_fresh: bool) -> io::Result<Self> {
         Ok(Self::held(path, of, is_fresh)?.0)
     }
 
-    /// The same, and what the file was.
+    /// Opens a journal like [`Self::open`]. Also returns what the file contained.
     pub(crate) fn held(path: PathBuf, of: &impl Serialize, is_fresh: bool) -> io::Result<(Self, Held)> {
         let head = format!("{}\t{}\n", json(&format!("{} {}", program::NAME, program::VERSION)), json(of));
         let text = match fs::read_to_string(&path) {
             Ok(text) => text,
             Err(error) if error.kind() == ErrorKind::NotFound => String::new(),
-            // Nobody's journal: bytes that are no text.
+            // A file without valid text is foreign.
             Err(error) if error.kind() == ErrorKind::InvalidData => " ".to_owned(),
             Err(error) => return Err(error),
         };
@@ -65,7 +70,7 @@ impl Journal {
         let mut known = BTreeMap::new();
         let mut file = None;
         if held == Held::Own && !is_fresh {
-            // A last line that is not whole is dropped.
+            // Drop an incomplete last line.
             let whole = text.rfind('\n').map_or(0, |end| end + 1);
             let line =
                 |line: &str| line.split_once('\t').map(|(key, value)| (key.to_owned(), value.to_owned()));
@@ -77,7 +82,8 @@ impl Journal {
         Ok((Self(Some(Mutex::new(Lines { path, head, known, file, fault: None }))), held))
     }
 
-    /// The result of what is asked for by a key: known, or computed and written down where it is to be kept.
+    /// Returns the result for a key from the journal, or computes it. A computed result is written if `is_kept` accepts
+    /// it.
     pub(crate) fn found<T: Serialize + DeserializeOwned>(
         &self,
         key: &impl Serialize,
@@ -86,7 +92,7 @@ impl Journal {
     ) -> T {
         let Some(lines) = &self.0 else { return compute() };
         let key = json(key);
-        // Not in the condition, whose lock would last as long as its body.
+        // Outside the `if` condition, which would hold the lock during its body.
         let known = lock(lines).known.get(&key).and_then(|text| serde_json::from_str(text).ok());
         if let Some(known) = known {
             return known;
@@ -98,21 +104,21 @@ impl Journal {
         found
     }
 
-    /// All results, in the order of their keys.
+    /// Returns all results, ordered by key.
     pub(crate) fn all<T: DeserializeOwned>(&self) -> Vec<T> {
         let Some(lines) = &self.0 else { return Vec::new() };
         lock(lines).known.values().filter_map(|text| serde_json::from_str(text).ok()).collect()
     }
 
-    /// Why it could not be written, once.
+    /// Returns the first write error, once.
     pub(crate) fn fault(&self) -> Option<io::Error> {
         lock(self.0.as_ref()?).fault.take()
     }
 
-    /// Writes the lines in order: those of an interrupted study are the same then.
+    /// Rewrites the file with its lines in order. The file of an interrupted study is then reproducible.
     ///
     /// # Errors
-    /// What cannot be written.
+    /// Fails if the file cannot be written.
     pub(crate) fn sort(&self) -> io::Result<()> {
         let Some(lines) = &self.0 else { return Ok(()) };
         let lines = lock(lines);
@@ -121,7 +127,7 @@ impl Journal {
         folder::write(&lines.path, text.as_bytes())
     }
 
-    /// Removes the file: all results are where they belong.
+    /// Deletes the file after all results have been written elsewhere.
     pub fn remove(&self) {
         if let Some(lines) = &self.0 {
             let mut lines = lock(lines);
@@ -156,7 +162,7 @@ fn lock(lines: &Mutex<Lines>) -> MutexGuard<'_, Lines> {
     lines.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-/// Maps as lists: keys of JSON are words.
+/// Serialises maps as lists of pairs, because keys of JSON objects are strings.
 pub(crate) mod pairs {
     use serde::{Deserialize, Deserializer, Serialize, Serializer};
     use std::collections::BTreeMap;
@@ -175,7 +181,7 @@ pub(crate) mod pairs {
     }
 }
 
-/// Numbers, words and lists: there is nothing that JSON could refuse.
+/// Serialises numbers, strings and lists, for which JSON has no errors.
 fn json(what: &impl Serialize) -> String {
     serde_json::to_string(what).unwrap_or_default()
 }

@@ -1,14 +1,18 @@
-//! Many runs of one scene: variants side by side, steady motion found directly, the curves of a machine.
+//! Studies of a scenario: parameter sweeps, periodic orbits, curves, sensitivities, fits, optima and maps.
 //!
-//! Knows no terminal and draws nothing, so that any door can stand on it. What it computes does not depend on the number of
-//! threads.
+//! The crate has no terminal output and draws no plots. Results do not depend on the number of threads.
 //!
-//! In reading order: [`sweep`], many runs in parts on disk, with `number` (numbers of a scene that are set without reading it again),
-//! `sketch` (those of its waveforms) and `figure` (what is kept of such a run); [`steady`], the motion that repeats itself every period, and how it
-//! comes back when it is disturbed; [`curve`], what that motion makes of a number that is varied; [`sensitivity`], by how much a
-//! figure changes with each number of the scenario; [`fit`], numbers that fit what was measured; [`optimum`], where a result is largest or smallest; [`map`], a result over two numbers,
-//! and borders between slip regimes; `published`, the files of curves, branches and derivatives, whole or interrupted.
-//! `each` does many things side by side, `grip` tells whether something holds a body, `interruptible` lets a run be given up.
+//! Modules in reading order:
+//! * [`sweep`]: many runs, in parts on disk. `number` and `sketch` set parameters without reading the scenario again;
+//!   `figure` evaluates a run.
+//! * [`steady`]: periodic orbits and their stability.
+//! * [`curve`]: step length and velocity versus one parameter.
+//! * [`sensitivity`]: derivatives of results with respect to parameters.
+//! * [`fit`]: parameters fitted to a measurement.
+//! * [`optimum`]: parameters with the largest or smallest result.
+//! * [`map`]: a result over two parameters, and borders between slip regimes.
+//! * `published`: output files of complete and interrupted studies.
+//! * Helpers: `each` (parallel map), `grip` (does friction hold a body?), `interruptible` (cancellation of a run).
 
 pub mod curve;
 mod each;
@@ -35,7 +39,7 @@ pub use report::summary;
 use std::collections::HashSet;
 use stickslip_quantity::{Definition, report as read};
 
-/// What every column and key of runs and studies is, and what `info --json` prints.
+/// Returns the definitions of all columns and keys in the output of runs, studies and `info --json`.
 #[must_use]
 pub fn definitions() -> Vec<Definition> {
     let mut all = stickslip_run::definitions();

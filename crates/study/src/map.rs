@@ -1,8 +1,9 @@
-//! Maps: a result over two numbers of a scenario.
+//! Maps: a result over two parameters of a scenario.
 //!
-//! In reading order: [`Axis`] (a number and its range), [`Map`] (what is asked for), [`Field`] (what was found), `regime` (stick, partial
-//! and gross slip of one case), `trace` (borders between regimes), `squares` (lines through a grid, contours as well), [`Overlay`]
-//! (measured points), `table` (the files).
+//! In reading order:
+//! * [`Axis`]: parameter and range; [`Map`]: settings; [`Field`]: result.
+//! * `regime`: slip regime of one case; `trace`: borders between regimes; `squares`: contour lines by marching squares.
+//! * [`Overlay`]: measured points; `table`: output files.
 
 mod axis;
 mod error;
@@ -28,94 +29,94 @@ use std::path::Path;
 use stickslip_run::{Job, Watcher};
 use stickslip_scenario::suggestion;
 
-/// Points of an axis where nobody says: of numbers, and of regimes that need runs.
+/// Default numbers of points on an axis: for results, and for regimes from runs.
 const POINTS: usize = 33;
 const POINTS_OF_RUNS: usize = 5;
-/// Where it is asked whether runs are needed: at no end and in no middle.
+/// Point, relative to the axes, at which the program checks whether runs are needed.
 const PROBE: [f64; 2] = [0.37, 0.61];
-/// Contours of a map, about.
+/// Approximate number of contour levels.
 const CONTOURS: f64 = 7.0;
 
-/// Digits of a study's hash that name the folder of its parts.
+/// Number of hash digits in the name of the folder of parts.
 const HASH: usize = 12;
 
-/// A map that is asked for.
+/// Settings of a map.
 pub struct Map {
     /// The scenario.
     pub job: Job,
-    /// The number to the right and that upwards.
+    /// Parameters of the x and y axis.
     pub axes: [Axis; 2],
-    /// The result.
+    /// Name of the result.
     pub of: String,
-    /// Its SI unit; empty of words and plain numbers.
+    /// SI unit of the result; empty for words and plain numbers.
     pub unit: &'static str,
-    /// Points of either axis.
+    /// Numbers of points on both axes.
     pub points: [usize; 2],
-    /// Where runs that look for borders of regimes are looked up and written down.
+    /// Journal of the runs that trace borders of regimes.
     pub journal: Journal,
     kind: Kind,
 }
 
-/// What is mapped.
+/// Type of a map.
 enum Kind {
-    /// A result as studies have them: a grid of runs.
+    /// A result of a study with a grid of runs.
     Result(Box<Study>),
-    /// The regime of the contact at this place, and whether every look at it is a run.
+    /// Slip regime of the contact with this index; true if every case needs a run.
     Regime(usize, bool),
 }
 
-/// What is asked for, as somebody writes it.
+/// Settings of a map as text.
 #[derive(Debug, Clone, Default)]
 pub struct Asked {
-    /// Path and range of the number to the right, such as `0.1..0.6`.
+    /// Key path and range of the x axis; the range has a form such as `0.1..0.6`.
     pub x: (String, String),
-    /// Path and range of the number upwards.
+    /// Key path and range of the y axis.
     pub y: (String, String),
-    /// Whether either axis has as many points in every decade.
+    /// Whether the axes are logarithmic.
     pub logarithmic: [bool; 2],
-    /// The result.
+    /// Name of the result.
     pub of: String,
-    /// Points of either axis, 2 to 1000.
+    /// Numbers of points on both axes, 2 to 1000.
     pub points: Option<[usize; 2]>,
-    /// Whether regimes are taken from runs although waveforms alone prescribe the motion.
+    /// Whether regimes are results of runs although waveforms alone prescribe the motion.
     pub by_runs: bool,
 }
 
-/// A border between two regimes.
+/// Border between two regimes.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Border {
-    /// What lies on its two sides, the lesser slip first.
+    /// Regimes on both sides, the one with less slip first.
     pub between: [Regime; 2],
-    /// Points along it, SI; a closed one ends where it begins.
+    /// Points along the border, SI. The last point of a closed border equals the first.
     pub points: Vec<[f64; 2]>,
 }
 
-/// What was found.
+/// Result of a map.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Field {
-    /// Values of the grid to the right, SI.
+    /// Grid values of the x axis, SI.
     pub xs: Vec<f64>,
-    /// Values of the grid upwards, SI.
+    /// Grid values of the y axis, SI.
     pub ys: Vec<f64>,
-    /// The result at each point, column by column: a number, the place of a word, NaN where there is none.
+    /// Result at each grid point, column by column: a number or the index of a word. NaN without result.
     pub values: Vec<f64>,
-    /// The words; none of numbers.
+    /// Words of the result; `None` for numbers.
     pub words: Option<Vec<String>>,
     /// Borders between regimes.
     pub borders: Vec<Border>,
-    /// Contours of numbers: a level, and its lines.
+    /// Contours: levels with their lines.
     pub contours: Vec<(f64, Vec<Vec<[f64; 2]>>)>,
-    /// Number of runs that were made, of results those of the whole grid.
+    /// Number of runs. For results it is the number of grid points.
     pub runs: usize,
-    /// Why points have no result, with their number, the most frequent first.
+    /// Reasons of missing results with their numbers, the most frequent first.
     pub faults: Vec<(String, usize)>,
 }
 
 impl Map {
-    /// Checks what is asked for; the scenario's values in `set` are those of its job.
+    /// Checks the settings. `set` has the overrides that are already part of the job.
     ///
     /// # Errors
-    /// A path, a range or a result that the scenario does not have.
+    /// Fails if a path, range or result does not exist in the scenario.
     pub fn new(job: Job, (file, set): (&Path, &[(String, String)]), asked: &Asked) -> Result<Self, MapError> {
         let [x, y] = [("--x", &asked.x, 0), ("--y", &asked.y, 1)]
             .map(|(option, one, place)| Axis::new(&job, option, one, asked.logarithmic[place]));
@@ -146,7 +147,7 @@ impl Map {
         Ok(map)
     }
 
-    /// Whether a regime is asked for, and waveforms alone do not tell it.
+    /// Returns whether the map shows a regime that needs runs, because waveforms alone do not prescribe the motion.
     fn needs_runs(&self) -> bool {
         match self.kind {
             Kind::Result(_) => false,
@@ -154,22 +155,22 @@ impl Map {
         }
     }
 
-    /// Whether the result is a regime whose borders are traced.
+    /// Returns whether the map shows a regime with traced borders.
     #[must_use]
     pub fn is_of_regime(&self) -> bool {
         matches!(self.kind, Kind::Regime(..))
     }
 
-    /// Number of cases of the grid.
+    /// Returns the number of grid points.
     #[must_use]
     pub fn cases(&self) -> usize {
         self.points[0] * self.points[1]
     }
 
-    /// Removes what an earlier command has computed of a grid of runs.
+    /// Deletes the results of earlier runs of the grid.
     ///
     /// # Errors
-    /// What cannot be removed.
+    /// Fails if files cannot be deleted.
     pub fn remove(&self, parts: &Path) -> Result<(), MapError> {
         match &self.kind {
             Kind::Result(study) => Ok(study.remove(&parts.join(&study.hash[..HASH]))?),
@@ -177,11 +178,11 @@ impl Map {
         }
     }
 
-    /// Computes the map on so many threads; the watcher is told how many cases are done. Finished parts of a grid of runs stay in the
-    /// folder `parts`, and are not computed again.
+    /// Computes the map on `threads` threads. The watcher receives the number of finished cases. Finished parts of a
+    /// grid are kept in the folder `parts` and are not computed again.
     ///
     /// # Errors
-    /// Parts that cannot be written or read; an interruption; a map without any result.
+    /// Fails if parts cannot be written or read, the watcher interrupts, or no point has a result.
     pub fn compute(
         &self,
         parts: &Path,
@@ -189,7 +190,7 @@ impl Map {
         watcher: &(dyn Watcher + Sync),
     ) -> Result<Field, MapError> {
         let field = match &self.kind {
-            // Maps of other results or ranges have parts of their own.
+            // Each map has its own folder of parts.
             Kind::Result(study) => self.grid(study, &parts.join(&study.hash[..HASH]), (threads, watcher))?,
             Kind::Regime(c, by_runs) => {
                 trace::trace(self, &Looks::new(self, *c, *by_runs, watcher), threads)?
@@ -202,7 +203,7 @@ impl Map {
         Ok(field)
     }
 
-    /// The grid of a result, and its contours.
+    /// Computes the grid of a result and its contours.
     fn grid(
         &self,
         study: &Study,
@@ -224,7 +225,7 @@ impl Map {
         Ok(Field { xs, ys, values, words, contours, runs: self.cases(), faults, ..Field::default() })
     }
 
-    /// Contours at round levels.
+    /// Returns contours at round levels.
     fn contours(&self, values: &[f64]) -> Vec<(f64, Vec<Vec<[f64; 2]>>)> {
         let levels = squares::levels(values, CONTOURS);
         let at = |share: [f64; 2]| [0, 1].map(|axis| self.axes[axis].at(share[axis]));
@@ -237,7 +238,7 @@ impl Map {
     }
 }
 
-/// One more of a kind of reason.
+/// Counts a reason.
 fn count(faults: &mut Vec<(String, usize)>, why: String) {
     match faults.iter_mut().find(|(known, _)| *known == why) {
         Some((_, count)) => *count += 1,
@@ -245,7 +246,7 @@ fn count(faults: &mut Vec<(String, usize)>, why: String) {
     }
 }
 
-/// The place of a contact by its name.
+/// Returns the index of a contact by its name.
 fn contact(job: &Job, name: &str) -> Result<usize, MapError> {
     let names: Vec<&str> = job.model.contacts().map(|(name, _)| name).collect();
     names.iter().position(|known| *known == name).ok_or_else(|| MapError::Of {
@@ -255,7 +256,7 @@ fn contact(job: &Job, name: &str) -> Result<usize, MapError> {
     })
 }
 
-/// The study of a grid: its last number changes fastest.
+/// Returns the study of the grid. The y parameter changes fastest.
 fn study(
     file: &Path,
     set: &[(String, String)],
@@ -267,8 +268,8 @@ fn study(
         format!("{}:{}", json!(axis.path), json!({ kind: [axis.range[0], axis.range[1], count] }))
     });
     let vary = vary.collect::<Vec<_>>().join(",");
-    // In the order in which they were given: a later value may belong to what an earlier one has set. The last of a path counts, and none
-    // of what varies.
+    // Overrides keep their order, because a later one may belong to a part that an earlier one creates. The last
+    // override of a path counts; overrides of the axes' parameters are dropped.
     let counts = |(place, (path, _)): &(usize, &(String, String))| {
         set[place + 1..].iter().all(|(later, _)| later != path) && axes.iter().all(|axis| axis.path != *path)
     };
@@ -293,7 +294,7 @@ fn study(
     })
 }
 
-/// A line of help where there is any.
+/// Formats a help line, if there is one.
 fn help(text: Option<String>) -> String {
     text.map_or_else(String::new, |text| format!("\n   help: {text}"))
 }

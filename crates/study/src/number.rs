@@ -1,5 +1,6 @@
-//! Numbers of a scene that variants set: places in what was read, for whoever sets thousands. In the file they are
-//! [`stickslip_scenario::Parameter`]s.
+//! Numeric parameters of a scenario that sweeps set directly, without reading the scenario file again. The general form
+//! for any key of the file is
+//! [`stickslip_scenario::Parameter`].
 
 use crate::sketch::{Quantity, Sketch};
 use std::fmt;
@@ -8,24 +9,26 @@ use stickslip_drive::scene::{Axis, ContactStart, Load, Named, Normal, Varying};
 use stickslip_drive::{Scene, WaveformError};
 use thiserror::Error;
 
-/// A number of a scene, SI, by the place of its part: what a key path such as `bodies.slider.mass` means, looked up once.
+/// A parameter of a scenario in SI units, identified by the index of its part. It is resolved once from a key path such
+/// as `bodies.slider.mass`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Number {
-    /// `bodies.NAME.mass`, kg, with what stacks at its ends have given it.
+    /// `bodies.NAME.mass`, kg, including mass from attached piezo stacks.
     Mass(usize),
     /// `bodies.NAME.inertia`, kg m².
     Inertia(usize),
-    /// `bodies.NAME.start.x`, `.z` and `.pitch`: where a free coordinate starts, m or rad.
+    /// `bodies.NAME.start.x`, `.z` and `.pitch`: initial position of a free coordinate, m or rad.
     Position(usize, Axis),
-    /// `bodies.NAME.start.vx`, `.vz` and `.vpitch`: how fast it starts, m/s or rad/s.
+    /// `bodies.NAME.start.vx`, `.vz` and `.vpitch`: initial velocity, m/s or rad/s.
     Velocity(usize, Axis),
-    /// `contacts.NAME.friction`: Coulomb's coefficient.
+    /// `contacts.NAME.friction`: coefficient of friction.
     Friction(usize),
-    /// `contacts.NAME.normal.force` (N), `.indentation` (m) and `.radius` (m), whichever is constant there.
+    /// `contacts.NAME.normal.force` (N), `.indentation` (m) or `.radius` (m): the one that the contact has, if
+    /// constant.
     Normal(usize),
     /// `contacts.NAME.gap`, m.
     Gap(usize),
-    /// `contacts.NAME.start.force` (N) and `.displacement` (m), whichever is there.
+    /// `contacts.NAME.start.force` (N) or `.displacement` (m): the one that the contact has.
     Preload(usize),
     /// `springs.NAME.stiffness`, N/m.
     SpringStiffness(usize),
@@ -37,7 +40,7 @@ pub(crate) enum Number {
     ActuatorStiffness(usize),
     /// `actuators.NAME.damping`, N s/m.
     ActuatorDamping(usize),
-    /// `loads[PLACE].x`, `.z` (N) and `.pitch` (N m), where constant.
+    /// `loads[INDEX].x`, `.z` (N) and `.pitch` (N m), if constant.
     Load(usize, Axis),
     /// `gravity.acceleration`, m/s².
     Gravity,
@@ -47,41 +50,42 @@ pub(crate) enum Number {
     Waveform(usize, Quantity),
 }
 
-/// A key path that names no number which variants can set.
+/// Error: the key path does not name a parameter that variants can set.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
-#[error("\"{path}\" is no number of this scene that variants can set: {why}")]
+#[error("\"{path}\" is not a number that variants of this scenario can set: {why}")]
 pub(crate) struct NumberError {
-    /// As it was given.
+    /// Key path as given.
     pub path: String,
-    /// What would be one.
+    /// Reason, or what was expected.
     pub why: String,
 }
 
-/// A number that its part refuses.
+/// Error: the part rejects the value of a parameter.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub(crate) enum ValueError {
-    /// A coefficient of friction.
+    /// Invalid coefficient of friction.
     #[error(transparent)]
     Friction(#[from] FrictionError),
-    /// A waveform.
+    /// Invalid waveform.
     #[error(transparent)]
     Waveform(#[from] WaveformError),
 }
 
 impl Number {
-    /// The number that a key path means in a scene.
+    /// Returns the parameter that a key path names in a scenario.
     ///
     /// # Errors
-    /// Parts that do not exist, keys that are no number, and numbers that this scene does not have.
+    /// Fails if the part does not exist, the key is not a number, or the scenario does not set the parameter to a
+    /// constant.
     pub(crate) fn named(scene: &Scene, path: &str) -> Result<Self, NumberError> {
         let found = read(scene, path).and_then(|number| match number.get(scene) {
             Some(_) => Ok(number),
-            None => Err("this part does not have it, or it varies".to_owned()),
+            None => Err("the part has no such number, or the number varies in time".to_owned()),
         });
         found.map_err(|why| NumberError { path: path.to_owned(), why })
     }
 
-    /// Its value; none where the scene has no such number.
+    /// Returns the value of the parameter, or `None` if the scenario does not have it.
     pub(crate) fn get(self, scene: &Scene) -> Option<f64> {
         let body = |b: usize| scene.bodies.get(b).map(|named| &named.part);
         let contact = |c: usize| scene.contacts.get(c).map(|named| &named.part);
@@ -114,8 +118,13 @@ impl Number {
         }
     }
 
-    /// Sets it where it is a number of the scene itself; those of waveforms are drawn by a [`Sketch`], and parts that do not have
-    /// it stay as they are.
+    /// Sets the parameter. Has no effect on waveforms, which a [`Sketch`] changes, or on parts without the parameter.
+    ///
+    /// # Errors
+    /// Fails if the coefficient of friction is invalid.
+    ///
+    /// # Panics
+    /// Panics if the part does not exist.
     pub(crate) fn set(self, scene: &mut Scene, value: f64) -> Result<(), ValueError> {
         match self {
             Self::Mass(b) => scene.bodies[b].part.mass = Some(value),
@@ -150,7 +159,7 @@ impl Number {
     }
 }
 
-/// A number as an override of the scenario has it: as short as it can be, and read back to the same bits.
+/// Formats a number for `--set`: the shortest decimal number that is read back to the same bits.
 pub(crate) fn text(value: f64) -> String {
     format!("{value:?}").trim_end_matches(".0").to_owned()
 }
@@ -179,13 +188,13 @@ fn coordinate(scene: &mut Scene, body: usize, axis: Axis) -> &mut stickslip_driv
     }
 }
 
-/// The place of a part by its name.
+/// Returns the index of a part by its name.
 fn place<T>(parts: &[Named<T>], name: &str) -> Result<usize, String> {
     let known = || parts.iter().map(|part| part.name.as_str()).collect::<Vec<_>>().join(", ");
     parts.iter().position(|part| part.name == name).ok_or_else(|| format!("expected one of {}", known()))
 }
 
-/// What a key path means.
+/// Resolves a key path.
 fn read(scene: &Scene, path: &str) -> Result<Number, String> {
     let keys: Vec<&str> = path.split('.').collect();
     let axis = |key: &str| [Axis::X, Axis::Z, Axis::Pitch].into_iter().find(|axis| axis.key() == key);
@@ -215,7 +224,7 @@ fn read(scene: &Scene, path: &str) -> Result<Number, String> {
                 (ContactStart::Force(_), "force") | (ContactStart::Displacement(_), "displacement") => {
                     Number::Preload(c)
                 }
-                _ => return Err("the contact does not start so".to_owned()),
+                _ => return Err("the contact has another kind of start".to_owned()),
             }
         }
         ["springs", name, "stiffness"] => Number::SpringStiffness(place(&scene.springs, name)?),
@@ -241,11 +250,11 @@ fn read(scene: &Scene, path: &str) -> Result<Number, String> {
     })
 }
 
-/// Where a body may start.
+/// Keys of `bodies.NAME.start`.
 const STARTS: [&str; 6] = ["x", "z", "pitch", "vx", "vz", "vpitch"];
-/// The parts of a load.
+/// Keys of a load.
 const AXES: [&str; 3] = ["x", "z", "pitch"];
-/// What can be set.
+/// Examples of key paths that can be set, for error messages.
 const KEYS: [&str; 10] = [
     "bodies.NAME.mass",
     "bodies.NAME.start.x",

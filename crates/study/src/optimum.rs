@@ -1,8 +1,9 @@
-//! An optimum: the maximum or minimum of a result over some numbers of a scenario, or over the shape of a waveform.
+//! Optimisation: maximum or minimum of a result over parameters of a scenario or the shape of a waveform.
 //!
-//! In reading order: `space` (what a point of the unit cube means) with `shape` (waveforms within the limits of a driver), `search`
-//! (local searches from many points; every evaluation is in the journal), `flatness` (how fast the result falls beside the optimum), `report` (what
-//! is written of all that).
+//! Modules in reading order:
+//! * `space`: from a point of the unit cube to the scenario; `shape`: waveforms within driver limits.
+//! * `search`: local searches from several points. Every evaluation is written to a journal.
+//! * `flatness`: decrease of the result near the optimum; `report`: output.
 
 mod flatness;
 mod report;
@@ -28,40 +29,40 @@ use stickslip_scenario::{Goal, ScenarioError, StudyFile};
 /// Name of the journal in the folder of the results.
 const JOURNAL: &str = "evaluations.txt";
 
-/// Results of a point, none of what is not finite, or why it has none.
+/// Results of a point, `None` for values that are not finite; or the reason of a failure.
 type Written = Result<Vec<Option<f64>>, String>;
 
-/// Factors of the period by which an optimum is judged: ± 1 %.
+/// Factors on the period for a robust optimum: ± 1 %.
 const STRETCHES: [f64; 3] = [0.99, 1.0, 1.01];
-/// Most further searches from better points that the sections through the best one come upon.
+/// Maximum number of further searches from better points found by sections.
 const ROUNDS: usize = 8;
-/// Evaluations of a local search, times the number of coordinates and one.
+/// Evaluations of a local search, per number of coordinates plus one.
 const EVALUATIONS: usize = 40;
 
-/// A search for an optimum, read and checked.
+/// An optimisation problem, read and checked.
 pub struct Optimum {
-    /// The scenario that is optimised.
+    /// The scenario to be optimised.
     pub job: Job,
     pub(crate) goal: Goal,
     pub(crate) wanted: Wanted,
     pub(crate) space: Space,
-    /// Factors of the period at which a point is evaluated.
+    /// Factors on the period with which a point is evaluated.
     stretches: Vec<f64>,
     seed: u64,
-    /// SHA-256 of all that the evaluations depend on.
+    /// SHA-256 of everything on which the evaluations depend.
     pub hash: String,
 }
 
-/// What a search has found.
+/// Result of an optimisation.
 #[derive(Debug, Clone)]
 pub struct Best {
     pub(crate) point: Vec<f64>,
-    /// The result at each factor of the period.
+    /// Result for each factor on the period.
     pub(crate) values: Vec<f64>,
     pub(crate) locals: Vec<Local>,
-    /// How the result falls beside the optimum, number by number.
+    /// Sections: the result along each coordinate through the optimum.
     pub sections: Vec<Section>,
-    /// Evaluations, and those without a result.
+    /// Number of evaluations, and of those without a result.
     pub(crate) counts: (usize, usize),
 }
 
@@ -69,15 +70,16 @@ impl Optimum {
     /// Reads and checks a study file.
     ///
     /// # Errors
-    /// Whatever is wrong with it or its scenario, with its place; a study of cases.
+    /// Fails if the file or its scenario is invalid, with the location of the error; or if the study has cases instead
+    /// of a goal.
     pub fn load(path: &Path) -> Result<Self, ScenarioError> {
         Self::new(&StudyFile::load(path)?)
     }
 
-    /// The same of a text; see [`StudyFile::from_str`].
+    /// Reads and checks a study from text; see [`StudyFile::from_str`].
     ///
     /// # Errors
-    /// Whatever is wrong with it or its scenario, with its place; a study of cases.
+    /// Fails as [`Self::load`] does.
     pub fn from_str(text: &str, (file, stem): (&str, &str), base: &Path) -> Result<Self, ScenarioError> {
         Self::new(&StudyFile::from_str(text, (file, stem), base)?)
     }
@@ -85,11 +87,12 @@ impl Optimum {
     fn new(file: &StudyFile) -> Result<Self, ScenarioError> {
         let Some(goal) = file.goal.clone() else {
             let help =
-                "`stickslip study run` takes it; an optimum needs \"maximise\" or \"minimise\"".to_owned();
+                "run it with `stickslip study run`; an optimisation needs \"maximise\" or \"minimise\""
+                    .to_owned();
             return Err(file.refusal(
                 "vary",
                 None,
-                "this study asks for cases, not for an optimum",
+                "this study has cases, it is not an optimisation",
                 Some(help),
             ));
         };
@@ -97,12 +100,17 @@ impl Optimum {
         let job = Job::new(file.scenario.clone(), file.name.clone(), PathBuf::new())?;
         let wanted = Wanted::named(file, &job, (key, &goal.result))?;
         if wanted.codes.is_some() {
-            return Err(file.refusal(key, None, "this result is a word: an optimum needs a number", None));
+            return Err(file.refusal(
+                key,
+                None,
+                "this result is a word: an optimisation needs a number",
+                None,
+            ));
         }
         let space = Space::new(&goal, &job);
         let stretches = match (goal.worst_of_period, space.has_period()) {
             (Some(true), false) => {
-                let message = "no named waveform has a period that could be varied";
+                let message = "no waveform by name has a variable period";
                 return Err(file.refusal("worst_of_period", None, message, None));
             }
             (Some(false), _) | (None, false) => vec![1.0],
@@ -119,14 +127,14 @@ impl Optimum {
         Ok(Self { job, goal, wanted, space, stretches, seed: file.seed, hash })
     }
 
-    /// Evaluations at most, of so many periods each.
+    /// Returns the maximum number of evaluations, each with one run per period factor.
     #[must_use]
     pub fn most_evaluations(&self) -> u64 {
         let starts = self.goal.starts;
         1 + starts * (SCREENED + self.evaluations() as u64) + flatness::most(self.dimensions()) as u64
     }
 
-    /// Number of coordinates.
+    /// Returns the number of coordinates.
     #[must_use]
     pub fn dimensions(&self) -> usize {
         self.space.names().len()
@@ -136,11 +144,14 @@ impl Optimum {
         self.goal.evaluations.map_or(EVALUATIONS * (self.dimensions() + 1), |most| most as usize)
     }
 
-    /// Searches on so many threads; the watcher is told how many evaluations there are. Each of them is written to a journal in the
-    /// folder, from which an interrupted search continues; `is_fresh` begins anew. What it finds does not depend on the threads.
+    /// Runs the optimisation on `threads` threads. The result does not depend on the number of threads.
+    ///
+    /// The watcher receives the number of evaluations. Each evaluation is written to a journal in the folder `out`,
+    /// from which an interrupted search continues; `is_fresh` starts again.
     ///
     /// # Errors
-    /// The journal of another search, a folder that cannot be written, an interruption, and a search in which no case has the result.
+    /// Fails if the journal belongs to another search, the folder cannot be written, the watcher interrupts, or no
+    /// point has the result.
     pub fn run(
         &self,
         out: &Path,
@@ -152,7 +163,7 @@ impl Optimum {
         fs::create_dir_all(out).map_err(failed)?;
         let (journal, held) = Journal::held(path.clone(), &self.hash, is_fresh).map_err(failed)?;
         if held == Held::Foreign {
-            let why = "its scenario, ranges or goal were others, or another version of the program wrote it";
+            let why = "its scenario, ranges or goal differ, or another version of the program wrote it";
             return Err(StudyError::Foreign { path, why: why.to_owned() });
         }
         let bench = Bench { optimum: self, journal, path: &path, watcher, done: AtomicU64::new(0) };
@@ -162,7 +173,7 @@ impl Optimum {
         let locals = search::search(&self.space.present(&self.job), effort, &judge);
         bench.check()?;
         let Some(mut locals) = locals else { return Err(StudyError::AllFailed(bench.reason())) };
-        // The first of equal ones; there is one at least.
+        // The first of equal points; there is at least one.
         let better = |best: Option<(Vec<f64>, f64)>, local: &Local| match best {
             Some(best) if best.1 >= local.to.1 => Some(best),
             _ => Some(local.to.clone()),
@@ -172,7 +183,7 @@ impl Optimum {
         let sections = loop {
             let (sections, beside) = flatness::sections(&self.space, &point, threads, &judge);
             bench.check()?;
-            // What lies beside the best point may be better: across a fold of the result no simplex gets.
+            // A point on a section may be better, because the simplex cannot cross a ridge of the result.
             let Some(found) = beside.filter(|found| found.1 > value && rounds < ROUNDS) else {
                 break sections;
             };
@@ -188,13 +199,13 @@ impl Optimum {
         Ok(Best { point, values, locals, sections, counts: bench.counts() })
     }
 
-    /// The higher, the better, after this factor.
+    /// Returns the factor with which larger values are better.
     pub(crate) fn sign(&self) -> f64 {
         if self.goal.is_maximum { 1.0 } else { -1.0 }
     }
 }
 
-/// Where points are evaluated.
+/// Evaluates points and stores their results.
 struct Bench<'o> {
     optimum: &'o Optimum,
     journal: Journal,
@@ -204,7 +215,7 @@ struct Bench<'o> {
 }
 
 impl Bench<'_> {
-    /// Whether the search was interrupted, or could not be written down.
+    /// Returns an error if the search was interrupted or the journal could not be written.
     fn check(&self) -> Result<(), StudyError> {
         match self.journal.fault() {
             Some(source) => Err(StudyError::Disk { path: self.path.to_owned(), source }),
@@ -213,7 +224,7 @@ impl Bench<'_> {
         }
     }
 
-    /// Number of evaluations, and of those without a result.
+    /// Returns the number of evaluations, and of those without a result.
     fn counts(&self) -> (usize, usize) {
         let all = self.journal.all::<Written>();
         let has_none =
@@ -221,13 +232,13 @@ impl Bench<'_> {
         (all.len(), all.iter().filter(has_none).count())
     }
 
-    /// Why the first point without a result has none.
+    /// Returns the reason of the first point without a result.
     fn reason(&self) -> String {
         let reasons = self.journal.all::<Written>().into_iter().find_map(Result::err);
         reasons.unwrap_or_else(|| "the result has no value".to_owned())
     }
 
-    /// The worst of a point's results, the higher the better; NaN where one of them is missing.
+    /// Returns the worst result of a point, with larger values better. Returns NaN if a result is missing.
     fn judge(&self, point: &[f64]) -> f64 {
         let sign = self.optimum.sign();
         let worst =
@@ -240,7 +251,7 @@ impl Bench<'_> {
         }
     }
 
-    /// The results of a point at each factor of the period, or why it has none.
+    /// Returns the results of a point for each period factor, or the reason of a failure.
     fn found(&self, point: &[f64]) -> Result<Vec<f64>, String> {
         let compute = || {
             let found = match self.evaluate(point) {
@@ -253,7 +264,7 @@ impl Bench<'_> {
             self.watcher.reached((self.done.fetch_add(1, Ordering::Relaxed) + 1) as f64);
             found
         };
-        // Without a reason somebody wanted an end.
+        // An empty reason is an interruption.
         let is_kept = |found: &Written| !found.as_ref().is_err_and(String::is_empty);
         let found = self.journal.found(&point, compute, is_kept)?;
         Ok(found.into_iter().map(|value| value.unwrap_or(f64::NAN)).collect())

@@ -1,25 +1,26 @@
-//! The files of a study: a table, what is told of all, and pictures. One that was interrupted has names of its own, and a finished
-//! one stays beside it.
+//! Output files of a study: table, JSON report and plots. An interrupted study has its own file names and does not
+//! replace a complete one.
 
 use serde::Serialize;
 use std::io;
 use stickslip_run::folder::Folder;
 use stickslip_run::hash;
 
-/// Names of a table and of what is told of all: of a whole study, and of one that was interrupted.
+/// File names of table and report: of a complete study, then of an interrupted one.
 pub(crate) type Names = [[&'static str; 2]; 2];
 
-/// Word of what is told for a study that is whole or not.
+/// Returns the `status` of a report: `interrupted` or `done`.
 pub(crate) fn status(is_cut: bool) -> &'static str {
     if is_cut { "interrupted" } else { "done" }
 }
 
-/// Writes a table, pictures and last what is told of all, which `report` makes of the names of all files and the hash of the table.
-/// Pictures of the names `stale` that are not among them go, and with a whole study what one before it had left when it was
-/// interrupted. Returns the names.
+/// Writes table, plots and, last, the report. Returns the names of all files.
+///
+/// `report` creates the report from the names of all files and the hash of the table. Old plots named in `stale` are
+/// deleted if they are not written again. A complete study also deletes the files of an interrupted one.
 ///
 /// # Errors
-/// What the system says; nothing that was there is gone then, unless it says so while names are given.
+/// Fails on file system errors. Old files are kept then, unless the error occurs while the new files are renamed.
 pub(crate) fn publish<R: Serialize>(
     mut folder: Folder,
     (names, is_cut): (&Names, bool),

@@ -1,4 +1,4 @@
-//! The whole summary of a run: what was recorded of it, and what the drive would settle on.
+//! Summary of a run, including the periodic orbit that the drive would approach.
 
 use crate::steady::outlook;
 use stickslip_drive::Wall;
@@ -6,13 +6,14 @@ use stickslip_run::outlook::Outlook;
 use stickslip_run::summary::{Status, Summary};
 use stickslip_run::{Job, Outcome};
 
-/// Why there is no steady motion where somebody did not want to wait for it.
-pub const GIVEN_UP: &str = "no steady motion: interrupted while it was looked for";
+/// Message of an interrupted search for the periodic orbit.
+pub const GIVEN_UP: &str = "no periodic orbit: the search was interrupted";
 
-/// All that `summary.json` says of a run but its files, which are known once they are written; and whether the search for the steady
-/// motion was given up, since `goes_on`, which is asked before every period, said so.
+/// Returns the content of `summary.json` without file names, and whether the search for the periodic orbit was
+/// interrupted.
 ///
-/// A run that did not come to its end has no such search. It takes what the run has left of its limit of wall time, and no more.
+/// `goes_on` is called before every period; `false` interrupts the search. Only complete runs have a search. The search
+/// may use the remaining wall time of the run's limit.
 pub fn summary(job: &Job, outcome: &Outcome, goes_on: &dyn Fn() -> bool) -> (Summary, bool) {
     let mut summary = Summary::new(job, outcome);
     if summary.status != Status::Done {

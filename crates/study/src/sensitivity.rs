@@ -1,11 +1,15 @@
-//! By how much figures of a run change with the numbers of its scenario: which number matters?
+//! Sensitivities: derivatives of a run's results with respect to parameters of its scenario.
 //!
-//! A [`Sensitivity`] is of a scenario, some [`Figure`]s and some [`Quantity`]s; [`Sensitivity::take`] tells the [`Derivative`] of
-//! each figure with respect to each quantity, with how far it may be off. Where no number is true it tells why, and both sides.
+//! A [`Sensitivity`] has a scenario, some [`Figure`]s (results) and some [`Quantity`]s (parameters).
+//! [`Sensitivity::take`] computes the [`Derivative`] of each result with respect to each
+//! parameter, with its error. If there is no derivative, it gives the reason and the slopes on both sides.
 //!
-//! In reading order: `figure` and `quantity`, what is asked; `sample`, what a
-//! variant comes to; `ladder`, which variants are run; `bench`, where; `stencil`, slopes from their values; `derivative`, what these mean; `table`, what
-//! is told of them.
+//! Modules in reading order:
+//! * `figure`: results; `quantity`: parameters; `sample`: run of a variant.
+//! * `ladder`: parameter values of the variants; `bench`: parallel runs.
+//! * `five`: slope from four runs; `stencil`: slope by extrapolation from many runs; `derivative`: evaluation of both
+//!   sides.
+//! * `table`: output.
 
 mod bench;
 mod derivative;
@@ -36,16 +40,17 @@ use sample::{Happened, Ran, Sample};
 use std::sync::atomic::AtomicUsize;
 use stickslip_run::{Job, Watcher};
 
-/// What derivatives are asked for.
+/// Request for derivatives.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Asked {
-    /// Names of figures; those that stand out where there are none.
+    /// Names of results; empty for the default ones.
     pub of: Vec<String>,
-    /// Key paths of quantities; all that say what there is and what drives it where there are none.
+    /// Key paths of parameters; empty for all parameters of the model.
     pub to: Vec<String>,
-    /// Whether step and speed of steady motion are among the figures.
+    /// Adds the step length and velocity of the periodic orbit to the results.
     pub steady: bool,
-    /// Local error per step of the runs, relative to natural scales, whatever the scenario's own stepper is: 1e-13 to 1e-6.
+    /// Tolerance of the local error per time step, relative to natural scales: 1e-13 to 1e-6. It replaces the
+    /// integrator of the scenario.
     pub tolerance: f64,
 }
 
@@ -55,56 +60,56 @@ impl Default for Asked {
     }
 }
 
-/// Figures of a scenario and what they may depend on.
+/// Results and parameters of a scenario, with everything for their derivatives.
 pub struct Sensitivity {
-    /// The scenario as it stands.
+    /// The unchanged scenario.
     pub job: Job,
-    /// What derivatives are of.
+    /// Results to be differentiated.
     pub figures: Vec<Figure>,
-    /// What they are with respect to.
+    /// Parameters.
     pub quantities: Vec<Quantity>,
-    /// Local error per step of the runs.
+    /// Tolerance of the local error per time step.
     pub tolerance: f64,
-    /// Where runs are looked up and written down.
+    /// Journal of the runs.
     pub journal: Journal,
     happened: Happened,
 }
 
-/// Derivatives.
+/// Computed derivatives.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Taken {
-    /// Of each figure with respect to each quantity, in their orders.
+    /// Derivatives by result, then by parameter, in their order.
     pub derivatives: Vec<Vec<Derivative>>,
-    /// Standard deviation of each figure's noise, where it was measured.
+    /// Standard deviation of the numerical noise of each result, if measured.
     pub noise: Vec<Option<f64>>,
-    /// Runs that were done beside that of the scenario as it stands.
+    /// Number of runs in addition to that of the unchanged scenario.
     pub runs: usize,
 }
 
-/// Levels on a side that make finer ones needless.
+/// Number of levels on one side that makes closer ones unnecessary.
 const ENOUGH: usize = 4;
-/// Noise where none could be measured, in tolerances.
+/// Relative noise if it could not be measured, in tolerances.
 const UNMEASURED: f64 = 100.0;
-/// How far the tolerance lies from that of the slopes by which it is told what these miss, and from where on it is finer: the finest is 1e-13. What
-/// is missed may be the same a decade away, where quadratures have the same nodes: of 89 slopes of the quickstart at 1e-7 27 differed by up
-/// to 200 times what was told. Over two it falls by 30 to 100.
+/// Factor between the two tolerances whose slopes are compared, and smallest tolerance. A factor of 10 is not enough:
+/// quadratures may have the same nodes and the same error.
 const DECADES: f64 = 100.0;
 const FINEST: f64 = 1e-13;
-/// Part of what slopes by differences differ by that is missed, where the other tolerance is finer and where it is coarser.
+/// Error of the slopes, as a fraction of their difference between both tolerances: if the other tolerance is finer,
+/// and if it is coarser.
 const MISSED: [f64; 2] = [2.0, 0.1];
-/// Tolerance of the runs that are farthest, unless a larger one is asked for.
+/// Tolerance of the outer runs, unless a larger one is requested.
 const COARSE: f64 = 1e-9;
-/// What all runs miss alike, in tolerances of the figure per share of the quantity.
+/// Common relative error of all runs, in tolerances.
 const MISSED_ALIKE: f64 = 1e3;
-/// Relative error of a slope that is enough, and the elasticity below which it is taken as a share of that.
+/// Sufficient relative error of a slope, and the elasticity below which the error is relative to this elasticity.
 const ENOUGH_OF: f64 = 1e-4;
 const ELASTICITY: f64 = 0.1;
 
 impl Sensitivity {
-    /// The derivatives of a scenario. Runs it as it stands.
+    /// Prepares the derivatives. Runs the unchanged scenario.
     ///
     /// # Errors
-    /// A run of its own that stops, figures or quantities that it does not have.
+    /// Fails if the tolerance is out of range, the run stops early, or a result or parameter does not exist.
     pub fn new(job: Job, asked: &Asked, watcher: &dyn Watcher) -> Result<Self, SensitivityError> {
         let tolerance = asked.tolerance;
         if !(1e-13..=1e-6).contains(&tolerance) {
@@ -121,7 +126,7 @@ impl Sensitivity {
         Ok(Self { job, figures, quantities, tolerance, journal: Journal::default(), happened })
     }
 
-    /// How many runs it takes, about: fewer are not done, more where something happens near by.
+    /// Returns the approximate number of runs: a minimum, because events near the parameter value need more runs.
     #[must_use]
     pub fn runs(&self) -> usize {
         let of = |quantity: &Quantity| match quantity.value {
@@ -131,11 +136,12 @@ impl Sensitivity {
         self.quantities.iter().map(of).sum()
     }
 
-    /// The derivatives, on so many cores; the same for any number. The watcher is told how many runs are done; where it wants an
-    /// end, what hangs on others is [`Missing::NotRun`].
+    /// Computes the derivatives on `cores` threads. The result does not depend on the number of threads.
     ///
-    /// Four runs for each quantity are enough where figures are smooth on both sides of its value, or four more near by where something
-    /// happens between them; elsewhere a ladder of distances is climbed down, and the same at another tolerance tells what the runs miss.
+    /// Four runs per parameter are sufficient if results are smooth, eight if events occur between them. Otherwise a
+    /// series of decreasing distances is used, and runs at another tolerance give the
+    /// integration error. The watcher receives the number of finished runs. If it interrupts, missing derivatives are
+    /// [`Missing::NotRun`].
     pub fn take(&self, cores: usize, watcher: &(dyn Watcher + Sync)) -> Taken {
         let has_rows = self.figures.iter().any(Figure::needs_rows);
         let done = AtomicUsize::new(0);
@@ -147,9 +153,9 @@ impl Sensitivity {
             bench.run(&scales, &variants.collect::<Vec<_>>())
         };
         let all = |of: &dyn Fn(usize) -> Vec<(f64, bool)>| by(&bench, of);
-        // Far out noise is divided by a large distance: cheaper runs serve as well.
+        // At large distances noise has little effect, so cheaper runs are sufficient.
         let coarse = Bench { tolerance: self.tolerance.max(COARSE), ..bench };
-        // Of looser runs nothing is known but what the ladder tells.
+        // For coarser tolerances only the series of distances gives an error estimate.
         let pairs = |place: usize| ladder::pairs(ladder::PAIRS[place]).collect::<Vec<_>>();
         let is_asked = self.tolerance <= COARSE;
         let four = by(&coarse, &|_| if is_asked { pairs(0) } else { Vec::new() });
@@ -190,7 +196,7 @@ impl Sensitivity {
         Taken { derivatives, noise, runs: done.into_inner() }
     }
 
-    /// Whether a slope by a quantity is not known, or not well enough.
+    /// Returns whether a slope with respect to a parameter is unknown or not accurate enough.
     fn is_open(&self, near: &[Vec<Option<Slope>>], q: usize) -> bool {
         let quantity = self.quantities[q].value;
         near.iter().zip(&self.figures).any(|(slopes, figure)| {
@@ -199,7 +205,7 @@ impl Sensitivity {
         })
     }
 
-    /// Slopes of each figure by each quantity from four runs, where the figure is smooth between them.
+    /// Returns the slopes from four runs, for each result and parameter, if the result is smooth.
     fn smooth(
         &self,
         tried: &[Vec<Tried>],
@@ -210,14 +216,14 @@ impl Sensitivity {
             let stencils: Vec<Option<Five>> = tried.iter().map(of_run).collect();
             let mut noises: Vec<f64> = stencils.iter().flatten().map(Five::noise).collect();
             noises.sort_by(f64::total_cmp);
-            // The middle of what the runs beside each quantity tell, and no less than what rounding leaves.
+            // Median of the noise near all parameters, but at least the rounding error.
             let noise = noises.get(noises.len() / 2).copied().unwrap_or(0.0);
             let noise = noise.max(f64::EPSILON * self.figures[f].value.abs());
             let slope = |(stencil, quantity): (&Option<Five>, &Quantity)| {
                 let stencil = stencil.as_ref()?;
-                // What is rough beside one quantity alone is no noise of the figure, and no less an error.
+                // Roughness near one parameter only is not noise of the result, but an error of this slope.
                 let slope = stencil.slope(noise.max(stencil.noise()))?;
-                // All runs miss alike by their tolerance.
+                // Integration error that all runs have in common.
                 let missed = MISSED_ALIKE * tolerance * (self.figures[f].value / quantity.value).abs();
                 Some(Slope { error: slope.error + if quantity.value == 0.0 { 0.0 } else { missed }, ..slope })
             };
@@ -226,13 +232,14 @@ impl Sensitivity {
         (0..self.figures.len()).map(of).collect()
     }
 
-    /// A figure at the four nearest values of a quantity and at its own; none where something else happens on one side than on the other.
+    /// Returns the values of a result at four neighbouring parameter values and its own. Returns `None` if the events
+    /// differ between both sides.
     fn five(&self, (f, own): (usize, f64), tried: &[Tried]) -> Option<Five> {
         let [below, above, near_below, near_above] = tried else { return None };
         let all = [below, above, near_below, near_above].map(|tried| tried.figure(f).ok());
         let [below, above, near_below, near_above] = all;
         let (below, above, near_below, near_above) = (below?, above?, near_below?, near_above?);
-        // Loops that are too small for the tolerance close or do not, however near: what such events matter is seen in the figure.
+        // Small loops close or not depending on rounding, at any distance. Their effect is visible in the result.
         let is_settled = below.2 == near_below.2 && above.2 == near_above.2;
         if self.figures[f].reading.is_of_run() && is_settled && below.2 != above.2 {
             return None;
@@ -241,13 +248,13 @@ impl Sensitivity {
         Some(Five::new([(0.0, own), point(below), point(above), point(near_below), point(near_above)]))
     }
 
-    /// Whether a figure still bends where the nearest variants of a quantity are.
+    /// Returns whether a result is still nonlinear near the closest variants.
     fn bends_near_by(&self, tried: &[Vec<Tried>], q: usize) -> bool {
         let noise = self.noises(tried);
         (0..self.figures.len()).any(|f| self.near(&tried[q], f, noise[f]).bends_near_by())
     }
 
-    /// Whether something else happens on a side of a quantity before there are enough levels.
+    /// Returns whether events change on one side before there are enough levels.
     fn needs_finer(&self, tried: &[Tried]) -> bool {
         let is_alike =
             |tried: &&Tried| tried.sample.as_ref().is_ok_and(|sample| sample.happened == self.happened);
@@ -258,7 +265,8 @@ impl Sensitivity {
         })
     }
 
-    /// Noise of a figure near a quantity: of runs in which the same happens, or in which that is never the same.
+    /// Returns the noise of a result near a parameter value. Only runs with the same events are used, or all runs if
+    /// the events are never the same.
     fn own_noise(&self, f: usize, tried: &[Tried]) -> Option<f64> {
         let is_of_run = self.figures[f].reading.is_of_run();
         let flickers = [-1.0, 1.0].into_iter().any(|sense| ladder::settled(tried, sense).is_none());
@@ -270,23 +278,23 @@ impl Sensitivity {
         ladder::neighbours(tried, self.figures[f].value, value).and_then(|values| stencil::noise(&values))
     }
 
-    /// What is known about a figure near a quantity, by the noise that it has elsewhere.
+    /// Collects the data of a result near a parameter value. `noise` is the common noise of the result.
     fn near<'a>(&'a self, tried: &'a [Tried], f: usize, noise: Option<f64>) -> Near<'a> {
         let figure = &self.figures[f];
         let common = noise.unwrap_or(UNMEASURED * self.tolerance * figure.value.abs());
         let own = self.own_noise(f, tried).unwrap_or(common);
         let noise = own.max(common).max(f64::EPSILON * figure.value.abs());
-        // Events beside a steady motion are those of the run that stands beside it, and end where that does.
+        // Events belong to a run. A periodic orbit has its own events, which are not compared.
         let happened = figure.reading.is_of_run().then_some(&self.happened);
         Near { tried, figure: f, own: (figure.value, happened), noise }
     }
 
-    /// Noise of all figures.
+    /// Returns the noise of all results.
     fn noises(&self, tried: &[Vec<Tried>]) -> Vec<Option<f64>> {
         (0..self.figures.len()).map(|f| self.noise(f, tried)).collect()
     }
 
-    /// Noise of a figure: the middle of what it is near each quantity.
+    /// Returns the noise of a result: the median over all parameters.
     fn noise(&self, f: usize, tried: &[Vec<Tried>]) -> Option<f64> {
         let mut all: Vec<f64> = tried.iter().filter_map(|tried| self.own_noise(f, tried)).collect();
         all.sort_by(f64::total_cmp);
@@ -295,7 +303,8 @@ impl Sensitivity {
 }
 
 impl Taken {
-    /// Change of a figure per change of a quantity, both as shares of what they are; none of what is 0.
+    /// Returns the elasticity: relative change of a result per relative change of a parameter. Returns `None` if one of
+    /// them is 0.
     #[must_use]
     pub fn elasticity(asked: &Sensitivity, (f, q): (usize, usize), slope: f64) -> Option<f64> {
         let (figure, quantity) = (asked.figures[f].value, asked.quantities[q].value);
@@ -303,7 +312,8 @@ impl Taken {
         (figure != 0.0 && quantity != 0.0 && elasticity.is_finite()).then_some(elasticity)
     }
 
-    /// Quantities by how much a figure changes with them, the largest elasticity first; those without one last, in their order.
+    /// Returns the parameters ordered by elasticity of a result, the largest first. Parameters without elasticity are
+    /// last.
     #[must_use]
     pub fn order(&self, asked: &Sensitivity, f: usize) -> Vec<usize> {
         let size = |q: usize| {
@@ -315,7 +325,7 @@ impl Taken {
         order
     }
 
-    /// How many derivatives are not known at all.
+    /// Returns the number of unknown derivatives.
     #[must_use]
     pub fn faults(&self) -> usize {
         self.derivatives
@@ -325,7 +335,7 @@ impl Taken {
             .count()
     }
 
-    /// Whether it was interrupted: runs are missing that some of them hang on.
+    /// Returns whether the computation was interrupted, so that runs of some derivatives are missing.
     #[must_use]
     pub fn is_cut(&self) -> bool {
         let is_missing = |slope: &Result<Slope, Missing>| matches!(slope, Err(Missing::NotRun));
@@ -337,30 +347,30 @@ impl Taken {
     }
 }
 
-/// The better one of two slopes, from farther and from nearer runs; none where they contradict each other, or where the nearer ones have
-/// none.
+/// Returns the more accurate of two slopes, from outer and inner runs. Returns `None` if they contradict each other or
+/// the inner runs have none.
 fn agreed(far: Option<Slope>, near: Option<Slope>) -> Option<Slope> {
     let (Some(far), Some(near)) = (far, near) else { return near };
     let agree = (far.value - near.value).abs() <= far.error + near.error;
     agree.then_some(if near.error < far.error { near } else { far })
 }
 
-/// The tolerance by which it is told what slopes by another one miss, and whether it is the finer one.
+/// Returns the other tolerance for the estimate of the integration error, and whether it is the finer one.
 fn other_tolerance(tolerance: f64) -> (f64, bool) {
     let finer = tolerance / DECADES;
-    // 1e-11 by 100 is not 1e-13 to the last bit.
+    // 1e-11 / 100 is not exactly 1e-13.
     if finer >= 0.99 * FINEST { (finer.max(FINEST), true) } else { (tolerance * DECADES, false) }
 }
 
-/// By how much slopes by two tolerances differ at most, from the same variants on both sides. Where one side alone is known, what its figure
-/// differs by is all of it.
+/// Returns the largest difference between slopes at two tolerances, from the same variants. If only one side is known,
+/// the whole difference of the result counts.
 fn missed(tried: &[Tried], others: &[Tried], f: usize) -> f64 {
     let off = |other: &Tried| {
         let own = tried.iter().find(|own| own.share == other.share)?;
         let ((offset, other, _), (_, own, _)) = (other.figure(f).ok()?, own.figure(f).ok()?);
         Some((offset, other - own))
     };
-    // Both sides of a distance come one after the other.
+    // The two sides of each distance are adjacent.
     let slopes =
         others.chunks_exact(2).map(|both| match both.iter().filter_map(off).collect::<Vec<_>>()[..] {
             [(below, by), (above, more)] => (more - by) / (above - below),
@@ -370,7 +380,7 @@ fn missed(tried: &[Tried], others: &[Tried], f: usize) -> f64 {
     slopes.map(f64::abs).fold(0.0, f64::max)
 }
 
-/// Names, none twice.
+/// Returns the names, or an error if one occurs twice.
 fn once(names: &[String]) -> Result<impl Iterator<Item = &String>, SensitivityError> {
     match names.iter().enumerate().find(|(place, name)| names[..*place].contains(name)) {
         Some((_, twice)) => Err(SensitivityError::Twice(twice.clone())),
@@ -378,7 +388,7 @@ fn once(names: &[String]) -> Result<impl Iterator<Item = &String>, SensitivityEr
     }
 }
 
-/// The figures asked for, with what they are, and what happens in the scenario's own run.
+/// Returns the requested results with their values, and the events of the unchanged scenario.
 fn figures(
     job: &Job,
     asked: &Asked,

@@ -1,25 +1,26 @@
-//! A waveform whose numbers are set one by one before it is drawn: on the way from one set to the next they need not fit.
+//! Editable waveform. Its parameters are set one by one and checked only when the waveform is built; intermediate
+//! combinations may be invalid.
 
 use stickslip_drive::{Shape, Timing, Waveform, WaveformError};
 
-/// A number of a waveform, under the key that it has in a scenario file.
+/// A parameter of a waveform with its key in the scenario.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Quantity {
-    /// Peak to peak.
+    /// Stroke, peak to peak.
     Stroke,
-    /// Half of peak to peak.
+    /// Amplitude, half of peak to peak.
     Amplitude,
     /// Mean value of a sine.
     Offset,
     /// Phase of a sine, rad.
     Phase,
-    /// Time of the way back, s.
+    /// Duration of the return stroke, s.
     Flyback,
     /// Period, s.
     Period,
 }
 
-/// Shape and timing of a waveform, not checked yet.
+/// Shape and timing of a waveform, not yet checked.
 #[derive(Debug, Clone)]
 pub(crate) struct Sketch {
     shape: Shape,
@@ -30,7 +31,7 @@ impl Quantity {
     const ALL: [Self; 6] =
         [Self::Stroke, Self::Amplitude, Self::Offset, Self::Phase, Self::Flyback, Self::Period];
 
-    /// Its key in a scenario file.
+    /// Returns the key of the parameter in the scenario.
     pub(crate) fn key(self) -> &'static str {
         match self {
             Self::Stroke => "stroke",
@@ -48,7 +49,7 @@ impl Sketch {
         Self { shape: waveform.shape().clone(), timing: *waveform.given() }
     }
 
-    /// The number under a key of this waveform's kind.
+    /// Returns the parameter with this key, if `kind` is the kind of this waveform.
     pub(crate) fn named(&self, kind: &str, key: &str) -> Option<Quantity> {
         let own = match self.shape {
             Shape::Sawtooth { .. } => "sawtooth",
@@ -70,13 +71,16 @@ impl Sketch {
         copy.number(quantity).map(|number| *number)
     }
 
-    /// Sets a number; whether it was another one.
+    /// Sets a parameter. Returns whether its value changed.
     pub(crate) fn set(&mut self, quantity: Quantity, value: f64) -> bool {
         let Some(number) = self.number(quantity) else { return false };
         std::mem::replace(number, value).to_bits() != value.to_bits()
     }
 
-    /// The waveform.
+    /// Builds the waveform.
+    ///
+    /// # Errors
+    /// Fails if the parameters are invalid together.
     pub(crate) fn draw(&self) -> Result<Waveform, WaveformError> {
         Waveform::new(self.shape.clone(), self.timing)
     }

@@ -1,15 +1,19 @@
-//! Steady motion, found without waiting for it.
+//! Periodic orbits of a drive, found by shooting, and their stability.
 //!
-//! A drive is steady where one period of its waveform brings it back to the same state, one step further. That state is the
-//! fixed point of the map of a period, P(s) = s: a few plain periods lead near it, Newton's method on the defect P(s) - s leads
-//! into it, whether or not a run would ever stay there. The eigenvalues of P's gradient, its Floquet multipliers, say how a
-//! disturbance comes back after a period: it fades, grows, beats.
+//! On a periodic orbit, one period of the waveforms brings the drive back to the same state, displaced by one step
+//! length. The state is a fixed point of the Poincaré map P,
+//! P(s) = s. A few simulated periods give a start value; Newton's method then solves P(s) - s = 0, also for unstable
+//! orbits. The eigenvalues of the Jacobian of P are the
+//! Floquet multipliers; they give the growth or decay of a disturbance per period.
 //!
-//! In reading order: `endless`, the drive without an end to its waveforms and its period; `moment`, at which moment of the
-//! period the map is taken; `tally`, what happens in it; `map`, the map and its gradient by differences; `newton`, its fixed
-//! point; `multiplier`, what the gradient means; `bound`, how far the step may be off; `orbit`, the motion from the beginning of a period on, from which a run goes on; `aftermath`, what a run ends on that
-//! leaves it; `report`, what is told of it; `outlook`, the same at a glance, for whoever is about to run the drive;
-//! [`continuation`], steady motions one after another, as a number of the scenario changes.
+//! Modules in reading order:
+//! * `endless`: waveforms without end, and the common period; `moment`: instant of the Poincaré section; `tally`: event
+//!   counts of a period.
+//! * `map`: Poincaré map and its Jacobian; `newton`: fixed point; `multiplier`: Floquet multipliers; `bound`: error of
+//!   the step length.
+//! * `orbit`: time histories over one period; `aftermath`: motion after leaving an unstable orbit.
+//! * `report`: output; `outlook`: search at limited cost, for the summary of a run.
+//! * [`continuation`]: branches of periodic orbits over a parameter.
 
 mod aftermath;
 mod bound;
@@ -42,20 +46,21 @@ use stickslip_drive::section::Section;
 use stickslip_drive::{Model, State};
 use stickslip_run::Job;
 
-/// How steady motion is looked for.
+/// Options of the search for a periodic orbit.
 #[derive(Clone, Copy)]
 pub struct Options<'a> {
-    /// Local error per step, relative to natural scales, whatever the scenario's own stepper is: 1e-13 to 1e-6; default 1e-12.
+    /// Tolerance of the local error per time step, relative to natural scales: 1e-13 to 1e-6, default 1e-12. It
+    /// replaces the integrator of the scenario.
     pub tolerance: f64,
-    /// Plain periods before the map is looked at, at least 2; default 4.
+    /// Number of simulated periods before Newton's method starts, at least 2; default 4.
     pub settling: u32,
-    /// Most periods altogether; default 4 000.
+    /// Maximum number of periods in total; default 4000.
     pub periods: u32,
-    /// Most accepted and rejected steps altogether; by default as many as it takes.
+    /// Maximum number of accepted and rejected time steps in total; default unlimited.
     pub steps: u64,
-    /// Asked before every period; `false` gives up.
+    /// Called before every period; `false` interrupts the search.
     pub goes_on: &'a dyn Fn() -> bool,
-    /// Told how many periods have been computed, the one that begins included.
+    /// Receives the number of periods, including the one that starts.
     pub told: &'a dyn Fn(u32),
 }
 
@@ -72,118 +77,125 @@ impl Default for Options<'_> {
     }
 }
 
-/// A motion that repeats itself every period.
+/// A periodic orbit.
 #[derive(Debug, Clone)]
 pub struct Steady {
-    /// Period, s: common to all waveforms.
+    /// Period, s: common period of all waveforms.
     pub period: f64,
-    /// Way of the figures' body along x in a period, m; none where no body is named or it is not free.
+    /// Displacement of the body named in `figures` along x per period, m. `None` if no body is named or it is not free.
     pub step: Option<f64>,
-    /// From when on everything repeats itself, s: delays are over, and waveforms that come once.
+    /// Time after which everything is periodic, s: after all delays and all waveforms that run once.
     pub begins: f64,
-    /// Local error per step of the runs that it was found by.
+    /// Tolerance of the local error per time step.
     pub tolerance: f64,
-    /// By how much the step may be off, m: an estimate of first order, doubled, that knows nothing of rounding.
+    /// Error estimate of the step length, m: first order, doubled, without the rounding error of a long run.
     pub bound: f64,
-    /// The drive, its waveforms without end.
+    /// Model of the drive with endless waveforms.
     pub model: Model,
-    /// The fixed point: a run from here repeats itself.
+    /// State at the fixed point; a run from here is periodic.
     pub state: State,
-    /// Floquet multipliers, the largest first. Drifts have none. None are told where contacts are [`Self::holding`].
+    /// Floquet multipliers in descending order of modulus, without those of drifts. Empty if there are contacts of
+    /// [`Self::holding`].
     pub multipliers: Vec<Multiplier>,
-    /// Ways along which nothing changes but the place: each would have a multiplier of 1.
+    /// Number of drifts: directions along which only positions change. Each would have a multiplier of 1.
     pub drifts: usize,
-    /// Names of the numbers that the map is of.
+    /// Names of the unknowns of the Poincaré map.
     pub unknowns: Vec<String>,
-    /// Names of those of which it is not known what becomes of a disturbance: memories come back with other knots.
+    /// Names of the unknowns without a multiplier: a disturbance of them changes the number of corners of a slip
+    /// memory.
     pub untold: Vec<String>,
-    /// Contacts whose memories are no numbers of the map, but are carried along: multipliers do not know of them.
+    /// Indices of contacts whose slip memory is simulated but is not an unknown of the map. Multipliers do not include
+    /// it.
     pub carried: Vec<usize>,
-    /// Contacts that never slip grossly in a period: what their springs near the centre hold, they hold for ever. Of such
-    /// motions there is a whole family, and this one is the one that was nearest: a shakedown.
+    /// Indices of contacts that never slip grossly in a period and keep their memory near the centre for ever. Such
+    /// orbits form a family (shakedown); this is the nearest member.
     pub shaken_down: Vec<usize>,
-    /// Whether the figures' body slips on all its contacts all through the period: it is dragged along, and makes no step.
+    /// True if the body named in `figures` slips on all its contacts during the whole period. It is dragged along and
+    /// makes no step.
     pub is_dragged: bool,
-    /// Largest defect of every period on the way, in natural scales, and how the one before was left.
+    /// Largest defect in each period of the search, in natural scales, with the method that led to it.
     pub defects: Vec<Defect>,
-    /// Periods that were computed.
+    /// Number of simulated periods.
     pub work: u32,
 }
 
 impl Steady {
-    /// Whether there is a step, farther than it may be off.
+    /// Returns whether the step length exceeds its error.
     #[must_use]
     pub fn steps(&self) -> bool {
         self.step.is_some_and(|step| step.abs() > self.bound)
     }
 
-    /// Names of contacts by their places.
+    /// Returns the names of contacts with the given indices.
     #[must_use]
     pub fn named(&self, contacts: &[usize]) -> Vec<String> {
         named(&self.model, contacts)
     }
 
-    /// Speed, m/s: step over period.
+    /// Returns the mean velocity, m/s: step length divided by period.
     #[must_use]
     pub fn speed(&self) -> Option<f64> {
         self.step.map(|step| step / self.period)
     }
 
-    /// Largest magnitude of a multiplier; 0 without any, NaN where they are not known.
+    /// Returns the largest modulus of a multiplier. Returns 0 without multipliers, NaN if they are unknown.
     #[must_use]
     pub fn radius(&self) -> f64 {
         let none = if self.lacks_multipliers() { f64::NAN } else { 0.0 };
         self.multipliers.first().map_or(none, Multiplier::modulus)
     }
 
-    /// Whether a disturbance may do anything, for what is known: there are numbers, or memories beside them, and no multipliers.
+    /// Returns whether multipliers are missing: there are unknowns or memories outside of the map, but no multipliers.
     fn lacks_multipliers(&self) -> bool {
         self.multipliers.is_empty() && !self.unknowns.is_empty() || !self.holding().is_empty()
     }
 
-    /// Contacts that hold all through and whose memories are no numbers of the map. A body that they hold swings about what they
-    /// remember: of that swing the map knows half at most, so with any of them there are no multipliers.
+    /// Returns the contacts that never slip grossly and whose memory is not an unknown of the map.
+    ///
+    /// A body on such contacts oscillates about a position that depends on this memory. The map knows only a part of
+    /// this oscillation, so no multipliers are given.
     #[must_use]
     pub fn holding(&self) -> Vec<usize> {
         self.carried.iter().copied().filter(|c| self.shaken_down.contains(c)).collect()
     }
 
-    /// Why it is not known how a disturbance fades, where that is so.
+    /// Returns the reason why stability is unknown, if it is.
     #[must_use]
     pub fn doubt(&self) -> Option<String> {
         let holding = self.named(&self.holding());
         let led = if holding.len() == 1 { "its memory is" } else { "their memories are" };
         match holding.is_empty() {
             true if self.lacks_multipliers() => {
-                Some("its multipliers are not found; by a tighter tolerance they may be".to_owned())
+                Some("the multipliers were not found; a smaller tolerance may find them".to_owned())
             }
             true => None,
-            false => Some(format!("{}, and {led} led along", never_slip(&holding))),
+            false => Some(format!("{}, and {led} not in the map", never_slip(&holding))),
         }
     }
 
-    /// The numbers of which no multiplier is told, in words.
+    /// Returns a phrase with the names of the unknowns without a multiplier.
     #[must_use]
     pub fn names_untold(&self) -> Option<String> {
         let first = self.untold.first()?;
         Some(match self.untold.len() {
             1 => first.clone(),
-            count => format!("{first} and {} more numbers", count - 1),
+            count => format!("{first} and {} more unknowns", count - 1),
         })
     }
 
-    /// How many periods of a waveform, s, there are in one of the motion, the common one of all waveforms.
+    /// Returns the number of periods of a waveform, s, in the common period of all waveforms.
     pub(crate) fn periods_of(&self, waveform: f64) -> f64 {
         (self.period / waveform).round().max(1.0)
     }
 
-    /// Whether a run that is disturbed a little comes back. A multiplier of 1 of a shakedown neither fades nor grows.
+    /// Returns whether no disturbance grows. A neutral multiplier of a shakedown counts as stable.
     #[must_use]
     pub fn is_stable(&self) -> bool {
         self.multipliers.iter().all(|multiplier| multiplier.kind() != Kind::Grows)
     }
 
-    /// Whether there are motions beside it that repeat themselves as well, so that its step is that of one of many: a multiplier is 1.
+    /// Returns whether the orbit belongs to a family of periodic orbits, so that its step length is one of many: a
+    /// multiplier is 1.
     #[must_use]
     pub fn is_one_of_many(&self) -> bool {
         let is_one = |multiplier: &Multiplier| {
@@ -192,8 +204,8 @@ impl Steady {
         self.multipliers.iter().any(is_one)
     }
 
-    /// Whether a run that is disturbed a little comes back; none where a disturbance neither fades nor grows, or where that is not
-    /// known: a shakedown is one of a family, and a run that is disturbed may end in another of it.
+    /// Returns whether the orbit is stable. Returns `None` if a disturbance is neutral or its effect is unknown. In a
+    /// shakedown, for example, a disturbed run may end in another orbit of the family.
     #[must_use]
     pub fn comes_back(&self) -> Option<bool> {
         let stays = self.multipliers.iter().any(|multiplier| multiplier.kind() == Kind::Stays);
@@ -206,16 +218,17 @@ impl Steady {
     }
 }
 
-/// Finds the steady motion of a job's drive, as it would be if its waveforms never ended.
+/// Finds the periodic orbit of a job's drive, with waveforms continued without end.
 ///
-/// What drivers and materials remember beside their states is led along and no number of the map: the plays of a ceramic are wiped by
-/// the largest stroke of a period. Of `piezo_hysteresis`, whose slider never slips grossly, there was no answer in a minute. Bound
-/// [`Options::periods`] there.
+/// Memory of drivers and materials outside of the state vector is simulated and is not an unknown of the map. The
+/// largest stroke of a period resets the play operators of a ceramic. The search may take long if a drive with
+/// hysteresis never slips grossly; limit [`Options::periods`] there.
 ///
 /// # Errors
 ///
-/// A scene without a period or without free bodies, waveforms that a caller commands or that have no common period, a run that
-/// stops itself, and no fixed point within the periods allowed, with the best that was found.
+/// Fails if no waveform is periodic, no body is free, a calling program commands a waveform, or waveforms have no
+/// common period. Fails if a run stops with an error. Fails if there is no fixed point within the allowed periods; the
+/// error gives the smallest defect.
 pub fn find(job: &Job, options: &Options<'_>) -> Result<Steady, SteadyError> {
     let endless = Endless::of(job)?;
     let model = &endless.model;
@@ -236,12 +249,12 @@ pub fn find(job: &Job, options: &Options<'_>) -> Result<Steady, SteadyError> {
         true => Vec::new(),
         false => multiplier::of(&bound.gradient, (options.tolerance, fixed.defect.amax())),
     };
-    // Of a motion that a run leaves plain periods tell nothing.
+    // Simulated periods do not stay near an unstable orbit.
     let fades = multipliers.iter().all(|it| matches!(it.kind(), Kind::Fades | Kind::Forgotten));
     let creeps = if carries && fades { moment::creep(&mut map, (&fixed, holding), figures)? } else { 0.0 };
     let Some(section) = map.section() else { return Err(SteadyError::NoPeriod) };
-    // Where nothing slips grossly a contact that is pressed evenly goes nowhere in the long run: what it has gone is what its memory, that was led
-    // along, has still to come.
+    // A contact without gross slip under constant normal force has no mean displacement per period. Its displacement is
+    // the remaining change of a memory outside of the map.
     let slides = |c: usize| section.slides(&fixed.image.way, c).abs();
     let slid = never_gave_way.iter().map(|c| slides(*c)).fold(0.0, f64::max);
     let names: Vec<String> = section.unknowns().iter().map(|unknown| section.name(*unknown)).collect();
@@ -266,19 +279,19 @@ pub fn find(job: &Job, options: &Options<'_>) -> Result<Steady, SteadyError> {
     Ok(found)
 }
 
-/// That contacts never slip grossly, in words.
+/// Returns the phrase that contacts never slip grossly.
 fn never_slip(names: &[String]) -> String {
-    let verb = if names.len() == 1 { "slips" } else { "slip" };
-    format!("{} never {verb} grossly", names.join(", "))
+    let verb = if names.len() == 1 { "is" } else { "are" };
+    format!("{} {verb} never in gross slip", names.join(", "))
 }
 
-/// Names of contacts by their places.
+/// Returns the names of contacts with the given indices.
 fn named(model: &Model, contacts: &[usize]) -> Vec<String> {
     let names: Vec<&str> = model.contacts().map(|(name, _)| name).collect();
     contacts.iter().filter_map(|c| names.get(*c)).map(|name| (*name).to_owned()).collect()
 }
 
-/// The fixed point that the start of a drive leads to.
+/// Finds the fixed point, starting from the initial state of the drive.
 fn fixed_point<'m>(map: &mut Map<'m>, endless: &'m Endless) -> Result<Fixed, SteadyError> {
     let model = &endless.model;
     let settled = moment::settle(map, endless.begins, endless.start.clone(), map.settling())?;

@@ -1,9 +1,11 @@
-//! A study: many runs of one scenario that differ in some of its numbers, in parts on disk.
+//! Parameter study: many runs of one scenario with different parameter values, stored in parts on disk.
 //!
-//! In reading order: `design` (which numbers a case has) on `spread` (distributions) and `points` (samples), `wanted` (what is kept
-//! of each run), `worker` (one case after the other; `quick` where nothing has to be read anew), `part` (a piece of the result as
-//! Parquet) in a `folder`, `desk` (parts among threads), `shard` (parts among processes), `statistics` and `sobol_indices` (what
-//! the results say), `csv` (the result as one table).
+//! Modules in reading order:
+//! * `design`: parameter values of each case, with `spread` (distributions) and `points` (sampling).
+//! * `wanted`: results of each run; `worker`: runs one case; `quick`: the same without reading the scenario again.
+//! * `part`: a part of the results as Parquet file; `folder`: folder of the parts; `desk`: distribution among threads;
+//!   `shard`: among processes.
+//! * `statistics` and `sobol_indices`: evaluation; `csv`: export.
 
 mod csv;
 mod design;
@@ -41,18 +43,19 @@ use stickslip_run::{Job, program};
 use stickslip_scenario::{ScenarioError, StudyFile};
 use wanted::Wanted;
 
-/// Most parts of a study: files of one folder.
+/// Maximum number of parts, which are files in one folder.
 const MOST_PARTS: u64 = 1 << 22;
 
-/// A study, read and checked.
+/// A parameter study, read and checked.
 pub struct Study {
-    /// The scenario that is run.
+    /// The scenario.
     pub job: Job,
     pub(crate) file: StudyFile,
     pub(crate) design: Design,
     pub(crate) wanted: Vec<Wanted>,
-    /// SHA-256 of all that the bytes of a part depend on but its number: scenario, variations, results and version of the program. The
-    /// number of cases does not belong to it, so that a study can grow, except for a Latin hypercube.
+    /// SHA-256 of everything on which the content of a part depends: scenario, variations, results and program version.
+    ///
+    /// The number of cases is not included, so that a study can be enlarged. It is included for a Latin hypercube.
     pub hash: String,
 }
 
@@ -60,15 +63,15 @@ impl Study {
     /// Reads and checks a study file.
     ///
     /// # Errors
-    /// Whatever is wrong with it or its scenario, with its place.
+    /// Fails if the file or its scenario is invalid, with the location of the error.
     pub fn load(path: &Path) -> Result<Self, ScenarioError> {
         Self::new(StudyFile::load(path)?)
     }
 
-    /// The same of a text; see [`StudyFile::from_str`].
+    /// Reads and checks a study from text; see [`StudyFile::from_str`].
     ///
     /// # Errors
-    /// Whatever is wrong with it or its scenario, with its place.
+    /// Fails if the text or its scenario is invalid, with the location of the error.
     pub fn from_str(text: &str, (file, stem): (&str, &str), base: &Path) -> Result<Self, ScenarioError> {
         Self::new(StudyFile::from_str(text, (file, stem), base)?)
     }
@@ -76,14 +79,19 @@ impl Study {
     fn new(file: StudyFile) -> Result<Self, ScenarioError> {
         if let Some(goal) = &file.goal {
             let key = if goal.is_maximum { "maximise" } else { "minimise" };
-            let help = "`stickslip study optimise` takes it".to_owned();
-            return Err(file.refusal(key, None, "this study asks for an optimum, not for cases", Some(help)));
+            let help = "run it with `stickslip study optimise`".to_owned();
+            return Err(file.refusal(
+                key,
+                None,
+                "this study is an optimisation, it has no cases",
+                Some(help),
+            ));
         }
         let job = Job::new(file.scenario.clone(), file.name.clone(), PathBuf::new())?;
         let design = Design::new(&file)?;
         if design.cases.div_ceil(file.chunk) > MOST_PARTS {
-            let message = format!("{} cases make more than {MOST_PARTS} parts", design.cases);
-            let help = "raise \"chunk\", the number of cases in a part".to_owned();
+            let message = format!("{} cases give more than {MOST_PARTS} parts", design.cases);
+            let help = "increase \"chunk\", the number of cases per part".to_owned();
             let key = if design.spreads > 0 { "cases" } else { "vary" };
             return Err(file.refusal(key, None, &message, Some(help)));
         }
@@ -97,7 +105,7 @@ impl Study {
         Ok(study)
     }
 
-    /// What the bytes of a part depend on.
+    /// Returns everything on which the content of a part depends.
     fn definition(&self) -> serde_json::Value {
         json!({
             "program": format!("{} {}", program::NAME, program::VERSION),
@@ -108,50 +116,50 @@ impl Study {
         })
     }
 
-    /// The study as a text that stands alone; read back it is the same study, with the same hash.
+    /// Returns the study as text without references to other files. Reading it gives the same study with the same hash.
     #[must_use]
     pub fn portable(&self) -> String {
         self.file.portable()
     }
 
-    /// Number of cases.
+    /// Returns the number of cases.
     #[must_use]
     pub fn cases(&self) -> u64 {
         self.design.cases
     }
 
-    /// Number of parts.
+    /// Returns the number of parts.
     #[must_use]
     pub fn parts(&self) -> u64 {
         self.design.cases.div_ceil(self.file.chunk)
     }
 
-    /// Cases of a part.
+    /// Returns the cases of a part.
     #[must_use]
     pub fn part(&self, part: u64) -> std::ops::Range<u64> {
         let first = part.saturating_mul(self.file.chunk).min(self.design.cases);
         first..first.saturating_add(self.file.chunk).min(self.design.cases)
     }
 
-    /// Paths of the numbers that vary, in order, and their SI units.
+    /// Returns key paths and SI units of the varied parameters, in order.
     pub fn varied(&self) -> impl Iterator<Item = (&str, &'static str)> {
         self.design.axes.iter().map(|axis| (axis.path.as_str(), axis.unit))
     }
 
-    /// Names of the results, as columns have them.
+    /// Returns the names of the results, as in column headers.
     pub fn results(&self) -> impl Iterator<Item = &str> {
         self.file.results.iter().map(String::as_str)
     }
 
-    /// The words that the codes of a result stand for; none of a number.
+    /// Returns the words of a result's codes. Returns `None` for a number.
     pub fn codes(&self, result: usize) -> Option<&[String]> {
         self.wanted.get(result)?.codes.as_deref()
     }
 
-    /// A result of all cases from the parts in a folder: a number, or the code of a word; NaN where there is none.
+    /// Reads a result of all cases from the parts in a folder: a number, or the code of a word. NaN without result.
     ///
     /// # Errors
-    /// Parts that are missing or cannot be read.
+    /// Fails if parts are missing or cannot be read.
     pub fn column(&self, folder: &Path, result: usize) -> Result<Vec<f64>, StudyError> {
         self.check_complete(folder)?;
         let mut all = Vec::new();
@@ -162,10 +170,10 @@ impl Study {
         Ok(all)
     }
 
-    /// Why each case in the parts of a folder has no results.
+    /// Reads the reason for each case without results from the parts in a folder.
     ///
     /// # Errors
-    /// Parts that are missing or cannot be read.
+    /// Fails if parts are missing or cannot be read.
     pub fn errors(&self, folder: &Path) -> Result<Vec<Option<String>>, StudyError> {
         self.check_complete(folder)?;
         let mut all = Vec::new();
@@ -176,7 +184,7 @@ impl Study {
         Ok(all)
     }
 
-    /// The values of the numbers that vary in a case, SI.
+    /// Returns the values of the varied parameters in a case, SI.
     #[must_use]
     pub fn values(&self, case: u64) -> Vec<f64> {
         let mut values = vec![0.0; self.design.axes.len()];
@@ -184,7 +192,7 @@ impl Study {
         values
     }
 
-    /// A case as overrides of the scenario, such as `contacts.ball.friction=0.15`.
+    /// Returns a case as overrides of the scenario, such as `contacts.ball.friction=0.15`.
     #[must_use]
     pub fn overrides(&self, case: u64) -> Vec<(String, String)> {
         self.design.overrides(&self.values(case))

@@ -1,4 +1,4 @@
-//! Oblique impacts of a ball, run as a user runs them: an example and values to put into it.
+//! Simulated oblique impacts of a ball, from an example scenario with overrides.
 
 use crate::subject::ValidationError;
 use crate::table::significant;
@@ -6,62 +6,62 @@ use stickslip_drive::scene::Axis;
 use stickslip_run::{Job, Watcher};
 use stickslip_scenario::Scenario;
 
-/// The example.
+/// Example scenario.
 const SCENARIO: &str = include_str!("../../../scenarios/measured_impact.json");
-/// Radius of its ball, m.
+/// Radius of the ball, m.
 pub(crate) const RADIUS: f64 = 2.5e-3;
-/// Its coefficient of friction.
+/// Coefficient of friction.
 pub(crate) const FRICTION: f64 = 0.092;
-/// Speed of approach of impacts that are told in ψ, which does not depend on it, m/s.
+/// Velocity of approach, m/s, of impacts given by ψ, which does not depend on it.
 const APPROACH: f64 = 3.9;
-/// Poisson's ratio of the two equal bodies of these.
+/// Poisson's ratio of both bodies in these impacts.
 pub(crate) const NU: f64 = 0.3;
 
-/// A ball before it touches, not turning.
+/// Initial state of a ball without spin.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Shot {
-    /// Speed along the surface, m/s.
+    /// Tangential velocity, m/s.
     pub(crate) along: f64,
-    /// Speed towards it, m/s.
+    /// Velocity of approach, m/s.
     pub(crate) approach: f64,
-    /// Whether both bodies are of one material of Poisson's ratio [`NU`].
+    /// Whether both bodies have the same material, with Poisson's ratio [`NU`].
     pub(crate) alike: bool,
 }
 
-/// How it comes back.
+/// State of the ball after the impact.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Rebound {
     shot: Shot,
-    /// Of its centre, m/s.
+    /// Tangential and normal velocity of its centre, m/s.
     pub(crate) along: f64,
     pub(crate) away: f64,
     /// Angular velocity, rad/s.
     pub(crate) spin: f64,
 }
 
-/// G\*/E\* of two bodies of one material: 2(1-ν)/(2-ν).
+/// Returns G\*/E\* of two bodies of the same material: 2(1-ν)/(2-ν).
 pub(crate) fn ratio() -> f64 {
     2.0 * (1.0 - NU) / (2.0 - NU)
 }
 
 impl Shot {
-    /// At a speed, m/s, and an angle to the normal, degrees; alumina on glass.
+    /// Creates an impact of alumina on glass with a velocity, m/s, at an angle to the normal, degrees.
     pub(crate) fn at_angle(speed: f64, degrees: f64) -> Self {
         let (sine, cosine) = math::sin_cos(degrees.to_radians());
         Self { along: speed * sine, approach: speed * cosine, alike: false }
     }
 
-    /// With ψ₁ = (G\*/(E\*μ)) V_x/V_z, two bodies of one material.
+    /// Creates an impact with ψ₁ = (G\*/(E\*μ)) V_x/V_z for two bodies of the same material.
     pub(crate) fn at_psi(psi: f64) -> Self {
         Self { along: psi * FRICTION / ratio() * APPROACH, approach: APPROACH, alike: true }
     }
 
-    /// With V_x/(μV_z), two bodies of one material: ψ₁ without its ratio of moduli.
+    /// Creates an impact with V_x/(μV_z) for two bodies of the same material: ψ₁ without the ratio of moduli.
     pub(crate) fn at_slope(slope: f64) -> Self {
         Self::at_psi(slope * ratio())
     }
 
-    /// What is put into the example.
+    /// Returns the overrides of the example.
     pub(crate) fn values(self) -> Vec<(String, String)> {
         let start = |axis: &str, speed: f64| (format!("bodies.ball.start.{axis}"), format!("{speed:?} m/s"));
         let mut values = vec![start("vx", self.along), start("vz", -self.approach)];
@@ -72,7 +72,7 @@ impl Shot {
         values
     }
 
-    /// The command of a user for the same run.
+    /// Returns the command line for the same run.
     pub(crate) fn command(self) -> String {
         let short = Self { along: rounded(self.along), approach: rounded(self.approach), ..self };
         let mut command = "stickslip run scenarios/measured_impact.json".to_owned();
@@ -82,10 +82,13 @@ impl Shot {
         command
     }
 
-    /// Runs it.
+    /// Runs the impact.
+    ///
+    /// # Errors
+    /// Fails if the scenario is invalid or the run stops early.
     pub(crate) fn rebound(self, watcher: &dyn Watcher) -> Result<Rebound, ValidationError> {
         let mut values = self.values();
-        // No rows but the first and the last: none is looked at.
+        // Only the first and last row are written.
         values.push(("output.every".to_owned(), "30 us".to_owned()));
         values.push(("plots".to_owned(), "[]".to_owned()));
         let values: Vec<(&str, &str)> =
@@ -104,39 +107,40 @@ impl Shot {
     }
 }
 
-/// To the digits of a command line.
+/// Rounds to the digits of a command line.
 fn rounded(speed: f64) -> f64 {
     significant(speed, 7).parse().unwrap_or(speed)
 }
 
 impl Rebound {
-    /// Tangential restitution: the speed of the centre along the surface, after over before.
+    /// Returns the tangential restitution: the tangential velocity of the centre after the impact divided by that
+    /// before.
     pub(crate) fn restitution(&self) -> f64 {
         self.along / self.shot.along
     }
 
-    /// Angle of the way of the centre to the normal, degrees.
+    /// Returns the rebound angle of the centre to the normal, degrees.
     pub(crate) fn angle(&self) -> f64 {
         math::atan2(self.along, self.away).to_degrees()
     }
 
-    /// ψ₂ = (G\*/(E\*μ)) V_x/V_z at the point of contact, V_z that of the approach.
+    /// Returns ψ₂ = (G\*/(E\*μ)) V_x/V_z at the point of contact, with V_z before the impact.
     pub(crate) fn psi(&self) -> f64 {
         ratio() / FRICTION * (self.along + RADIUS * self.spin) / self.shot.approach
     }
 
-    /// V_x/(μV_z) at the point of contact, V_z that of the approach.
+    /// Returns V_x/(μV_z) at the point of contact, with V_z before the impact.
     pub(crate) fn slope(&self) -> f64 {
         self.psi() / ratio()
     }
 
-    /// ωR/(μV_z).
+    /// Returns the scaled spin ωR/(μV_z).
     pub(crate) fn scaled_spin(&self) -> f64 {
         RADIUS * self.spin / (FRICTION * self.shot.approach)
     }
 }
 
-/// A watcher whose progress is that of pages, not of runs.
+/// Watcher without progress, because the progress bar counts pages.
 struct Still<'a>(&'a dyn Watcher);
 
 impl Watcher for Still<'_> {

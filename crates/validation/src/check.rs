@@ -1,34 +1,34 @@
-//! What is asked of a result, and whether it is kept.
+//! Comparison of a deviation with its limit.
 
 use crate::table::significant;
 use std::fmt;
 
-/// A deviation from what is known, and how large it may be.
+/// A deviation from a known result, with its limit.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Check {
-    /// Of what.
+    /// Quantity that is compared.
     pub what: String,
-    /// Unit of both numbers; empty for parts of the whole.
+    /// Unit of both numbers; empty for relative deviations.
     pub unit: &'static str,
-    /// The largest deviation found.
+    /// Largest deviation found.
     pub found: f64,
-    /// The largest that is allowed.
+    /// Largest allowed deviation.
     pub allowed: f64,
 }
 
 impl Check {
-    /// A deviation in a unit.
+    /// Creates a check of a deviation in a unit.
     pub(crate) fn new(what: &str, unit: &'static str, found: f64, allowed: f64) -> Self {
         Self { what: what.to_owned(), unit, found: found.abs(), allowed }
     }
 
-    /// Whether the result is as good as is asked. What is no number is not.
+    /// Returns whether the deviation is within its limit. NaN is not.
     pub fn holds(&self) -> bool {
         self.found <= self.allowed
     }
 
-    /// The deviation in words: three digits, or, where it is nothing beside what is allowed, that it is.
-    // The digits of rounding errors differ between machines, and pages that tell them would, too.
+    /// Formats the deviation with three digits, or as "below …" if it is negligible relative to the limit.
+    // Digits of rounding errors differ between machines and would change the pages.
     pub(crate) fn found_in_words(&self) -> String {
         let nothing = if self.allowed < ROUNDING { self.allowed } else { NOTHING * self.allowed };
         if self.found < nothing {
@@ -38,7 +38,7 @@ impl Check {
         }
     }
 
-    /// What is allowed, in words.
+    /// Formats the limit.
     pub(crate) fn allowed_in_words(&self) -> String {
         self.quantity(self.allowed, 2)
     }
@@ -55,12 +55,12 @@ impl fmt::Display for Check {
     }
 }
 
-/// Tolerances below this are met to rounding.
+/// Limits below this value are met up to rounding errors.
 const ROUNDING: f64 = 1e-7;
-/// Parts of what is allowed that are nothing beside it.
+/// Fraction of the limit below which a deviation is negligible.
 const NOTHING: f64 = 1e-3;
 
-/// Root of the mean square.
+/// Returns the root mean square.
 pub(crate) fn rms(deviations: impl IntoIterator<Item = f64>) -> f64 {
     let (mut sum, mut count) = (0.0, 0.0);
     for deviation in deviations {
@@ -70,7 +70,7 @@ pub(crate) fn rms(deviations: impl IntoIterator<Item = f64>) -> f64 {
     (sum / count).sqrt()
 }
 
-/// The largest of some deviations; no number if one is none.
+/// Returns the largest absolute deviation, or NaN if one is NaN.
 pub(crate) fn worst(deviations: impl IntoIterator<Item = f64>) -> f64 {
     deviations.into_iter().map(f64::abs).fold(0.0, |worst, x| if x.is_nan() || x > worst { x } else { worst })
 }

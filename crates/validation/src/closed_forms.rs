@@ -1,4 +1,4 @@
-//! Closed forms of loading, unloading and loops at constant depth.
+//! Comparison with closed forms of loading, unloading and hysteresis loops at constant indentation.
 
 use crate::check::{Check, worst};
 use crate::page::{Kind, Page};
@@ -10,14 +10,14 @@ use stickslip_plot::{Arrangement, Axis, Figure, Ink, Label, Panel};
 
 pub(crate) const NAME: &str = "closed_forms";
 
-/// Depth of all contacts, m.
+/// Indentation of all contacts, m.
 const DEPTH: f64 = 1e-7;
-/// Where the loops turn, parts of `u_c`.
+/// Reversal points of the loops, relative to `u_c`.
 const TURN: f64 = 0.8;
-/// Amplitudes of the table, parts of `u_c`.
+/// Amplitudes in the table, relative to `u_c`.
 const AMPLITUDES: [f64; 7] = [0.01, 0.1, 0.3, 0.5, 0.8, 1.0, 1.5];
 
-/// A profile r^n and its contact, with `μF_N` and `u_c`.
+/// Contact with a profile r^n, with `μF_N` and `u_c`.
 struct Contact {
     n: f64,
     name: &'static str,
@@ -26,7 +26,7 @@ struct Contact {
     gross: f64,
 }
 
-/// A place of a path: u/u_c, `F_x/(μF_N)` of the program, of the formula.
+/// Point of a path: u/u_c, and `F_x/(μF_N)` of the program and of the formula.
 type Place = (f64, f64, f64);
 
 impl Contact {
@@ -42,12 +42,13 @@ impl Contact {
         Ok(contact)
     }
 
-    /// Moves to a share of `u_c`; returns the friction work, J.
+    /// Moves the contact to a displacement relative to `u_c`. Returns the friction work, J.
     fn slide(&self, contact: &mut Curve, share: f64) -> Result<f64, ValidationError> {
         Ok(contact.commit(&self.law, Segment::Straight(Apex { d: DEPTH, u: share * self.gross }))?)
     }
 
-    /// First loading to [`TURN`], unloading to its mirror image, reloading; stick radii of the first loading that are off, parts of a.
+    /// Follows first loading to [`TURN`], unloading to -[`TURN`] and reloading. Returns the points and the largest
+    /// deviation of the stick radius in first loading, relative to a.
     fn path(&self) -> Result<(Vec<Place>, f64), ValidationError> {
         let p = (self.n + 1.0) / self.n;
         let first = |share: f64| 1.0 - math::powf(1.0 - share, p);
@@ -79,7 +80,7 @@ impl Contact {
         Ok((places, radius))
     }
 
-    /// Friction work of a loop of an amplitude in parts of `u_c`, J: of the program, of the formula.
+    /// Returns the friction work of a loop with an amplitude relative to `u_c`, J: of the program and of the formula.
     fn work(&self, amplitude: f64) -> Result<(f64, f64), ValidationError> {
         let mut contact = self.pressed()?;
         self.slide(&mut contact, amplitude)?;
@@ -88,17 +89,17 @@ impl Contact {
     }
 }
 
-/// Work of a loop over `4μF_N u_c`.
+/// Returns the friction work of a loop divided by `4μF_N u_c`.
 fn loop_work(n: f64, amplitude: f64) -> f64 {
     let p = (n + 1.0) / n;
     if amplitude > 1.0 {
         return amplitude - 2.0 / (p + 1.0);
     }
-    // U + U(1-U)^p - 2/(p+1) [1-(1-U)^{p+1}] loses all its digits at small U: there by its power series in U, from U³ on.
+    // U + U(1-U)^p - 2/(p+1) [1-(1-U)^{p+1}] loses its digits at small U; its power series from U³ on is used there.
     let mut term = p;
     let mut sum = 0.0;
     for k in 2..400 {
-        // Coefficient of (-U)^k in (1-U)^p, and what is left of both brackets in U^{k+1}.
+        // Coefficient of (-U)^k in (1-U)^p, and the contribution of both brackets to U^{k+1}.
         term *= (p - f64::from(k - 1)) / f64::from(k);
         let sign = if k % 2 == 0 { 1.0 } else { -1.0 };
         let part = sign * term * (1.0 - 2.0 / f64::from(k + 1)) * amplitude.powi(k + 1);
@@ -125,7 +126,7 @@ pub(crate) fn page() -> Result<Page, ValidationError> {
         radii.push(radius);
     }
     let mut loops = Table::new(
-        "Friction work of a loop over 4μF_N u_c:",
+        "Friction work of a loop, divided by 4μF_N u_c:",
         &["amplitude/u_c", "cone", "formula", "paraboloid", "formula", "fourth power", "formula"],
     );
     let mut off = Vec::new();
@@ -141,39 +142,40 @@ pub(crate) fn page() -> Result<Page, ValidationError> {
     }
     let forces = worst(paths.iter().flatten().map(|(_, found, known)| found - known));
     let checks = vec![
-        Check::new("F_x over first loading, unloading, reloading, parts of μF_N", "", forces, 1e-12),
-        Check::new("stick radius of the first loading, parts of a", "", worst(radii), 1e-12),
+        Check::new("F_x of first loading, unloading, reloading, relative to μF_N", "", forces, 1e-12),
+        Check::new("stick radius of the first loading, relative to a", "", worst(radii), 1e-12),
         Check::new("friction work of loops, relative", "", worst(off), 1e-12),
     ];
     Ok(Page {
         name: NAME,
-        title: "Closed forms of loading and loops",
+        title: "Loading and hysteresis loops: closed forms",
         setup: SETUP.to_owned(),
-        command: "The memory curve is moved in steps of u_c/50; loops are closed in two moves.".to_owned(),
+        command: "The slip memory moves in steps of u_c/50. Each loop has two steps.".to_owned(),
         reference: REFERENCE.to_owned(),
         kind: vec![Kind::ClosedForm],
         checks,
         figure: figure(&contacts, &paths)?,
-        shows: "Left: forces of the program (curves) and the formulas (points). Right: work of loops, from cubic to linear in the \
-                amplitude."
+        shows: "Left: F_x of the program (curves) and of the formulas (points). Right: friction work of loops, from cubic to linear in \
+                the amplitude."
             .to_owned(),
         tables: vec![forces_table(&paths), loops],
         limits: LIMITS.to_owned(),
     })
 }
 
-const SETUP: &str = "Profiles r, r² and r⁴, pressed to one depth and moved sideways: to 0.8 u_c, back to -0.8 u_c and to 0.8 u_c again; then \
-loops of amplitudes from 0.01 to 1.5 u_c.";
-const REFERENCE: &str = "With p = (n+1)/n: first loading F_x = μF_N[1-(1-u/u_c)^p], stick radius c/a = (1-u/u_c)^{1/n}; unloading from \
-(u₁, F₁) F₁ - 2μF_N[1-(1-(u₁-u)/(2u_c))^p], reloading its mirror image; work of a loop of amplitude U, Ũ = U/u_c, 4μF_N u_c \
-{Ũ + Ũ(1-Ũ)^p - (2/(p+1))[1-(1-Ũ)^{p+1}]} up to u_c, 4μF_N[U - 2u_c/(p+1)] beyond.\n\nSource: handbook, section 4.4 (4.26–4.28, 4.33), \
-with Masing's rule for the branches; the work is the integral.";
-const LIMITS: &str = "Constant depth only, where every history is made of such branches. The formulas are those of the theory that the \
-program computes: this page says that it computes them to rounding, not how well they describe a contact.";
+const SETUP: &str = "Contacts with the profiles r, r² and r⁴ are pressed to one indentation. They are displaced to 0.8 u_c, to -0.8 u_c and \
+again to 0.8 u_c. Hysteresis loops follow, with amplitudes from 0.01 to 1.5 u_c.";
+const REFERENCE: &str = "For the profile rⁿ, with p = (n+1)/n:\n\n\
+* First loading: F_x = μF_N[1-(1-u/u_c)^p], stick radius c/a = (1-u/u_c)^{1/n}.\n\n\
+* Unloading from (u₁, F₁): F_x = F₁-2μF_N[1-(1-(u₁-u)/(2u_c))^p]. Reloading is the mirror image.\n\n\
+* Friction work of a loop of amplitude U = Ũu_c: 4μF_N u_c {Ũ+Ũ(1-Ũ)^p-(2/(p+1))[1-(1-Ũ)^{p+1}]} up to u_c, 4μF_N[U-2u_c/(p+1)] \
+beyond.\n\nThe source is the handbook, section 4.4 (4.26–4.28, 4.33), with Masing's rule for the branches. The work is the integral.";
+const LIMITS: &str = "The page covers constant indentation only, where every history consists of such branches. The formulas belong to the \
+theory that the program uses. The page shows that the program reproduces them to rounding, not how well they describe a real contact.";
 
 fn forces_table(paths: &[Vec<Place>]) -> Table {
     let mut table = Table::new(
-        "F_x/(μF_N) at some places:",
+        "F_x/(μF_N) along the path:",
         &["u/u_c", "cone", "formula", "paraboloid", "formula", "fourth power", "formula"],
     );
     for place in [9, 24, 39, 59, 79, 99, 119, 139, 159, 179, 199] {
@@ -232,7 +234,7 @@ fn figure(contacts: &[Contact; 3], paths: &[Vec<Place>]) -> Result<Figure<'stati
 mod tests {
     use super::*;
 
-    /// What is asked of this page, by numbers of its own.
+    /// Limits of this page, independent of the page itself.
     #[test]
     fn closed_forms_are_met() {
         let page = page().unwrap();
@@ -241,14 +243,14 @@ mod tests {
         assert!(forces <= 1e-12 && radii <= 1e-12 && works <= 1e-12, "{found:?}");
     }
 
-    /// (2/3)p(p-1)U³ over 4 where U is small.
+    /// (2/3)p(p-1)U³ / 4 at small U.
     #[test]
     fn small_loops_are_cubic() {
         for n in [1.0, 2.0, 4.0] {
             let p = (n + 1.0) / n;
             let cubic = p * (p - 1.0) / 6.0 * 1e-9;
             assert!((loop_work(n, 1e-3) / cubic - 1.0).abs() < 2e-3, "{n}");
-            // Where series and formula meet.
+            // Series and formula agree where they meet.
             assert!((loop_work(n, 0.5 - 1e-9) / loop_work(n, 0.5) - 1.0).abs() < 1e-8, "{n}");
         }
     }

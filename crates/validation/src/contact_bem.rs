@@ -1,4 +1,4 @@
-//! Cattaneo's problem by the boundary-element program CONTACT.
+//! Comparison with the boundary-element program CONTACT: Cattaneo's problem.
 
 use crate::check::{Check, worst};
 use crate::data::{self, BoundaryElements, Cattaneo, Spence};
@@ -14,10 +14,10 @@ use stickslip_plot::{Arrangement, Figure, Ink, Label, Panel, Reference};
 
 pub(crate) const NAME: &str = "contact";
 
-/// What the grids of CONTACT allow, %.
+/// Allowed deviation due to the grids of CONTACT, %.
 const ASKED: f64 = 0.2;
 
-/// A first loading and its energies, J.
+/// First loading with maximum pressure, Pa, and energies, J.
 pub(crate) struct Loaded {
     pub(crate) state: FirstLoading,
     pub(crate) peak: f64,
@@ -25,7 +25,7 @@ pub(crate) struct Loaded {
     pub(crate) friction: f64,
 }
 
-/// A case of CONTACT beside the program's: parts by which the program is off, %.
+/// Case of CONTACT with the deviations of the program, %.
 struct Compared {
     place: (f64, f64),
     approach: f64,
@@ -56,10 +56,10 @@ pub(crate) fn page() -> Result<Page, ValidationError> {
             ASKED,
         ),
         Check::new("pressure, elastic energy, friction work", "%", worst(printed.iter().map(off)), ASKED),
-        Check::new("closed forms, in units of their last digit", "", units, 1.0),
+        Check::new("difference from the closed forms, in units of their last printed digit", "", units, 1.0),
     ];
     let mut prints = Table::new(
-        "What else CONTACT prints of the first case:",
+        "Other results of CONTACT for the first case:",
         &["quantity", "program", "CONTACT", "off by"],
     );
     for row in &printed {
@@ -69,29 +69,29 @@ pub(crate) fn page() -> Result<Page, ValidationError> {
     let tables = vec![four(&cases), prints, worked, dissimilar];
     Ok(Page {
         name: NAME,
-        title: "Cattaneo's problem by boundary elements",
+        title: "Cattaneo–Mindlin contact: boundary elements",
         setup: SETUP.to_owned(),
         command: COMMAND.to_owned(),
         reference: format!("{REFERENCE}\n\nSource: {}.", known.source),
         kind: vec![Kind::OtherCode, Kind::ClosedForm],
         checks,
         figure: figure(&cases),
-        shows: "Left: the force over the shift, in parts of μF_N and u_c; the curve is the program's, one for all four cases, \
-                the points are CONTACT's. Right: by how much the program is off, with what is asked of approach and force; the shift is the force the other way round."
+        shows: "Left: force versus shift (tangential displacement), scaled by μF_N and u_c. The curve is the program's and is the same \
+                for all four cases; the points are CONTACT's. Right: deviation of the program, with the limit for approach and force."
             .to_owned(),
         tables,
         limits: limits(neglected, &known.spence_source),
     })
 }
 
-const SETUP: &str = "Two equal bodies touch like a paraboloid on a plane, are pressed together and then pulled sideways, first by \
-less than μF_N: a ring at the edge slips, the middle sticks (Cattaneo 1938, Mindlin 1949).";
-const COMMAND: &str = "The program's numbers are those of its first loading, by which `stickslip info` and the start of a run \
-under a load find displacement and stick radius; the energies are those of the memory curve moved once down and once sideways.";
-const REFERENCE: &str = "CONTACT solves the half-space problem on a grid of squares, by variational methods that share nothing with this \
-program. Compared is the force at its shift, and the approach at its normal force. Its grids have 17 to 34 cells across: 0.1 to 0.2 % is \
-what they leave of the closed forms. Where the closed forms were worked out elsewhere, their digits must come out, to one unit of the last, for what \
-goes into them is rounded, too.";
+const SETUP: &str = "Two equal bodies touch like a paraboloid and a plane. A tangential force below μF_N causes partial slip: a ring at \
+the edge slips, the centre sticks (Cattaneo 1938, Mindlin 1949).";
+const COMMAND: &str = "The program's values are those of its first loading, which `stickslip info` and the start of a run also use. \
+The energies come from the slip memory after one normal and one tangential section.";
+const REFERENCE: &str = "CONTACT solves the half-space problem on a square grid by variational methods. It shares no method with \
+stickslip. The page compares the approach at CONTACT's normal force and F_x at CONTACT's shift. The grids have 17 to 34 cells across \
+the contact; they deviate by 0.1 to 0.2 % from the closed forms. Closed-form values from other sources must agree within one unit of \
+their last digit, as their input is rounded, too.";
 
 pub(crate) fn interface((shear, nu, radius, mu): (f64, f64, f64, f64)) -> Result<Interface, ValidationError> {
     let material = Material::new(2.0 * shear * (1.0 + nu), nu)?;
@@ -165,15 +165,13 @@ fn four(cases: &[Compared]) -> Table {
         "CONTACT",
         "off by",
     ];
-    let mut table = Table::new(
-        "Approach at the normal force, force at the shift and, the other way round, shift at the force:",
-        &heads,
-    );
+    let mut table =
+        Table::new("Approach at equal normal force, force at equal shift, shift at equal force:", &heads);
     cases.iter().for_each(|case| table.row(case.cells.clone()));
     table
 }
 
-/// Bodies that are not elastically similar: what the theory misses, %.
+/// Returns the table for bodies that are not elastically similar, and the deviation of the theory, %.
 fn dissimilar(known: &Spence) -> Result<(Table, f64), ValidationError> {
     let material =
         |i: usize| Material::new(2e6 * known.shear_modulus_mpa[i] * (1.0 + known.nu[i]), known.nu[i]);
@@ -182,10 +180,10 @@ fn dissimilar(known: &Spence) -> Result<(Table, f64), ValidationError> {
     let law = Interface::new(pair, profile, known.mu)?;
     let mut table = Table::new(
         &format!(
-            "A case that is *not* elastically similar, β = {}, pressed only:",
+            "Normal contact of bodies that are *not* elastically similar, β = {}:",
             places(pair.dundurs_beta(), 3)
         ),
-        &["F_N, N", "d, mm", "CONTACT", "CONTACT is off by"],
+        &["F_N, N", "d, mm", "CONTACT", "deviation of CONTACT"],
     );
     let mut off = Vec::new();
     for &(force, approach) in &known.rows {
@@ -202,7 +200,7 @@ fn dissimilar(known: &Spence) -> Result<(Table, f64), ValidationError> {
 }
 
 fn figure(cases: &[Compared]) -> Figure<'static> {
-    // F_x/(μF_N) over u/u_c, the same for every paraboloid: by the curve, not by its formula.
+    // F_x/(μF_N) versus u/u_c, the same for every paraboloid, computed by the program.
     let universal = || -> Result<Vec<(f64, f64)>, ValidationError> {
         let law = interface((1e9, 0.3, 1.0, 0.3))?;
         let at = |step: u32| {
@@ -248,11 +246,10 @@ fn figure(cases: &[Compared]) -> Figure<'static> {
 
 fn limits(neglected: f64, source: &str) -> String {
     format!(
-        "The four cases are equal bodies under a first loading: they test moduli and the stick zone, not memory. Read the other way \
-         round, the shift at CONTACT's force is off by up to 0.21 % (first case): near gross slip the shift changes by more than \
-         the force.\n\nThe last table is what elastic similarity leaves out: CONTACT solved pressure that moves the two surfaces sideways \
-         by different amounts, and friction that resists. Its approach is {} % smaller, at μ = 0.2986 and at β = 0.5, the largest of all \
-         pairs with ν ≥ 0. Source: {source}.",
+        "The four cases are first loadings of equal bodies. They test moduli and stick zone, not the slip memory. The shift at \
+         CONTACT's force deviates by up to 0.21 % (first case), as near gross slip the shift changes more than the force.\n\nThe last \
+         table shows what elastic similarity neglects: pressure displaces the two surfaces by different amounts, and friction resists. The \
+         approach of CONTACT is {} % smaller at μ = 0.2986 and β = 0.5, the maximum for ν ≥ 0. Source: {source}.",
         places(neglected, 1),
     )
 }
@@ -261,7 +258,7 @@ fn limits(neglected: f64, source: &str) -> String {
 mod tests {
     use super::*;
 
-    /// What is asked of this page, by numbers of its own: a tolerance that is widened is found here.
+    /// Limits of this page, independent of the page itself.
     #[test]
     fn contact_is_met_to_a_fifth_of_a_per_cent_and_closed_forms_to_their_last_digit() {
         let page = page().unwrap();

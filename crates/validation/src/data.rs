@@ -1,36 +1,36 @@
-//! What others published, with its source.
+//! Published reference data with their sources.
 
 use serde::Deserialize;
 use serde::de::DeserializeOwned;
 
-/// The measured impacts.
+/// Measured impacts.
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct Impacts {
     pub(crate) source: String,
     /// Angle of incidence to the normal, degrees; tangential restitution.
     pub(crate) restitution: Vec<(f64, f64)>,
-    /// Angle of incidence; angle of the rebound, degrees.
+    /// Angle of incidence, degrees; rebound angle, degrees.
     pub(crate) rebound_deg: Vec<(f64, f64)>,
     pub(crate) one_spring_source: String,
-    /// Angle; tangential restitution.
+    /// Angle of incidence, degrees; tangential restitution.
     pub(crate) one_spring: Vec<(f64, f64)>,
-    /// Angle; spin after the impact, rad/s.
+    /// Angle of incidence, degrees; spin after the impact, rad/s.
     pub(crate) spin_rad_s: Vec<(f64, f64)>,
 }
 
-/// Impacts by finite elements.
+/// Impacts computed by finite elements.
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct FiniteElements {
     pub(crate) source: String,
-    /// V_x/(μV_z) at the point of contact before and after, which the authors call ψ.
+    /// V_x/(μV_z) at the point of contact before and after the impact, called ψ by the authors.
     pub(crate) psi: Vec<(f64, f64)>,
-    /// The same before; spin ωR/(μv_n).
+    /// V_x/(μV_z) before the impact; spin ωR/(μv_n) after it.
     pub(crate) spin: Vec<(f64, f64)>,
 }
 
-/// What the boundary-element program CONTACT printed.
+/// Output of the boundary-element program CONTACT.
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct BoundaryElements {
@@ -41,7 +41,7 @@ pub(crate) struct BoundaryElements {
     pub(crate) spence: Spence,
 }
 
-/// Two equal bodies, pressed and pulled.
+/// Two equal bodies under normal and tangential load.
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct Cattaneo {
@@ -57,7 +57,7 @@ pub(crate) struct Cattaneo {
     pub(crate) grid: String,
 }
 
-/// What else there is of the first case.
+/// Further results of the first case.
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct Printed {
@@ -66,7 +66,7 @@ pub(crate) struct Printed {
     pub(crate) friction_work_j: f64,
 }
 
-/// Bodies that are not elastically similar, pressed.
+/// Bodies that are not elastically similar, under normal load.
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct Spence {
@@ -78,10 +78,10 @@ pub(crate) struct Spence {
     pub(crate) rows: Vec<(f64, f64)>,
 }
 
-/// Reads one of the files of this crate.
+/// Reads one of the data files of this crate.
 ///
 /// # Errors
-/// A file that is not what its type says.
+/// Fails if the file does not match its type.
 pub(crate) fn read<T: DeserializeOwned>(text: &str) -> Result<T, serde_json::Error> {
     serde_json::from_str(text)
 }

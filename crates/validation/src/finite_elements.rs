@@ -1,4 +1,4 @@
-//! Oblique impacts by finite elements.
+//! Comparison with finite elements: oblique impacts.
 
 use crate::bounce::Shot;
 use crate::check::{Check, rms};
@@ -12,7 +12,7 @@ use stickslip_run::Watcher;
 
 pub(crate) const NAME: &str = "finite_elements";
 
-/// s₁, here the slip V_x/(μV_z); by finite elements; of the program.
+/// s₁ = V_x/(μV_z) before the impact; result of finite elements; result of the program.
 type Row = (f64, f64, f64);
 
 pub(crate) fn page(watcher: &dyn Watcher) -> Result<Page, ValidationError> {
@@ -50,19 +50,19 @@ pub(crate) fn page(watcher: &dyn Watcher) -> Result<Page, ValidationError> {
     let spin_curve = smooth.iter().map(|(before, r)| (*before, r.scaled_spin())).collect();
     Ok(Page {
         name: NAME,
-        title: "Oblique impacts by finite elements",
+        title: "Oblique impact: finite elements",
         setup: SETUP.to_owned(),
-        command: format!("One point, s₁ = 1.92:\n\n```sh\n{}\n```", Shot::at_slope(1.92).command()),
+        command: format!("Command for s₁ = 1.92:\n\n```sh\n{}\n```", Shot::at_slope(1.92).command()),
         reference: format!("{REFERENCE}\n\nSource: {}.", known.source),
         kind: vec![Kind::OtherCode],
         checks,
         figure: figure(&known, psi_curve, spin_curve),
         shows:
-            "Left: the velocity of the point of contact after over that before the impact; right: the spin."
+            "Left: scaled velocity of the contact point after the impact versus that before it. Right: spin."
                 .to_owned(),
         tables: vec![
             table(
-                "Velocity of the point of contact:",
+                "Scaled velocity of the contact point:",
                 &["s₁", "finite elements, s₂", "program", "off by"],
                 &psi,
             ),
@@ -72,13 +72,15 @@ pub(crate) fn page(watcher: &dyn Watcher) -> Result<Page, ValidationError> {
     })
 }
 
-const SETUP: &str = "A sphere without spin hits a half-space of its own material obliquely, ν = 0.3, without loss in the normal direction. \
-In the slip s = V_x/(μV_z) of the point of contact (ψ of [the theory](impact_theory.md) without its ratio of moduli; the authors call it ψ) and in the spin ωR/(μV_z) the result does not depend on speed, size or friction: the program runs its example [measured_impact.json](../../scenarios/measured_impact.json) with two equal materials.";
-const REFERENCE: &str =
-    "Dynamic finite elements of sphere and half-space: neither Hertz' nor Mindlin's law goes into them.";
-const LIMITS: &str = "The points were read off published plots to two places and scatter by some hundredths; how fine the mesh was \
-under the contact is not told with them. **Below s₁ = 1 the two disagree in sign**: the finite elements show no small positive s₂, \
-the theory has it, as Maw, Barber and Fawcett's has:";
+const SETUP: &str = "A sphere without spin hits a half-space of its own material (ν = 0.3) obliquely, without normal loss. The scaled \
+tangential velocity of the contact point is s = V_x/(μV_z), which the authors call ψ. It is ψ of [the theory](impact_theory.md) without \
+the ratio of moduli. With s and the spin ωR/(μV_z) the result does not depend on speed, size or friction. The scenario is \
+[measured_impact](../examples/measured_impact.md) with two equal materials.";
+const REFERENCE: &str = "The reference is a dynamic finite-element model of sphere and half-space. It contains neither Hertz' nor \
+Mindlin's law.";
+const LIMITS: &str = "The points were read from published plots to two decimals and scatter by some hundredths. The mesh size under the \
+contact is not published. **Below s₁ = 1 the signs differ.** The theory, like that of Maw, Barber and Fawcett, gives a small positive \
+s₂; the finite elements do not:";
 
 fn table(caption: &str, heads: &[&'static str], rows: &[Row]) -> Table {
     let mut table = Table::new(caption, heads);
@@ -116,14 +118,14 @@ fn figure(known: &FiniteElements, psi: Vec<(f64, f64)>, spin: Vec<(f64, f64)>) -
 mod tests {
     use super::*;
 
-    /// What is asked of this page, by numbers of its own.
+    /// Limits of this page, independent of the page itself.
     #[test]
     fn finite_elements_are_met() {
         let page = page(&()).unwrap();
         let found: Vec<f64> = page.checks.iter().map(|check| check.found).collect();
         let [psi, spin] = found[..] else { panic!("{found:?}") };
         assert!(psi <= 0.07 && spin <= 0.05, "{found:?}");
-        // The disagreement that the page tells of is there.
+        // The page mentions the known disagreement.
         assert!(page.limits.contains("-0.03 against 0.0"), "{}", page.limits);
     }
 }

@@ -1,4 +1,4 @@
-//! Oblique impact of a solid sphere in theory.
+//! Comparison with the theory of oblique impact of a solid sphere.
 
 use crate::bounce::{Shot, ratio};
 use crate::check::{Check, worst};
@@ -11,7 +11,7 @@ use stickslip_run::Watcher;
 
 pub(crate) const NAME: &str = "impact_theory";
 
-/// ψ₁ and ψ₂ at ν = 0.3, integrated in long arithmetic with all changes of stick and slip located.
+/// ψ₁ and ψ₂ at ν = 0.3, integrated in extended precision with all changes of stick and slip located.
 const KNOWN: [(f64, f64); 6] = [
     (0.5, 0.047_831),
     (1.0, -0.059_697),
@@ -20,24 +20,24 @@ const KNOWN: [(f64, f64); 6] = [
     (3.0, -1.379_683),
     (4.0, -1.436_512),
 ];
-/// ψ₁ of the closed form.
+/// ψ₁ for the closed form of slip throughout.
 const GROSS: [f64; 6] = [4.8, 5.0, 6.0, 8.0, 12.0, 20.0];
 
-/// χ of a solid sphere: (7/4)G\*/E\*.
+/// Returns χ = (7/4)G\*/E\* of a solid sphere.
 fn chi() -> f64 {
     1.75 * ratio()
 }
 
 pub(crate) fn page(watcher: &dyn Watcher) -> Result<Page, ValidationError> {
     let psi = |psi: f64| Ok::<f64, ValidationError>(Shot::at_psi(psi).rebound(watcher)?.psi());
-    let mut known = Table::new("Integrated elsewhere:", &["ψ₁", "program", "known", "off by"]);
+    let mut known = Table::new("Cases with stick:", &["ψ₁", "program", "known", "off by"]);
     let mut integrated = Vec::new();
     for (before, after) in KNOWN {
         let found = psi(before)?;
         integrated.push(found - after);
         known.row([before.to_string(), places(found, 7), places(after, 6), places(found - after, 7)]);
     }
-    let mut closed = Table::new("Slip from first to last:", &["ψ₁", "program", "ψ₁ - 4χ"]);
+    let mut closed = Table::new("Slip throughout:", &["ψ₁", "program", "ψ₁ - 4χ"]);
     let mut slipping = Vec::new();
     for before in GROSS {
         let found = psi(before)?;
@@ -51,15 +51,15 @@ pub(crate) fn page(watcher: &dyn Watcher) -> Result<Page, ValidationError> {
     }
     Ok(Page {
         name: NAME,
-        title: "Oblique impact in theory",
+        title: "Oblique impact: theory",
         setup: SETUP.to_owned(),
-        command: format!("One point, ψ₁ = 2:\n\n```sh\n{}\n```", Shot::at_psi(2.0).command()),
+        command: format!("Command for ψ₁ = 2:\n\n```sh\n{}\n```", Shot::at_psi(2.0).command()),
         reference: REFERENCE.to_owned(),
         kind: vec![Kind::ClosedForm, Kind::OtherCode],
         checks: vec![
-            Check::new("ψ₂ where it slips from first to last", "", worst(slipping), 1e-8),
+            Check::new("ψ₂ with slip throughout", "", worst(slipping), 1e-8),
             Check::new(
-                "ψ₂ where it sticks in between, half a unit of the last digit",
+                "ψ₂ with stick, half a unit of the last digit",
                 "",
                 worst(integrated),
                 5e-7,
@@ -67,23 +67,22 @@ pub(crate) fn page(watcher: &dyn Watcher) -> Result<Page, ValidationError> {
         ],
         figure: figure(smooth),
         shows:
-            "Slow impacts stick, and the spring of the contact turns them round; fast ones slip all the way."
+            "At small ψ₁ the contact sticks, and its springs reverse the motion. At large ψ₁ it slips throughout."
                 .to_owned(),
         tables: vec![known, closed],
         limits: LIMITS.to_owned(),
     })
 }
 
-const SETUP: &str = "A solid sphere without spin hits a plane of its own material, ν = 0.3, with full normal restitution (Maw, Barber, \
-Fawcett, Wear 38, 1976). In ψ = (G\\*/(E\\*μ)) V_x/V_z, the velocity of the point of contact along the plane over that of the approach, \
-ψ₂ after the impact depends on ψ₁ before it and on χ = (7/4)G\\*/E\\* alone.";
-const REFERENCE: &str = "For ψ₁ ≥ 4χ-1 the contact slips from first to last, and momentum gives ψ₂ = ψ₁-4χ exactly. Below it sticks at \
-some time; ψ₂ was integrated by an unrelated program, in long double precision with every change of stick and slip located, and \
-confirmed by rows of up to 32 000 springs.";
-const LIMITS: &str = "Where it sticks in between the reference is the same theory of the contact: the page says that motion and contact \
-are integrated rightly together. What measurements and finite elements say of the theory is on [the page of the \
-measurement](measured_impact.md) and [that of finite elements](finite_elements.md). Curves of other \
-authors (Maw, Barber and Fawcett 1976, Jäger 1994) are not here: none of their numbers were at hand.";
+const SETUP: &str = "A solid sphere without spin hits a plane of its own material (ν = 0.3) with full normal restitution (Maw, Barber, \
+Fawcett, Wear 38, 1976). The scaled tangential velocity of the contact point is ψ = (G\\*/(E\\*μ)) V_x/V_z, where V_z is the velocity \
+of approach. ψ₂ after the impact depends only on ψ₁ before it and on χ = (7/4)G\\*/E\\*.";
+const REFERENCE: &str = "For ψ₁ ≥ 4χ-1 the contact slips throughout, and momentum gives ψ₂ = ψ₁-4χ exactly. For smaller ψ₁ it sticks for \
+part of the impact. An independent program integrated these cases in long double precision and located every change of stick and slip. \
+Rows of up to 32 000 springs confirm its values.";
+const LIMITS: &str = "For the cases with stick, the reference uses the same contact theory. The page shows that motion and contact are \
+integrated correctly together. The [measurement](measured_impact.md) and the [finite elements](finite_elements.md) check the theory. \
+Curves of other authors (Maw, Barber and Fawcett 1976, Jäger 1994) are not compared, as their numbers were not available.";
 
 fn figure(smooth: Vec<(f64, f64)>) -> Figure<'static> {
     let from = 4.0 * chi() - 1.0;
@@ -112,7 +111,7 @@ fn figure(smooth: Vec<(f64, f64)>) -> Figure<'static> {
 mod tests {
     use super::*;
 
-    /// What is asked of this page, by numbers of its own.
+    /// Limits of this page, independent of the page itself.
     #[test]
     fn the_theory_of_oblique_impact_is_met() {
         let page = page(&()).unwrap();

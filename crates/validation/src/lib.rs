@@ -1,13 +1,14 @@
-//! Known results, measured, computed by others and in closed form, beside what the program makes of them.
+//! Validation: comparison of the program with measurements, other programs and closed forms.
 //!
-//! A [`Subject`] is a known result; [`Subject::page`] computes it anew and says on a [`Page`] what is known and from where, what
-//! the program makes of it, how far the two are apart and how far they may be. [`Page::markdown`] and [`Page::picture`] are its
-//! files, [`index`] is the page of all pages. Nothing here is fitted, and no tolerance here is one that was found: each is asked
-//! for beforehand, and a [`Check`] says whether it is kept.
+//! A [`Subject`] is a known result. [`Subject::page`] computes it and returns a [`Page`] with reference, result,
+//! deviation and limit. [`Page::markdown`] and [`Page::picture`] are its files; [`index`] lists all pages. No parameter
+//! is
+//! fitted, and limits were set before the comparison. A [`Check`] states whether a limit is met.
 //!
-//! In reading order: `subject` (the list), `page` and `check`, `table` and `picture` (what they are made of), `data` (what others
-//! published, with its source), `bounce` (impacts, run as a user runs them), then a module for each subject,
-//! and `worked`, numbers of closed forms.
+//! Modules in reading order:
+//! * `subject`: list of comparisons; `page` and `check`: content of a page; `table` and `picture`: its parts.
+//! * `data`: published reference data; `bounce`: simulated impacts; `worked`: values of closed forms.
+//! * One module for each subject.
 
 mod bounce;
 mod check;

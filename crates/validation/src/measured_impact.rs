@@ -1,4 +1,4 @@
-//! Oblique impacts as they were measured.
+//! Comparison with a measurement: oblique impacts.
 
 use crate::bounce::{RADIUS, Shot};
 use crate::check::{Check, rms};
@@ -12,10 +12,10 @@ use stickslip_run::Watcher;
 
 pub(crate) const NAME: &str = "measured_impact";
 
-/// Speed of all impacts, m/s.
+/// Velocity of all impacts, m/s.
 const SPEED: f64 = 3.9;
 
-/// A quantity that was measured at some angles: angle, measured, of the program, of the one-spring law.
+/// Angle of incidence, degrees; measured value; value of the program; value of the one-spring law.
 type Row = (f64, f64, f64, f64);
 
 pub(crate) fn page(watcher: &dyn Watcher) -> Result<Page, ValidationError> {
@@ -27,7 +27,7 @@ pub(crate) fn page(watcher: &dyn Watcher) -> Result<Page, ValidationError> {
     }
     let mut rebound: Vec<Row> = Vec::new();
     for &(angle, measured) in &known.rebound_deg {
-        // Full normal restitution: tan of the rebound is the tangential restitution times tan of the incidence.
+        // With full normal restitution, tan(rebound angle) is the tangential restitution times tan(angle of incidence).
         let spring = interpolated(&known.one_spring, angle) * math::tan(angle.to_radians());
         rebound.push((angle, measured, at(angle)?.angle(), math::atan(spring).to_degrees()));
     }
@@ -45,45 +45,47 @@ pub(crate) fn page(watcher: &dyn Watcher) -> Result<Page, ValidationError> {
     let springs = [deviation(&restitution, spring), deviation(&rebound, spring)];
     let tables = vec![
         table("Tangential restitution:", "incidence, °", &restitution, 4),
-        table("Angle of the rebound, °:", "incidence, °", &rebound, 3),
+        table("Rebound angle, °:", "incidence, °", &rebound, 3),
         spins(&known, watcher)?,
     ];
     Ok(Page {
         name: NAME,
-        title: "A measured impact",
+        title: "Oblique impact: measurement",
         setup: SETUP.to_owned(),
-        command: format!("One point, {}° off the normal:\n\n```sh\n{}\n```", 30.22, Shot::at_angle(SPEED, 30.22).command()),
+        command: format!("Command for {}° to the normal:\n\n```sh\n{}\n```", 30.22, Shot::at_angle(SPEED, 30.22).command()),
         reference: format!("{REFERENCE}\n\nSource: {}. One-spring law: {}.", known.source, known.one_spring_source),
         kind: vec![Kind::Measurement],
         checks,
         figure: figure(&known, &smooth.iter().map(|(angle, r)| (*angle, r.restitution(), r.angle())).collect::<Vec<_>>()),
-        shows: "At small angles the contact sticks for a while, and its springs turn the motion round; beyond 28° it slips from first \
-                to last, and every law with μ alike says the same. The one-spring law goes to 1 at small angles, where it neither \
-                slips nor loses anything."
+        shows: "At small angles the contact sticks for part of the impact, and its tangential springs reverse the motion. Above 28° it \
+                slips throughout, and all laws with the same μ agree. The one-spring law approaches 1 at small angles, where it neither \
+                slips nor dissipates energy."
             .to_owned(),
         tables,
         limits: format!(
-            "{LIMITS}\n\nThe one-spring law of granular codes, a single tangential spring with a slider, is off by an rms of {} in \
-             the restitution and {}° in the rebound angle on the same points (between its computed angles on straight lines, below \
-             2.5° its first value).",
+            "{LIMITS}\n\nThe one-spring law of granular codes has a single tangential spring with a slider. Its rms deviation on the \
+             same points is {} in the restitution and {}° in the rebound angle. It is interpolated linearly between its computed \
+             angles; below 2.5° its first value applies.",
             places(springs[0], 3),
             places(springs[1], 2)
         ),
     })
 }
 
-const SETUP: &str = "A sphere of aluminium oxide (5 mm, 4000 kg/m³, E 380 GPa, ν 0.23) hits a thick plate of soda-lime glass (E 70 GPa, \
-ν 0.25) at 3.9 m/s, at angles between 0 and 62° to the normal, without spin. Friction 0.092, as published with the measurement; \
-nothing is fitted. The scenario is [measured_impact.json](../../scenarios/measured_impact.json): a free body with mass and inertia, a \
-contact that its motion presses, the event stepper at a tolerance of 1e-9.";
-const REFERENCE: &str = "Measured: velocities of the sphere before and after. Tangential restitution is the velocity of the centre along the \
-plate after the impact over that before.";
-const LIMITS: &str = "The points were read off published plots by others; that error is in the deviations. Normal restitution is 1, as \
-published. Alumina on glass is not elastically similar (β = 0.23): the normal stiffness may be [up to 1.8 % higher](../figures.md#similarity) than this theory has it. Spin was measured, too, and is not asked for here: it \
-contradicts the measured restitution by up to 18 %, for ω = 5(1-e_t)v_t/(2R) follows from angular momentum about the point of \
-contact whatever the law of friction is; the last table has both.";
+const SETUP: &str = "A sphere without spin hits a thick plate at 3.9 m/s, at angles between 0 and 62° to the normal. The sphere is \
+aluminium oxide (diameter 5 mm, 4000 kg/m³, E 380 GPa, ν 0.23), the plate soda-lime glass (E 70 GPa, ν 0.25). The friction \
+coefficient 0.092 was published with the measurement. No parameter is fitted. The scenario \
+[measured_impact](../examples/measured_impact.md) has a free body with mass and inertia and a coupled contact. The tolerance of the \
+event stepper is 1e-9.";
+const REFERENCE: &str = "The velocities of the sphere were measured before and after the impact. The tangential restitution is the \
+tangential velocity of the centre after the impact, divided by that before.";
+const LIMITS: &str = "The deviations include the error of reading the points from published plots. The normal restitution is 1, as \
+published. Alumina on glass is not elastically similar (Dundurs' β = 0.23). The normal stiffness may be [up to 1.8 % \
+higher](../theory/contact_mechanics.md#elastic-similarity) than in this theory.\n\nThe measured spin is not checked. It contradicts \
+the measured restitution by up to 18 %: angular momentum about the contact point requires ω = 5(1-e_t)v_t/(2R) for every friction \
+law. The last table shows both.";
 
-/// On straight lines between points, beyond the ends their value.
+/// Returns linear interpolation between points, and the end values outside.
 fn interpolated(points: &[(f64, f64)], x: f64) -> f64 {
     for pair in points.windows(2) {
         if let [(x1, y1), (x2, y2)] = *pair
@@ -107,10 +109,10 @@ fn table(caption: &str, first: &'static str, rows: &[Row], digits: usize) -> Tab
     table
 }
 
-/// Measured spins beside those of the program, and those that the program's restitution implies.
+/// Returns the table of measured spins, those of the program, and those implied by the program's restitution.
 fn spins(known: &Impacts, watcher: &dyn Watcher) -> Result<Table, ValidationError> {
     let mut table = Table::new(
-        "Spin after the impact, rad/s, for the record:",
+        "Spin after the impact, rad/s (not checked):",
         &["incidence, °", "measured", "program", "5(1-e_t)v_t/(2R), e_t of the program"],
     );
     for &(angle, measured) in &known.spin_rad_s {
@@ -161,7 +163,7 @@ fn figure(known: &Impacts, own: &[(f64, f64, f64)]) -> Figure<'static> {
 mod tests {
     use super::*;
 
-    /// What is asked of this page, by numbers of its own.
+    /// Limits of this page, independent of the page itself.
     #[test]
     fn the_measured_impact_is_met() {
         let page = page(&()).unwrap();

@@ -1,4 +1,4 @@
-//! Normal and tangential load that vary together: the rate equations of Mindlin and Deresiewicz.
+//! Comparison with the rate equations of Mindlin and Deresiewicz for normal and tangential load that vary together.
 
 use crate::check::{Check, worst};
 use crate::page::{Kind, Page};
@@ -12,46 +12,46 @@ use stickslip_plot::{Arrangement, Figure, Ink, Label, Panel};
 
 pub(crate) const NAME: &str = "oblique_loading";
 
-/// Steel spheres of Porter and Brake: E, Pa; ν; effective radius, m; μ; indentation at the start, m.
+/// Steel spheres of Porter and Brake: E, Pa; ν; effective radius, m; μ; initial indentation, m.
 const MODULUS: f64 = 192.85e9;
 const NU: f64 = 0.29;
 const RADIUS: f64 = 4.174_432_305_996_625e-3;
 const FRICTION: f64 = 0.2;
 const DEPTH: f64 = 10e-6;
-/// Steps of the rate equations and chords of the memory curve.
-// Twice as many change no digit that is told; a tenth would do for 1e-7 N.
+/// Number of steps of the rate equations and of sections of the path.
+// Twice as many steps do not change the printed digits.
 const STEPS: u32 = 2000;
 
-/// A path from a first loading on, and what is known of it.
+/// Path after a first loading, with its known results.
 struct Path {
     name: &'static str,
-    /// What is given of the start, as share of `u_c` or force.
+    /// Initial tangential displacement or force.
     start: TangentialGiven,
-    /// `F_N` at the end over that at the start.
+    /// `F_N` at the end divided by that at the start.
     to: f64,
-    /// `dF_x/dF_N` over μ.
+    /// `dF_x/dF_N` divided by μ.
     slope: f64,
-    /// `F_x`, N, and u, µm, at the start; `F_x`, N, d and u, µm, at the end; no number where nothing is known.
+    /// `F_x`, N, and u, µm, at the start; `F_x`, N, d and u, µm, at the end. NaN if unknown.
     known: [f64; 5],
-    /// How far `F_x` may be off its straight line, N.
+    /// Allowed deviation of `F_x` from its straight line, N.
     asked: f64,
 }
 
-/// A path as it was walked.
+/// Simulated path.
 struct Walked {
-    /// As [`Path::known`].
+    /// Results in the order of [`Path::known`].
     found: [f64; 5],
     /// `F_N` and `F_x`, N.
     forces: Vec<(f64, f64)>,
-    /// Largest distance of `F_x` from its straight line, N.
+    /// Largest deviation of `F_x` from its straight line, N.
     off: f64,
-    /// `F_x` where the path ends by what is known, N.
+    /// `F_x` at the end point (d, u) of the reference, N.
     at_known_end: f64,
-    /// Friction work on the way, parts of `μF_N u_c`.
+    /// Friction work on the path, relative to `μF_N u_c`.
     friction: f64,
 }
 
-/// Half a unit of the last digit of the forces that are known, N.
+/// Half a unit of the last digit of the known forces, N.
 const HALF: f64 = 5e-8;
 
 pub(crate) fn page() -> Result<Page, ValidationError> {
@@ -86,23 +86,21 @@ pub(crate) fn page() -> Result<Page, ValidationError> {
             Check::new(&format!("{}: {what}", path.name), "N", found, allowed)
         };
         checks.push(check("F_x at both ends, to the last digit", digits, HALF));
-        checks.push(check("F_x off its straight line over F_N", walked.off, path.asked));
-        checks.push(check("F_x at the end (d, u) of the others", walked.at_known_end - end, 1e-6));
+        checks.push(check("F_x from its straight line in F_N", walked.off, path.asked));
+        checks.push(check("F_x at the end (d, u) of the reference", walked.at_known_end - end, 1e-6));
         tables.push(table(path, walked));
     }
     Ok(Page {
         name: NAME,
-        title: "Load and force that vary together",
+        title: "Oblique loading: Mindlin and Deresiewicz",
         setup: SETUP.to_owned(),
-        command: "The memory curve is moved along the path in 2 000 straight pieces; the path u(F_N) comes from the rate equations, \
-                  the force from the curve."
+        command: "The slip memory follows the path in 2 000 linear sections. The rate equations give u(F_N), the slip memory gives F_x."
             .to_owned(),
         reference: REFERENCE.to_owned(),
         kind: vec![Kind::ClosedForm, Kind::OtherCode],
         checks,
         figure: figure(&paths, &walked),
-        shows: "The curves are the program's forces along u(F_N); the points lie on the straight lines that the rate equations were \
-                integrated for."
+        shows: "The curves are the forces of the program along u(F_N). The points lie on the prescribed straight lines."
             .to_owned(),
         tables,
         limits: LIMITS.to_owned(),
@@ -110,25 +108,25 @@ pub(crate) fn page() -> Result<Page, ValidationError> {
 }
 
 const SETUP: &str = "Two equal spheres (E 192.85 GPa, ν 0.29, effective radius 4.174 mm, μ 0.2) are pressed together by 10 µm (286.80 N) and \
-pulled sideways. Then both loads vary: the normal load falls to 0.6 while F_x rises by μ/10 of what it loses, or it grows to 1.2 while \
-F_x rises by μ of what it gains. The paths are those of Porter and Brake, Mech. Syst. Signal Process. 192 (2023) 110210.";
-const REFERENCE: &str = "Mindlin and Deresiewicz (J. Appl. Mech. 20, 1953) give the tangential compliance where both loads vary:\n\n\
-dF_x = μ(1-θ) dF_N + 2G\\*aθ du, θ³ = 1 - F_x/(μF_N),\n\nθ the share of the radius that sticks. It was integrated along the paths \
-for prescribed straight lines F_x(F_N), elsewhere to the digits of the table and here anew by Runge and Kutta's method; what comes \
-out is u. The memory curve, which knows no rate equation, is moved along these u and the d of Hertz: its force must be the straight \
-line.";
-const LIMITS: &str = "Both are paths on which the slip ring grows or stays. Histories in which it is cut, by unloading and reloading \
-with both loads, are held by [tests](../../crates/contact/tests/contacts/histories.rs) against histories that were solved independently, not \
-here. The theory is the same on both sides, as are Hertz' numbers: this page says that the memory curve integrates it, not that steel \
-obeys it.\n\nThe end u of the others is, while the load \
-falls, 1.5e-14 m from the one integrated here, which is worth 2e-7 N: so far their integration goes.";
+displaced tangentially. Then normal and tangential force vary together. Load falls: F_N falls to 0.6 of its value, and F_x rises by μ/10 \
+of the decrease. Load grows: F_N grows to 1.2 of its value, and F_x rises by μ times the increase. The paths are those of Porter and \
+Brake, Mech. Syst. Signal Process. 192 (2023) 110210.";
+const REFERENCE: &str = "Mindlin and Deresiewicz (J. Appl. Mech. 20, 1953) give the tangential compliance under oblique loading:\n\n\
+dF_x = μ(1-θ) dF_N + 2G\\*aθ du, θ³ = 1 - F_x/(μF_N),\n\nwhere θ is the stick radius relative to the contact radius. Integration \
+along prescribed straight lines F_x(F_N) gives u. Another program integrated to the digits of the table; this page integrates again by \
+the Runge–Kutta method. The slip memory, which contains no rate equation, follows this u and the d of Hertz. Its force must be the \
+straight line.";
+const LIMITS: &str = "On both paths the slip ring grows or is constant. Tests of the project, not this page, compare unloading and \
+reloading of both loads with independent solutions. Reference and program use the same theory. The page shows that the slip memory \
+integrates it correctly, not that steel obeys it.\n\nFor the falling load, the end u of the reference differs by 1.5e-14 m from the \
+value integrated here. This difference corresponds to 2e-7 N.";
 
-/// d of Hertz' contact, m.
+/// Returns the indentation d of a Hertzian contact, m.
 fn depth(law: &Interface, force: f64) -> f64 {
     math::cbrt(9.0 * force * force / (16.0 * RADIUS * law.normal_modulus().powi(2)))
 }
 
-/// `du/dF_N` by Mindlin and Deresiewicz while `F_x` follows its straight line, m/N.
+/// Returns `du/dF_N` by Mindlin and Deresiewicz for `F_x` on its straight line, m/N.
 fn rate(law: &Interface, slope: f64, normal: f64, tangential: f64) -> f64 {
     let theta = math::cbrt(1.0 - tangential / (FRICTION * normal));
     let radius = (RADIUS * depth(law, normal)).sqrt();
@@ -157,7 +155,7 @@ fn walk(law: &Interface, path: &Path) -> Result<Walked, ValidationError> {
     }
     let Apex { d, u } = contact.apex();
     let found = [start.tangential_force, 1e6 * start.u, contact.force(law), 1e6 * d, 1e6 * u];
-    // Straight there: on these paths the force hangs on the end alone.
+    // In one straight section: on these paths the force depends only on the end point.
     let given = |known: f64, own: f64| if known.is_nan() { own } else { 1e-6 * known };
     let end = Apex { d: given(path.known[3], d), u: given(path.known[4], u) };
     other.commit(law, Segment::Straight(end))?;
@@ -167,11 +165,11 @@ fn walk(law: &Interface, path: &Path) -> Result<Walked, ValidationError> {
 
 fn table(path: &Path, walked: &Walked) -> Table {
     let work = if walked.friction < 1e-12 {
-        "nothing".to_owned()
+        "0".to_owned()
     } else {
-        format!("{} μF_N u_c of the start", significant(walked.friction, 4))
+        format!("{} μF_N u_c (F_N and u_c at the start)", significant(walked.friction, 4))
     };
-    let caption = format!("The {}; friction works {work} on the way:", path.name);
+    let caption = format!("Case “{}”, friction work {work}:", path.name);
     let mut table = Table::new(&caption, &["quantity", "program", "known"]);
     let names = [
         "F_x at the start, N",
@@ -218,7 +216,8 @@ fn figure(paths: &[Path], walked: &[Walked]) -> Figure<'static> {
 mod tests {
     use super::*;
 
-    /// What is asked of this page, by numbers of its own: digits, 1e-6 N while the load falls, 1e-10 N while it grows.
+    /// Limits of this page, independent of the page itself: last digits, 1e-6 N for the falling load, 1e-10 N for the
+    /// growing load.
     #[test]
     fn forces_follow_mindlin_and_deresiewicz() {
         let page = page().unwrap();

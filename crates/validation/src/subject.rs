@@ -1,4 +1,4 @@
-//! The list of what is compared.
+//! List of comparisons.
 
 use crate::page::Page;
 use crate::{
@@ -11,59 +11,59 @@ use stickslip_run::Watcher;
 use stickslip_scenario::ScenarioError;
 use thiserror::Error;
 
-/// A known result.
+/// A known result with which the program is compared.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Subject {
-    /// Oblique impacts that were measured.
+    /// Measured oblique impacts.
     MeasuredImpact,
-    /// The boundary-element program CONTACT.
+    /// Boundary-element program CONTACT.
     ContactBem,
-    /// Mindlin and Deresiewicz' rate equations.
+    /// Rate equations of Mindlin and Deresiewicz.
     ObliqueLoading,
-    /// Oblique impacts in theory.
+    /// Theory of oblique impact.
     ImpactTheory,
     /// Oblique impacts by finite elements.
     FiniteElements,
-    /// Fretting under a load that varies, as it was measured.
+    /// Measured fretting with a varying normal load.
     FrettingLoad,
-    /// Closed forms of loading, unloading and loops.
+    /// Closed forms of loading, unloading and hysteresis loops.
     ClosedForms,
 }
 
-/// Why a page is not there.
+/// Reason why a page cannot be computed.
 #[derive(Debug, Error)]
 pub enum ValidationError {
-    /// A run.
+    /// A run stopped early.
     #[error(transparent)]
     Run(#[from] RunError),
-    /// A scenario of this crate.
+    /// A scenario of this crate is invalid.
     #[error(transparent)]
     Scenario(#[from] ScenarioError),
-    /// A file of this crate.
+    /// A data file of this crate is invalid.
     #[error(transparent)]
     Data(#[from] serde_json::Error),
-    /// A material of this crate.
+    /// A material of this crate is invalid.
     #[error(transparent)]
     Material(#[from] MaterialError),
-    /// A coefficient of friction of this crate.
+    /// A coefficient of friction of this crate is invalid.
     #[error(transparent)]
     Friction(#[from] FrictionError),
-    /// A profile of this crate.
+    /// A profile of this crate is invalid.
     #[error(transparent)]
     Profile(#[from] ProfileError),
-    /// A loading of this crate.
+    /// A loading of this crate is invalid.
     #[error(transparent)]
     Loading(#[from] FirstLoadingError),
-    /// A path of this crate.
+    /// A path of this crate is invalid.
     #[error(transparent)]
     Path(#[from] ContactError),
-    /// A body that is not in a scenario of this crate.
+    /// A scenario of this crate has no free ball.
     #[error("the scenario has no free ball")]
     NoBall,
 }
 
 impl Subject {
-    /// All of them, in the order of the index.
+    /// All comparisons in the order of the index.
     pub const ALL: [Self; 7] = [
         Self::MeasuredImpact,
         Self::ContactBem,
@@ -74,7 +74,7 @@ impl Subject {
         Self::ClosedForms,
     ];
 
-    /// Name of its page's files, without ending.
+    /// Returns the name of the page's files, without extension.
     pub fn name(self) -> &'static str {
         match self {
             Self::MeasuredImpact => measured_impact::NAME,
@@ -87,10 +87,10 @@ impl Subject {
         }
     }
 
-    /// Computes its page anew. The watcher may end it.
+    /// Computes the page. The watcher may interrupt.
     ///
     /// # Errors
-    /// A run that stopped itself, or the watcher's wish.
+    /// Fails if a run stops early or the watcher interrupts.
     pub fn page(self, watcher: &dyn Watcher) -> Result<Page, ValidationError> {
         match self {
             Self::MeasuredImpact => measured_impact::page(watcher),

@@ -1,11 +1,11 @@
-//! Tables of numbers and paragraphs in Markdown.
+//! Tables and paragraphs in Markdown.
 
 use std::fmt::Write;
 
-/// A table with a line of heads; all columns but the first are numbers.
+/// A table with a header; all columns except the first are numbers.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Table {
-    /// What stands above it.
+    /// Text above the table.
     pub(crate) caption: String,
     pub(crate) heads: Vec<&'static str>,
     pub(crate) rows: Vec<Vec<String>>,
@@ -34,7 +34,7 @@ impl Table {
     }
 }
 
-/// A number in so many digits: fixed where that is short, else with an exponent.
+/// Formats a number with significant digits: in fixed notation if that is short, otherwise with an exponent.
 pub(crate) fn significant(value: f64, digits: usize) -> String {
     if value == 0.0 || !value.is_finite() {
         return format!("{value}");
@@ -44,12 +44,12 @@ pub(crate) fn significant(value: f64, digits: usize) -> String {
     let exponent: i32 = long.split_once('e').and_then(|(_, power)| power.parse().ok()).unwrap_or(0);
     match exponent {
         -3..=5 => format!("{value:.*}", usize::try_from(after as i32 - exponent).unwrap_or(0)),
-        // "2e-1" says as much as "2.0e-1" where the digits are zeros.
+        // "2e-1" replaces "2.0e-1" if the omitted digits are zeros.
         _ => long.replacen(&format!(".{}e", "0".repeat(after)), "e", 1),
     }
 }
 
-/// A number in so many places, without a sign where it is nothing.
+/// Formats a number with decimal places, without a sign if it rounds to zero.
 pub(crate) fn places(value: f64, places: usize) -> String {
     let text = format!("{value:.places$}");
     if text.trim_start_matches('-').chars().all(|c| c == '0' || c == '.') {
@@ -59,7 +59,7 @@ pub(crate) fn places(value: f64, places: usize) -> String {
     }
 }
 
-/// Paragraphs, blank lines between them, broken into lines; what stands in a fence stays as it is.
+/// Breaks paragraphs, separated by blank lines, into lines. Fenced blocks are unchanged.
 pub(crate) fn wrapped(text: &str) -> String {
     let paragraph = |text: &str| {
         if text.starts_with("```") {
@@ -82,7 +82,7 @@ pub(crate) fn wrapped(text: &str) -> String {
     text.split("\n\n").map(paragraph).collect::<Vec<_>>().join("\n\n")
 }
 
-/// Characters of a line.
+/// Maximum number of characters per line.
 const WIDTH: usize = 121;
 
 #[cfg(test)]

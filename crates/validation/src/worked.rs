@@ -1,4 +1,4 @@
-//! First loadings whose numbers were worked out elsewhere.
+//! First loadings with closed-form values from other sources.
 
 use crate::check::worst;
 use crate::contact_bem::{Loaded, interface, load};
@@ -6,8 +6,8 @@ use crate::subject::ValidationError;
 use crate::table::{Table, significant};
 use stickslip_contact::FirstLoading;
 
-/// Two cases of which the closed forms were worked out elsewhere: the digits as they are given, in N, mm and MPa.
-// One unit of the last digit is asked: half of one for the digits themselves, and what comes in is rounded, too.
+/// Two cases with their published digits, in N, mm and MPa.
+// The limit is one unit of the last digit: half a unit for rounding of the result, the rest for rounded inputs.
 const DIGITS: [Worked; 2] = [
     Worked {
         law: (200e6, 0.42, 50e-3, 0.4),
@@ -39,20 +39,20 @@ const DIGITS: [Worked; 2] = [
     },
 ];
 
-/// A first loading whose numbers are known.
+/// A first loading with known results.
 struct Worked {
     /// Shear modulus, Pa; ν; effective radius, m; μ.
     law: (f64, f64, f64, f64),
     force: f64,
     share: f64,
-    /// Name and digits, none where nothing is known.
+    /// Name and digits; no digits if unknown.
     digits: [(&'static str, &'static str); 7],
 }
 
-/// The table of the closed forms, and the largest deviation in units of the last digit.
+/// Returns the table of closed-form values, and the largest deviation in units of the last digit.
 pub(crate) fn worked() -> Result<(Table, f64), ValidationError> {
     let mut table = Table::new(
-        "Closed forms worked out elsewhere (F_x 0.875 and 0.657 of μF_N):",
+        "Closed-form values from other sources (F_x/(μF_N) = 0.875 and 0.657):",
         &["quantity", "program", "known", "program", "known"],
     );
     let mut units = Vec::new();
@@ -74,7 +74,7 @@ pub(crate) fn worked() -> Result<(Table, f64), ValidationError> {
     Ok((table, worst(units)))
 }
 
-/// The unit of the last digit of a number as it is written.
+/// Returns the unit of the last digit of a number in text form.
 fn last_digit(text: &str) -> f64 {
     let (mantissa, exponent) = text.split_once('e').unwrap_or((text, "0"));
     let after = mantissa.split_once('.').map_or(0, |(_, digits)| digits.len());

@@ -1,9 +1,9 @@
-//! `Dopri5` of the crate ode_solvers with the exact contact and events by hand, as a user of that crate would have it.
+//! Integrator `Dopri5` of the crate ode_solvers with the exact contact law and event location, as a user of that crate would write it.
 //!
-//! Between events every contact follows one smooth branch. After every accepted step the routine `solout` looks whether a
-//! contact has turned round or used up its piece of memory; if one has, it stops the solver, the moment is found on the
-//! crate's dense output, the contacts remember, and a new solver starts there with the last step. Corners end steps exactly.
-//! Bodies free along the slide, contacts under constant load.
+//! Between events every contact follows one smooth branch. After each accepted step, the callback `solout` checks whether a contact has
+//! reversed or reached the end of its piece of memory. If so, it stops the solver. The event is located on the dense output, the memories
+//! are updated, and a new solver starts with the last step size. Corners of waveforms end steps exactly. Bodies move along the slide
+//! under constant normal load.
 
 mod stretch;
 mod trip;
@@ -17,11 +17,11 @@ use stickslip_drive::Counts;
 use stickslip_run::Watcher;
 use trip::Trip;
 
-/// ode_solvers' Dopri5 with events by hand.
+/// Integrator `Dopri5` of ode_solvers with event location.
 pub(crate) struct Outside {
     mechanism: Mechanism,
     duration: f64,
-    /// Natural length (m) and velocity (m/s) of each free coordinate: tolerances are relative to them.
+    /// Natural length, m, and velocity, m/s, of each free coordinate. Tolerances are relative to them.
     scales: Vec<(f64, f64)>,
 }
 
@@ -45,7 +45,7 @@ impl Outside {
     }
 }
 
-/// What a run hands over, and when it has to stop.
+/// Output of a run, and its time limit.
 struct Output<'a> {
     samples: Option<Samples>,
     until: Option<Instant>,

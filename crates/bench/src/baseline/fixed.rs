@@ -1,10 +1,9 @@
-//! The loops that a researcher writes, with a fixed step and nothing else in the loop: over half rows of springs, or on the exact
-//! contact under a constant load.
+//! Fixed-step loops over half rows of springs, or with the exact contact law under constant load.
 //!
-//! Bodies free in x, z and pitch. Tuned: coordinates in arrays of fixed size, driven places from a table, half of each symmetric row
-//! by the widest vectors of the machine.
+//! Bodies move in x, z and pitch. The loops are optimised by arrays of fixed size and tabulated waveforms. Only half of each symmetric
+//! row is computed, with the widest vector instructions of the machine.
 //!
-//! In reading order: `walk`, the loop; `driven`, what is driven; `row` and `exact`, the contacts.
+//! Reading order: `walk` (the loop), `driven` (prescribed quantities), `row` and `exact` (contacts).
 
 mod driven;
 mod exact;
@@ -25,20 +24,20 @@ use stickslip_drive::Counts;
 use stickslip_run::Watcher;
 use walk::{Contact, Walk, Walker};
 
-/// Most free coordinates; each number of them has its own loop.
+/// Maximum number of free coordinates. Each number has its own compiled loop.
 const MOST: usize = 6;
-/// Steps between two looks at the clock.
+/// Number of steps between two checks of the clock.
 const STRIDE: usize = 4096;
-/// Evaluations in a step of four stages.
+/// Number of evaluations per step of the Runge–Kutta method.
 const STAGES: u64 = 4;
 
-/// A loop over some contacts.
+/// Fixed-step loop with contacts of one type.
 pub(crate) struct Fixed<C> {
     mechanism: Mechanism,
     duration: f64,
-    /// Each contact as it stands at the start.
+    /// Contacts in their initial state.
     contacts: Vec<C>,
-    /// Whether it is the method of order 4.
+    /// Whether the method is Runge–Kutta of order 4; otherwise velocity Verlet.
     staged: bool,
 }
 
@@ -129,7 +128,7 @@ impl<C: Contact> Contestant for Fixed<C> {
     }
 }
 
-/// Takes the places at the common moments within a step, on the cubic through both its ends.
+/// Records the sample times within a step, by cubic Hermite interpolation.
 fn between(
     samples: &mut Samples,
     (n, step, duration): (usize, f64, f64),
@@ -160,7 +159,7 @@ mod tests {
         Problem::new(&Job::prepare(&file, &[], Path::new("")).unwrap(), &[], &()).unwrap()
     }
 
-    /// Errors along the way in parts of the stroke, at these steps, s.
+    /// Returns trajectory errors relative to the stroke, at three steps, s.
     fn errors(problem: &Problem, method: Method, steps: [f64; 3]) -> [f64; 3] {
         let families = families(problem);
         let family = families.iter().find(|family| family.method == method).unwrap();
@@ -170,7 +169,7 @@ mod tests {
         })
     }
 
-    /// How far two methods are apart at the end at the same step, in parts of the stroke.
+    /// Returns the difference of two methods at the end, for the same step, relative to the stroke.
     fn apart(problem: &Problem, one: Method, other: Method) -> f64 {
         let families = families(problem);
         let [one, other] = [one, other].map(|method| {
@@ -180,8 +179,8 @@ mod tests {
         problem.norm.errors(&one, &other).end
     }
 
-    /// Turns and ends of branches fall within steps and leave both methods of order 2: against the event stepper at 1e-14, which is the
-    /// 50-digit solution of P1.
+    /// Reversals and ends of branches lie within steps, so both methods have order 2. The reference is the event stepper at 1e-14, which
+    /// agrees with the 50-digit solution of P1.
     #[test]
     fn plain_loops_on_the_exact_contact_come_to_p1_at_their_order() {
         for name in
@@ -200,7 +199,7 @@ mod tests {
         }
     }
 
-    /// The same steps on the same curve, in other words.
+    /// Compares the loop with the program for the same steps and the same contact law, which are implemented differently.
     #[test]
     fn plain_loops_on_the_exact_contact_move_as_the_program_does() {
         let problem = problem("scenarios/p1.json");
@@ -214,8 +213,9 @@ mod tests {
         }
     }
 
-    /// The same steps, the same springs, in other words: what is left is rounding. Under loads that vary the program moves springs along a
-    /// straight line from where they touch, and the loop by as much as they have room: both to the same end with the step.
+    /// Compares the loop with the program for the same steps and springs. Differences are of the order of rounding errors. Under varying
+    /// load, the program moves springs along a straight line from their first contact, and the loop clips stretches. Both converge to the
+    /// same limit.
     #[test]
     fn half_a_row_moves_as_the_program_s_whole_one() {
         for name in ["scenarios/p1.json", "crates/bench/scenes/p1_power4.json"] {

@@ -1,21 +1,21 @@
-//! Displacements between bodies as linear forms of what is free and what is driven.
+//! Relative displacements as linear forms of free and prescribed coordinates.
 
 use stickslip_drive::Scene;
 use stickslip_drive::scene::{Axis, Contact, Direction, Freedom, Side};
 
-/// constant + Σ free · coordinate + Σ driven · track, m.
+/// Linear form: constant + Σ free · coordinate + Σ driven · prescribed quantity, m.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Form {
     pub(super) constant: f64,
-    /// A coefficient for every free coordinate.
+    /// Coefficients of the free coordinates.
     pub(super) free: Vec<f64>,
-    /// Tracks and their coefficients.
+    /// Prescribed quantities with their coefficients.
     pub(super) driven: Vec<(usize, f64)>,
 }
 
 impl Form {
-    /// Displacement of a contact's first body against its second at the contact point, along a direction; `places` are the
-    /// free coordinates. A point at (X, Z) moves by x - Zθ and z + Xθ.
+    /// Returns the displacement of a contact's first body relative to its second, at the contact point along a direction. `places` are
+    /// the free coordinates. A point at (X, Z) moves by x - Zθ and z + Xθ.
     pub(super) fn new(
         scene: &Scene,
         places: &[(usize, Axis)],
@@ -35,12 +35,12 @@ impl Form {
         form
     }
 
-    /// What follows a track and nothing else, among so many free coordinates.
+    /// Returns a form that follows one prescribed quantity.
     pub(super) fn follow(track: usize, free: usize) -> Self {
         Self { constant: 0.0, free: vec![0.0; free], driven: vec![(track, 1.0)] }
     }
 
-    /// Less a length, m.
+    /// Subtracts a length, m.
     pub(super) fn less(mut self, length: f64) -> Self {
         self.constant -= length;
         self
@@ -51,7 +51,7 @@ impl Form {
         let Some((_, coordinate)) = coordinates.into_iter().find(|(own, _)| *own == axis) else { return };
         match coordinate.freedom {
             Freedom::Fixed => self.constant += factor * coordinate.position,
-            // Beside a balanced coordinate nothing is free, and a scene without anything free is no problem of this bench.
+            // Models with balanced coordinates have no free ones and are not benchmarked.
             Freedom::Balanced => {}
             Freedom::Follows(waveform) => self.driven.push((waveform, factor)),
             Freedom::Free => {

@@ -1,18 +1,18 @@
-//! A slide on one branch: its turning points, and how long it takes.
+//! Motion on one branch: turning points and time.
 
 use super::Rule;
 use crate::masing::Branch;
 
-/// Steps at most, to a turning point or a place: four reach the last place.
+/// Maximum number of iterations for a turning point or a position. Four reach full accuracy.
 const STEPS: usize = 20;
-/// A share of a root below which the next step, by the third power of it, is rounding; a step of t below which the next one is.
+/// Relative step of a root, and step of t, below which the next step is of the order of rounding errors.
 const NEAR_ROOT: f64 = 1e-5;
 const NEAR_PLACE: f64 = 1e-7;
 
-/// A slide on one branch, in t = tan(θ/4).
+/// Motion on one branch, with t = tan(θ/4) as variable.
 pub(super) struct Arc {
     scale: f64,
-    /// z where it begins; z₂, z₂ - z₁, and how far it begins below z₂.
+    /// Initial z; root z₂; difference z₂ - z₁; distance of the initial z below z₂.
     start: f64,
     high: f64,
     range: f64,
@@ -25,7 +25,7 @@ pub(super) struct Arc {
 }
 
 impl Arc {
-    /// From u on at a speed ν.
+    /// Returns the motion that starts at u with speed ν.
     #[inline]
     pub(super) fn new(branch: &Branch, u: f64, speed: f64) -> Self {
         let scale = branch.scale;
@@ -36,7 +36,7 @@ impl Arc {
         let rest = energy - z * (b - d * z * y);
         let [up, down] = turning([b, d], y, energy, rest < 0.0);
         let a = y + up;
-        // Where nothing turns it back before z = 0, the root of A + Bz lies beyond.
+        // If there is no turning point before z = 0, the root of A + Bz is used as z₁.
         let (low, divided, above, below) = if rest < 0.0 {
             let c = y + down;
             let (sum, product) = (a + c, a * c);
@@ -52,30 +52,30 @@ impl Arc {
         Self { scale, start: z, high: a * a, range: a * a - low, passed, root: a, factor, above, below }
     }
 
-    /// t where it begins, and where it comes to a lower z; none where it turns back before.
+    /// Returns t at the start, and t where a lower z is reached, or `None` if the motion turns back before.
     pub(super) fn span(&self, end: f64) -> (f64, Option<f64>) {
         let to = (end > self.high - self.range).then(|| self.parameter(self.passed + (self.start - end)));
         (self.parameter(self.passed), to)
     }
 
-    /// t so far below z₂.
+    /// Returns t at a distance `fall` below z₂.
     fn parameter(&self, fall: f64) -> f64 {
         fall.sqrt() / (self.range.sqrt() + (self.range - fall).max(0.0).sqrt())
     }
 
-    /// Way from the beginning to t.
+    /// Returns the distance from the start to t.
     pub(super) fn way(&self, t: f64) -> f64 {
         let sine = 2.0 * t / (1.0 + t * t);
         self.scale * (self.range * sine * sine - self.passed)
     }
 
-    /// ν at t.
+    /// Returns the speed ν at t.
     pub(super) fn speed(&self, t: f64) -> f64 {
         let share = 1.0 / (1.0 + t * t);
         2.0 * self.range * t * (1.0 - t * t) * share * share * share / (self.factor * self.slowness(t))
     }
 
-    /// (1/√(2K)) dθ/dt over four times the factor.
+    /// Returns (1/√(2K)) dθ/dt, divided by four times the factor.
     #[inline(always)]
     fn slowness(&self, t: f64) -> f64 {
         let share = 1.0 / (1.0 + t * t);
@@ -88,7 +88,7 @@ impl Arc {
         share * (above / below).sqrt()
     }
 
-    /// Time between two t.
+    /// Returns the time between two values of t.
     pub(super) fn time<const N: usize>(&self, (from, to): (f64, f64), rule: &Rule<N>) -> f64 {
         let mut slowness = [0.0; N];
         for (slowness, node) in slowness.iter_mut().zip(&rule.nodes) {
@@ -98,7 +98,7 @@ impl Arc {
         4.0 * self.scale * self.factor * (to - from) * sum
     }
 
-    /// t after a time, of `whole` between two t.
+    /// Returns the parameter t at a time after `from`. `whole` is the time from `from` to `to`.
     pub(super) fn at<const N: usize>(
         &self,
         (time, whole): (f64, f64),
@@ -106,7 +106,7 @@ impl Arc {
         rule: &Rule<N>,
     ) -> f64 {
         let unit = 4.0 * self.scale * self.factor;
-        // As if the slowness changed evenly along the way.
+        // Initial guess: the slowness varies linearly with t.
         let (first, last) = (self.slowness(from), self.slowness(to));
         let share = time / whole * 0.5 * (first + last);
         let root = (first * first + 2.0 * share * (last - first)).sqrt();
@@ -114,7 +114,7 @@ impl Arc {
         let mut left = (time - self.time((from, at), rule)) / unit;
         for _ in 0..STEPS {
             let step = left / self.slowness(at);
-            // Gauss and Legendre's rule of three nodes is enough for so short a way.
+            // For such short steps, Gauss–Legendre quadrature with three nodes is sufficient.
             let (middle, off) = (at + 0.5 * step, 0.5 * step * 0.6_f64.sqrt());
             let aside = self.slowness(middle - off) + self.slowness(middle + off);
             left -= step * (5.0 * aside + 8.0 * self.slowness(middle)) / 18.0;
@@ -127,16 +127,16 @@ impl Arc {
     }
 }
 
-/// How far beyond y the turning points lie, above and below: both by Halley's steps, in the powers of the distance from y. Where nothing
-/// turns it back (`!returns`) only the upper one counts.
+/// Returns the distances from y to the upper and the lower turning point, in y = √z, by Halley's method. If the motion does not turn back
+/// before z = 0 (`!returns`), only the upper one has a meaning.
 fn turning([b, d]: [f64; 2], y: f64, energy: f64, returns: bool) -> [f64; 2] {
     let (z, cube) = (y * y, y * y * y);
     let c = [energy, y * (2.0 * b - 5.0 * d * cube), b - 10.0 * d * cube, -10.0 * d * z, -5.0 * d * y, -d];
-    // ν² = energy + pull (z' - z) - ½bend (z' - z)² and less.
+    // ν² = energy + pull (z' - z) - ½bend (z' - z)², to second order.
     let (pull, bend) = (b - 2.5 * d * cube, 3.75 * d * y);
     let swing = (pull * pull + 2.0 * bend * energy).sqrt();
     let guess = |rise: f64| rise / ((z + rise).max(0.0).sqrt() + y);
-    // From rest it begins at the turning point itself.
+    // From rest, the start is the turning point.
     let up = if energy > 0.0 { guess((pull + swing) / bend) } else { 0.0 };
     let mut roots = [up, if returns { guess((pull - swing) / bend) } else { up }];
     for _ in 0..STEPS {
@@ -149,7 +149,7 @@ fn turning([b, d]: [f64; 2], y: f64, energy: f64, returns: bool) -> [f64; 2] {
     roots
 }
 
-/// Halley's step to a root of a polynomial from x.
+/// Returns the step of Halley's method for a root of a polynomial.
 #[inline(always)]
 fn halley(c: &[f64; 6], x: f64) -> f64 {
     let value = c[0] + x * (c[1] + x * (c[2] + x * (c[3] + x * (c[4] + x * c[5]))));

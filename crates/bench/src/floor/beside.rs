@@ -1,4 +1,4 @@
-//! The floor beside the program, for scenes that are the benchmark drive with other numbers.
+//! Applies the minimal code to models that are the benchmark drive with other parameters.
 
 use super::{Floor, Rule};
 use crate::clock::{Stopwatch, Times};
@@ -9,10 +9,10 @@ use stickslip_drive::scene::{Freedom, Normal, Varying};
 use stickslip_drive::{Counts, Model, Scene, Shape};
 use stickslip_run::Watcher;
 
-/// Periods closer to a whole number are one.
+/// Relative deviation from an integer up to which a number of periods counts as one.
 const WHOLE: f64 = 1e-9;
 
-/// The floor of a scene with N nodes.
+/// Minimal code for a model, with N nodes.
 pub(crate) struct Ground<const N: usize> {
     pub(crate) floor: Floor,
     pub(crate) periods: u32,
@@ -20,8 +20,8 @@ pub(crate) struct Ground<const N: usize> {
 }
 
 impl Floor {
-    /// The floor of a scene, and the periods that it runs; none of scenes that are no slider on one paraboloid under a constant load
-    /// on a foot that follows a sawtooth.
+    /// Returns the drive of a model and the number of its periods. Returns `None` unless the model is a slider on one paraboloid under
+    /// constant load, on a foot that follows a sawtooth.
     pub(crate) fn of(scene: &Scene, model: &Model, duration: f64) -> Option<(Self, u32)> {
         let [waveform] = &scene.waveforms[..] else { return None };
         let [contact] = &scene.contacts[..] else { return None };

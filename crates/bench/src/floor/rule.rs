@@ -1,8 +1,8 @@
-//! Rules of a number of nodes known when the program is built.
+//! Gauss–Legendre quadrature with a number of nodes fixed at compile time.
 
 use std::f64::consts::PI;
 
-/// Nodes (0 to 1) and weights of Gauss and Legendre.
+/// Nodes in (0, 1) and weights of Gauss–Legendre quadrature.
 #[derive(Debug, Clone, Copy)]
 pub struct Rule<const N: usize> {
     pub(super) nodes: [f64; N],
@@ -10,7 +10,7 @@ pub struct Rule<const N: usize> {
 }
 
 impl<const N: usize> Default for Rule<N> {
-    /// Zeros of the Legendre polynomial by Newton's method.
+    /// Computes the zeros of the Legendre polynomial by Newton's method.
     fn default() -> Self {
         let [mut nodes, mut weights] = [[0.0; N]; 2];
         for (i, (node, weight)) in nodes.iter_mut().zip(&mut weights).enumerate() {

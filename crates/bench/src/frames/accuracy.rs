@@ -1,4 +1,4 @@
-//! How far frames are from the whole run.
+//! Errors of frames relative to an accurate run.
 
 use super::walk::Walk;
 use super::{FramesScene, stopped, turn};
@@ -9,45 +9,45 @@ use stickslip_drive::Stepper;
 use stickslip_realtime::Plant;
 use stickslip_run::Watcher;
 
-/// Lengths of frames, s: each divides the longest.
+/// Frame lengths, s. Each divides the longest one.
 pub(super) const LENGTHS: [f64; 10] = [1e-6, 2e-6, 5e-6, 10e-6, 20e-6, 50e-6, 100e-6, 200e-6, 500e-6, 1e-3];
-/// The longest.
+/// Longest frame, s.
 const LONGEST: f64 = 1e-3;
-/// Tolerance of what they are held against.
+/// Tolerance of the reference run.
 pub(super) const EXACT: f64 = 1e-11;
-/// Share of half its range by which an input goes in the longest frame, at most: some go beyond gross slip.
+/// Maximum change of an input in the longest frame, relative to half its range. Some changes are larger than the gross slip displacement.
 const SHARE: f64 = 0.5;
 
-/// Largest difference of any free coordinate at common moments.
+/// Largest difference of any free coordinate at the sample times.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Off {
-    /// In the smallest u_c of the scene's contacts; not finite where it has none.
+    /// Difference in units of the smallest u_c of all contacts; not finite without contacts.
     pub(super) natural: f64,
-    /// In strokes, or largest travels.
+    /// Difference relative to the stroke or the largest displacement.
     pub(super) stroke: f64,
 }
 
-/// Frames of one length.
+/// Errors at one frame length.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Rung {
-    /// Length of a frame, s.
+    /// Frame length, s.
     pub(super) length: f64,
-    /// Steps of a frame by `frames`.
+    /// Number of steps per frame of `frames`.
     pub(super) steps: f64,
-    /// Error by each stepper.
+    /// Error of each stepper.
     pub(super) off: [Off; 2],
 }
 
-/// How inputs go while errors are measured.
+/// Change of the inputs while errors are measured.
 #[derive(Clone, Copy)]
 enum Feeding {
-    /// Another step in every frame.
+    /// Random change in every frame.
     EachFrame,
-    /// Straight from millisecond to millisecond, whatever the frame: all lengths then have one problem.
+    /// Linear over each millisecond, so that the problem is the same for all frame lengths.
     Straight,
 }
 
-/// Places at common moments, by frames of a length.
+/// Returns positions at the sample times, computed by frames of a length.
 fn places(
     scene: &FramesScene<'_>,
     stepper: Stepper,
@@ -76,7 +76,7 @@ fn places(
                     walk.step();
                 }
                 let part = (frame % cell + 1) as f64 / cell as f64;
-                // A held input jumps where the millisecond begins, and stays.
+                // A held input jumps at the start of the millisecond.
                 for ((now, held), (from, to)) in
                     now.iter_mut().zip(&scene.held).zip(from.iter().zip(walk.values()))
                 {
@@ -95,7 +95,7 @@ fn places(
     Ok(samples)
 }
 
-/// Distances of two runs.
+/// Returns the difference of two runs.
 fn apart(scene: &FramesScene<'_>, samples: &Samples, exact: &Samples) -> Off {
     let model = &scene.job.model;
     let scales = (0..).map_while(|c| model.contact_natural(c)).map(|scale| scale.displacement);
@@ -108,10 +108,11 @@ fn apart(scene: &FramesScene<'_>, samples: &Samples, exact: &Samples) -> Off {
     })
 }
 
-/// Errors of a stepper in frames of a length whose inputs change each frame, over the scenario's time but at most so many frames.
+/// Returns the error of a stepper with inputs that change in each frame. The run lasts as long as the scenario's, but at most `most`
+/// frames.
 ///
 /// # Errors
-/// What a run says, or the watcher's wish.
+/// A run that fails, or an interruption by the watcher.
 pub(super) fn of(
     scene: &FramesScene<'_>,
     stepper: Stepper,
@@ -124,7 +125,7 @@ pub(super) fn of(
     Ok(apart(scene, &places(scene, stepper, grid, Feeding::EachFrame, watcher)?, &exact))
 }
 
-/// The run that frames are held against: where nothing is fed it is not cut into any.
+/// Returns the reference run. Without inputs, the reference run is not divided into frames of this length.
 fn whole(
     scene: &FramesScene<'_>,
     (length, frames, stride): (f64, u64, u64),
@@ -135,16 +136,16 @@ fn whole(
     let grid = match (scene.inputs.is_empty(), feeding) {
         (true, _) => (length * stride as f64, frames / stride, 1),
         (false, Feeding::EachFrame) => (length, frames, stride),
-        // Inputs go straight for a millisecond: so do the frames.
+        // Inputs are linear over a millisecond, so frames of a millisecond are sufficient.
         (false, Feeding::Straight) => (LONGEST, frames / stride, 1),
     };
     places(scene, stepper, grid, feeding, watcher)
 }
 
-/// Errors of both steppers over lengths of frames.
+/// Returns the errors of both steppers at all frame lengths.
 ///
 /// # Errors
-/// What a run says, or the watcher's wish.
+/// A run that fails, or an interruption by the watcher.
 pub(super) fn ladder(
     scene: &FramesScene<'_>,
     steppers: impl Fn(f64) -> [Stepper; 2],
@@ -169,7 +170,8 @@ pub(super) fn ladder(
     LENGTHS.into_iter().map(rung).collect()
 }
 
-/// Order of errors in lengths: the slope of least squares in the logarithms. None where there are not two different lengths with an error.
+/// Returns the order of convergence: the least-squares slope of the errors in logarithmic coordinates. Returns `None` for fewer than two
+/// different lengths with a finite error above 0.
 pub(super) fn order(points: impl Iterator<Item = (f64, f64)>) -> Option<f64> {
     let points: Vec<(f64, f64)> = points
         .filter(|(x, y)| *x > 0.0 && *y > 0.0 && y.is_finite())
@@ -192,7 +194,6 @@ mod tests {
         let points = |p: f64| [1e-6, 3e-6, 1e-5, 1e-3].map(|h: f64| (h, 7.0 * h.powf(p))).into_iter();
         assert!((order(points(2.0)).unwrap() - 2.0).abs() < 1e-9);
         assert!((order(points(4.0)).unwrap() - 4.0).abs() < 1e-9);
-        // What is not there has no say, and one length has no slope.
         assert_eq!(order([(1e-6, f64::NAN), (2e-6, 0.0), (1e-6, 1e-3), (1e-6, 2e-3)].into_iter()), None);
     }
 }

@@ -7,7 +7,7 @@ use crate::machine;
 use crate::page::{grouped, parent, shown};
 use std::fmt::Write;
 use std::io;
-use std::path::Path;
+use std::path::{Component, Path};
 use stickslip_realtime::plant::{Work, counted};
 use stickslip_realtime::{Histogram, Timing};
 use stickslip_run::folder;
@@ -15,40 +15,48 @@ use stickslip_run::markdown::{link, plain, relative, word};
 use stickslip_run::program::this_program;
 
 const CHOICE: &str = "\
-**Loops.** Each computes its frames one after the other, nothing waits; then some seconds of frames after a clock. `frames` has an
-accuracy of 1e-3, `event` a tolerance of 1e-8. Inputs of a scene change in every frame: seeded walks that go by at most 2 % of half
-their range. What is drawn, counted and looked at for the measurement's sake is no part of a frame's time; looking at the clock is.
-The empty loop is the same without a drive: what it takes, and how late it wakes, is the machine's.
+## Measurement
 
-**No bound on time.** All times are as seen, on a machine that others share: without a real-time kernel and a processor of its own
-any frame may take milliseconds, the empty loop's, too. Counted work is the same on every machine and in every run.";
+**Loops.** Each loop computes its frames one after the other without waiting. Then it runs on a clock. The stepper `frames` has an accuracy
+of 1e-3, `event` a tolerance of 1e-8. The inputs of a scenario are seeded random walks with steps of at most 2 % of half their
+range in every frame. The time of a frame includes reading the clock, but not drawing inputs and counting work. The empty loop has no
+drive and shows the times of the machine itself.
+
+**No bound on time.** The times are observations on a shared machine. Without a real-time kernel and a reserved processor any frame may take
+milliseconds, also in the empty loop. The counted work is the same on every machine and in every run.";
 
 const LOOPS: &str = "\
 ## Frames
 
-Execution times in µs without waiting: half, 99.9 % and 99.99 % of the frames took no longer, and none longer than the worst. Work as
-steps / evaluations / turning points made or given up / turning points for which there was no room, of a frame of median
-work and of the worst (evaluations and twice the turning points). Errors: the largest of any free coordinate against the event stepper at
-1e-11, under the same inputs, in the smallest u_c of the contacts and in strokes (or largest travels).";
+Execution times are medians, quantiles and maxima in µs, without waiting. Work is given as steps / evaluations / reversals added or erased /
+reversals merged for lack of room. The two columns show a frame of median work and the frame of maximum work (evaluations plus
+twice the reversals). Errors are the maximum over all free coordinates, compared with the event stepper at 1e-11 under the same
+inputs. They are relative to the smallest u_c of the contacts and to the stroke (or the maximum travel).";
 
 const PACED: &str = "\
-## After a clock
+## On a clock
 
-The same loops, each frame after its deadline, no favours asked: wake-up latency and execution time in µs, frames that ended after
-the next deadline, and deadlines left out for them.";
+The same loops wait for the deadline of each frame, without real-time settings of the operating system. Latency is the delay of waking up, in
+µs. Overruns are frames that ended after the next deadline; skipped deadlines are those left out for them. The values of the empty loop
+come from the machine alone.";
 
 const PICTURED: &str = "\
-Logarithmic counts, in bins of a tenth of a decade. Marked are the ten slowest frames of each loop, by what was counted in them, the
-first of these that fits: *merge*, turning points for which there was no room; *event*, located by the event stepper;
-*turning point or growth*, a memory got or gave up some; *corner or cut step*, more steps than in a frame of median work;
-*plain*, none of these: what took the time is not to be looked for in the drive. Right the latest frames after a clock.";
+Counts are logarithmic, in bins of a tenth of a decade. Marks show the ten slowest frames of each loop, by the first class that applies:
+
+* *merge*: reversals were merged, as the slip memory was full.
+* *event*: the event stepper located an event.
+* *turning point or growth*: a slip memory gained or lost reversals.
+* *corner or cut step*: the frame has more steps than a frame of median work.
+* *plain*: none of these applies, so the drive does not explain the time.
+
+The panels on the right show the latest frames on a clock.";
 
 const ERRORS: &str = "\
-## Accuracy in frames
+## Error versus frame length
 
-Errors over lengths of frames, against the whole run by the event stepper at 1e-11, moment by moment (each millisecond), in u_c. Inputs
-go straight from millisecond to millisecond, so that all lengths have one problem. The order is the slope of least squares in the
-logarithms: of `frames` over the lengths of its steps, of `event` over those of frames, whose errors follow its tolerance.";
+Errors are relative to u_c. They are compared every millisecond with one run of the event stepper at 1e-11. Inputs are linear between
+milliseconds, so all frame lengths solve the same problem. The order is the least-squares slope in logarithms: of `frames` over its
+step, of `event` over the frame length. The errors of `event` follow its tolerance.";
 
 /// Writes the page.
 ///
@@ -58,21 +66,17 @@ pub(super) fn write(findings: &Findings<'_>, file: &Path) -> io::Result<()> {
     let home = relative(&findings.request.out, parent(file))?;
     let at = |name: &str| link(&home.join(name));
     let mut page = format!(
-        "# Frames in real time\n\nHow long frames of drives take, what is counted in them, and what they lose. This page, its tables \
-         and pictures are written by\n\n```sh\n{}\n```\n\non {}, by {}, built with `{}`. What is promised in real time, and \
-         what is not: `docs/realtime.md`.\n\n{CHOICE}\n\n{LOOPS}\n\n",
-        command(findings),
-        machine::words(),
-        this_program(),
-        if cfg!(debug_assertions) { "--profile dev" } else { "--release" },
+        "# Frames in real time\n\nThis page is generated by `stickslip-lab bench --realtime`. The section *Measurement* has the full \
+         command. It shows execution time, work and error of frames.\n{}\n{LOOPS}\n\n",
+        summary(findings),
     );
     loops(&mut page, findings);
     let _ = writeln!(
         page,
-        "\n{PICTURED}\n\n{}\nAll figures: [loops]({}), [worst frames]({}), [counts]({}), [errors]({}), [SVG]({}).",
+        "\n{PICTURED}\n\n{}\nTables: [loops]({}), [worst frames]({}), [counts]({}), [errors]({}). Picture: [SVG]({}).",
         shown(
             (&at(&format!("{PICTURE}.png")), &at(&format!("{PICTURE}-dark.png"))),
-            "how long frames take, a row for each scene"
+            "histograms of execution time, a row for each scenario"
         ),
         at(TABLE),
         at(WORST),
@@ -86,14 +90,39 @@ pub(super) fn write(findings: &Findings<'_>, file: &Path) -> io::Result<()> {
     }
     let _ = writeln!(page, "\n{ERRORS}\n");
     errors(&mut page, findings);
+    let _ = writeln!(
+        page,
+        "\n{CHOICE}\n\nMeasured on {}, by {}, built with `{}`:\n\n```sh\n{}\n```",
+        machine::words(),
+        this_program(),
+        if cfg!(debug_assertions) { "--profile dev" } else { "--release" },
+        command(findings),
+    );
     scenes(&mut page, findings, parent(file))?;
     folder::write(file, page.as_bytes())
+}
+
+/// The frames without waiting in a sentence.
+fn summary(findings: &Findings<'_>) -> String {
+    let times = findings.loops.iter().map(|of| quantiles(&of.timing.execution));
+    let [least, most, high] = times.fold([f64::INFINITY, 0.0, 0.0], |[least, most, high], times| {
+        [times[0].min(least), times[0].max(most), times[2].max(high)]
+    });
+    if findings.loops.is_empty() {
+        return String::new();
+    }
+    format!(
+        "\nThe median execution time of a frame is {} to {} µs; 99.99 % of the frames of a loop take at most {} µs.\n",
+        micros(least),
+        micros(most),
+        micros(high)
+    )
 }
 
 /// A line of a table for each loop that nothing paced.
 fn loops(page: &mut String, findings: &Findings<'_>) {
     page.push_str(
-        "| scene | period, µs | stepper | steps | frames | median | 99.9 % | 99.99 % | worst | median work | worst work | error, u_c | \
+        "| scenario | period, µs | stepper | steps | frames | median | 99.9 % | 99.99 % | worst | median work | worst work | error, u_c | \
          strokes |\n| --- | ---: | --- | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: |\n",
     );
     for of in &findings.loops {
@@ -122,7 +151,7 @@ fn loops(page: &mut String, findings: &Findings<'_>) {
 /// The same after a clock.
 fn paced(page: &mut String, findings: &Findings<'_>) {
     page.push_str(
-        "| scene | period, µs | stepper | frames | overruns | left out | latency: median | 99.9 % | 99.99 % | worst | execution: median | \
+        "| scenario | period, µs | stepper | frames | overruns | skipped | latency: median | 99.9 % | 99.99 % | worst | execution: median | \
          99.9 % | 99.99 % | worst |\n| --- | ---: | --- | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: |\n",
     );
     let mut line = |head: &str, stepper: &str, timing: &Timing| {
@@ -142,7 +171,7 @@ fn paced(page: &mut String, findings: &Findings<'_>) {
 fn errors(page: &mut String, findings: &Findings<'_>) {
     let lengths: Vec<String> =
         super::accuracy::LENGTHS.iter().map(|length| format!(" {} µs |", micro(*length))).collect();
-    let _ = writeln!(page, "| scene | stepper | order |{}", lengths.concat());
+    let _ = writeln!(page, "| scenario | stepper | order |{}", lengths.concat());
     let _ = writeln!(page, "| --- | --- | ---: |{}", " ---: |".repeat(lengths.len()));
     for (scene, ladder) in findings.scenes.iter().zip(&findings.ladders) {
         for (stepper, order) in orders(ladder).into_iter().enumerate() {
@@ -154,14 +183,16 @@ fn errors(page: &mut String, findings: &Findings<'_>) {
     }
 }
 
-/// What the scenes are.
+/// What the scenarios are; those beside the page have links.
 fn scenes(page: &mut String, findings: &Findings<'_>, folder: &Path) -> io::Result<()> {
-    page.push_str("\n## Scenes\n\n");
+    page.push_str("\n## Scenarios\n\n");
     for (place, scene) in findings.scenes.iter().enumerate() {
-        let file = link(&relative(findings.file(place), folder)?);
-        let fed = if scene.inputs.is_empty() { "nothing is fed" } else { "fed in every frame" };
-        let _ =
-            writeln!(page, "* [`{}`]({file}): {}; {fed}.", name(&scene.job.name), plain(scene.job.title()));
+        let file = relative(findings.file(place), folder)?;
+        let named = format!("`{}`", name(&scene.job.name));
+        let is_beside = file.components().all(|part| matches!(part, Component::Normal(_)));
+        let named = if is_beside { format!("[{named}]({})", link(&file)) } else { named };
+        let fed = if scene.inputs.is_empty() { "no inputs" } else { "new inputs in every frame" };
+        let _ = writeln!(page, "* {named}: {}; {fed}.", plain(scene.job.title()));
     }
     Ok(())
 }
@@ -178,9 +209,11 @@ fn name(name: &str) -> String {
 
 /// Median, 99.9 %, 99.99 % and worst in µs, as four cells.
 fn times(histogram: &Histogram) -> String {
-    quantiles(histogram)
-        .map(|time| if time < 100.0 { format!("{time:.2}") } else { format!("{time:.0}") })
-        .join(" | ")
+    quantiles(histogram).map(micros).join(" | ")
+}
+
+fn micros(time: f64) -> String {
+    if time < 100.0 { format!("{time:.2}") } else { format!("{time:.0}") }
 }
 
 /// What a frame was counted to.

@@ -1,4 +1,4 @@
-//! How long frames took, as a picture: a row for each scene, a panel for each stepper and, where a clock paced them, for waking.
+//! Plot of frame times: a row for each scenario; panels for each stepper and, if paced, for the wake-up latency.
 
 use super::{Findings, Loop, PICTURE, STEPPERS};
 use stickslip_plot::{
@@ -9,9 +9,9 @@ use stickslip_realtime::{Histogram, Timing};
 use stickslip_run::program::this_program;
 use stickslip_run::provenance;
 
-/// How many of the slowest frames of a loop are marked.
+/// Number of the slowest frames of a loop that are marked.
 const MARKED: usize = 10;
-/// Draws it light, dark and as SVG.
+/// Draws the plot as light and dark PNG and as SVG.
 pub(super) fn draw(findings: &Findings<'_>) -> Result<Vec<(String, Vec<u8>)>, PlotError> {
     let names: Vec<String> =
         findings.request.periods.iter().map(|period| format!("frames of {} µs", micro(*period))).collect();
@@ -39,7 +39,7 @@ pub(super) fn draw(findings: &Findings<'_>) -> Result<Vec<(String, Vec<u8>)>, Pl
     ])
 }
 
-/// Execution times of a stepper's frames that nothing paced, all periods.
+/// Returns the panel of execution times of a stepper without pacing, for all frame lengths.
 fn execution<'a>(
     findings: &'a Findings<'_>,
     (scene, stepper): (usize, usize),
@@ -69,7 +69,7 @@ fn execution<'a>(
     TimesPanel { heading, what: "execution time", curves, marked }
 }
 
-/// Wake-up latencies of the frames of the first stepper after a clock, all periods.
+/// Returns the panel of wake-up latencies of the paced frames of the first stepper, for all frame lengths.
 fn latency<'a>(findings: &'a Findings<'_>, scene: usize, names: &'a [String]) -> TimesPanel<'a> {
     let loops: Vec<(&Loop, &Timing)> = findings
         .loops
@@ -82,7 +82,7 @@ fn latency<'a>(findings: &'a Findings<'_>, scene: usize, names: &'a [String]) ->
     if let Some(floor) = findings.floors.first() {
         curves.push(curve("empty loop", true, &floor.latency));
     }
-    // What a drive did in a frame has nothing to do with when its loop woke.
+    // The wake-up latency does not depend on the work of a frame.
     let latest = |slow: &Slow| 1e-9 * slow.latency as f64;
     let marked = loops.iter().enumerate().map(|(on, (_, paced))| {
         let frames = paced.latest.frames();
@@ -97,7 +97,7 @@ fn curve<'a>(name: &'a str, is_beside: bool, histogram: &Histogram) -> TimesCurv
     TimesCurve { name, is_beside, bins: histogram.tenths() }
 }
 
-/// A time in µs, as short as it can be said.
+/// Returns a time in µs, rounded to a nanosecond.
 pub(super) fn micro(seconds: f64) -> f64 {
     (1e9 * seconds).round() / 1e3
 }

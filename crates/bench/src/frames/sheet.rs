@@ -1,4 +1,4 @@
-//! Tables of frames.
+//! Tables of the benchmark of frames.
 
 use super::accuracy::{Rung, order};
 use super::{Findings, STEPPERS};
@@ -7,16 +7,16 @@ use stickslip_realtime::plant::{WORK, counted};
 use stickslip_realtime::worst::kind;
 use stickslip_realtime::{Histogram, Timing};
 
-/// What of the work of a frame stands in the table of loops.
+/// Counts that the table of loops contains.
 pub(super) const SHOWN: [&str; 4] = ["steps", "evaluations", "knots", "merges"];
 
-/// Median, 99.9 %, 99.99 % and worst, µs.
+/// Returns median, 99.9 %, 99.99 % quantile and maximum, µs.
 pub(super) fn quantiles(histogram: &Histogram) -> [f64; 4] {
     let at = |share| histogram.quantile(share) as f64 / 1e3;
     [at(0.5), at(0.999), at(0.9999), histogram.worst() as f64 / 1e3]
 }
 
-/// A line for each loop; the empty loop of each period is its own scene.
+/// Returns the table of loops. The empty loop of each frame length has an empty scenario name.
 pub(super) fn loops(findings: &Findings<'_>) -> String {
     let mut text = "scene,period_s,stepper,steps_per_frame,frames".to_owned();
     for end in ["execution", "paced_execution", "paced_latency"] {
@@ -51,7 +51,7 @@ pub(super) fn loops(findings: &Findings<'_>) -> String {
     text
 }
 
-/// Twelve times, those of a paced loop empty where there is none.
+/// Returns twelve times; those of the paced loop are empty without one.
 fn times(timing: &Timing, paced: Option<&Timing>) -> String {
     let mut text = String::new();
     let all =
@@ -65,14 +65,14 @@ fn times(timing: &Timing, paced: Option<&Timing>) -> String {
     text
 }
 
-/// What became of deadlines.
+/// Returns the number of paced frames, overruns and skipped deadlines.
 fn kept(paced: Option<&Timing>) -> String {
     paced.map_or(",,,".to_owned(), |paced| {
         format!(",{},{},{}", paced.frames(), paced.overruns, paced.left_out)
     })
 }
 
-/// The slowest frames of each loop that nothing paced, and the latest of each that a clock did, with all that was counted.
+/// Returns the slowest frames without pacing and the latest paced frames of each loop, with all counts.
 pub(super) fn worst(findings: &Findings<'_>) -> String {
     let mut text =
         format!("scene,period_s,stepper,worst_by,frame,latency_us,execution_us,kind,{}\n", WORK.join(","));
@@ -98,7 +98,7 @@ pub(super) fn worst(findings: &Findings<'_>) -> String {
     text
 }
 
-/// Counts by bins of 1 µs that are not empty; the last, from 20 ms on, has all that is longer.
+/// Returns the histograms: non-empty bins of 1 µs; the last bin contains all times above 20 ms.
 pub(super) fn histograms(findings: &Findings<'_>) -> String {
     let mut text = "scene,period_s,stepper,what,from_us,frames\n".to_owned();
     let mut lines = |head: &str, what: &str, histogram: &Histogram| {
@@ -125,7 +125,7 @@ pub(super) fn histograms(findings: &Findings<'_>) -> String {
     text
 }
 
-/// Errors over lengths of frames, and the orders in the length of a step (`frames`) or frame (`event`).
+/// Returns the errors at all frame lengths, with the orders of convergence.
 pub(super) fn accuracy(findings: &Findings<'_>) -> String {
     let mut text = "scene,frame_s,steps_per_frame,frames_error_u_c,frames_error_strokes,event_error_u_c,\
                     event_error_strokes,frames_order,event_order\n"
@@ -148,7 +148,7 @@ pub(super) fn accuracy(findings: &Findings<'_>) -> String {
     text
 }
 
-/// Orders of both steppers: of `frames` in the length of its steps, of the event stepper in that of frames.
+/// Returns the orders of convergence: of `frames` in its step length, of the event stepper in the frame length.
 pub(super) fn orders(ladder: &[Rung]) -> [Option<f64>; 2] {
     [
         order(ladder.iter().map(|rung| (rung.length / rung.steps, rung.off[0].stroke))),
@@ -156,7 +156,7 @@ pub(super) fn orders(ladder: &[Rung]) -> [Option<f64>; 2] {
     ]
 }
 
-/// A name as a field of a table.
+/// Returns a name as a CSV field.
 fn field(name: &str) -> String {
     if name.contains([',', '"', '\n']) {
         format!("\"{}\"", name.replace('"', "\"\""))

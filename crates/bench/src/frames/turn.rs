@@ -1,4 +1,4 @@
-//! Frames of a drive, one after the other or after a clock, with the work of each counted.
+//! Computes frames of a drive, without waiting or paced by a clock, and counts the work of each.
 
 use super::walk::Walk;
 use stickslip_realtime::pace::{self, Cycle, Stop};
@@ -7,15 +7,15 @@ use stickslip_realtime::worst::Slow;
 use stickslip_realtime::{Drive, Overrun, Pace, Plant, Timing};
 use stickslip_run::Watcher;
 
-/// Share of half its range by which an input goes in a frame, at most.
+/// Maximum change of an input per frame, relative to half its range.
 const SHARE: f64 = 0.02;
-/// Works that are told apart; a frame that comes to more counts with the last of them.
+/// Number of counted work values; larger values count as the last one.
 const MOST_WORK: usize = 8192;
-/// Frames by their work: evaluations, and twice the turning points made or given up, each at about its price.
+/// Histogram of the work of frames. The work is evaluations plus twice the knots made or removed, each at about its cost.
 #[derive(Debug, Clone)]
 pub(super) struct Works {
     counts: Vec<u64>,
-    /// The first frame of each work, and what was counted in it.
+    /// First frame of each work value, with its counts.
     first: Vec<(u64, Work)>,
     total: u64,
 }
@@ -34,7 +34,7 @@ impl Works {
         self.total += 1;
     }
 
-    /// The first frame whose work is the least that a share of all frames keeps.
+    /// Returns the first frame whose work is the given quantile.
     pub(super) fn at(&self, share: f64) -> (u64, Work) {
         let wanted = (share * self.total as f64).ceil() as u64;
         let mut seen = 0;
@@ -48,12 +48,12 @@ impl Works {
     }
 }
 
-/// Work as one number.
+/// Returns the work as one number.
 fn price(work: &Work) -> u64 {
     counted(work, "evaluations") + 2 * counted(work, "knots")
 }
 
-/// Frames of a drive under inputs that change with each of them.
+/// Drive whose inputs change in each frame.
 struct Fed<'a, 'm> {
     drive: Drive<'m>,
     walk: Walk,
@@ -71,7 +71,7 @@ impl Cycle for Fed<'_, '_> {
         self.drive.frame(self.walk.values(), &mut self.outputs).map_err(Stop::Plant)
     }
 
-    // What is drawn and counted for the measurement's sake is no part of any frame's time.
+    // Changing inputs and counting is not part of the measured time.
     fn timed(&mut self, slow: &Slow, _: u64) {
         self.works.count(slow.frame, &slow.work);
         self.walk.step();
@@ -79,7 +79,7 @@ impl Cycle for Fed<'_, '_> {
     }
 }
 
-/// The loop without a drive.
+/// Empty loop.
 struct Idle<'a> {
     watcher: &'a dyn Watcher,
     goes_on: bool,
@@ -98,20 +98,20 @@ impl Cycle for Idle<'_> {
     }
 }
 
-/// When frames are computed: after a clock, or one after the other.
+/// Returns the pacing: by a clock, or without waiting.
 fn pace(period: f64, paced: bool) -> Pace {
     Pace { period, overrun: paced.then_some(Overrun::Skip), spin: 0.0 }
 }
 
-/// The walk that frames are fed with.
+/// Returns the random walk of the inputs.
 pub(super) fn walk(inputs: &[Input]) -> Walk {
     Walk::new(inputs, SHARE)
 }
 
-/// Computes so many frames of a drive at its start.
+/// Computes a number of frames, from the initial state of a drive.
 ///
 /// # Errors
-/// What the drive says, or the watcher's wish.
+/// An error of the drive, or an interruption by the watcher.
 pub(super) fn frames(
     drive: Drive<'_>,
     (inputs, outputs): (&[Input], &[Output]),
@@ -126,10 +126,10 @@ pub(super) fn frames(
     Ok((timing, fed.works))
 }
 
-/// The same without a drive: what the machine takes by itself.
+/// Runs the empty loop, which measures the machine itself.
 ///
 /// # Errors
-/// The watcher's wish.
+/// An interruption by the watcher.
 pub(super) fn empty(
     period: f64,
     (frames, paced): (u64, bool),
@@ -145,7 +145,7 @@ pub(super) fn empty(
 mod tests {
     use super::*;
 
-    /// Somebody who has had enough.
+    /// Watcher that always interrupts.
     struct Enough;
 
     impl Watcher for Enough {
@@ -165,7 +165,7 @@ mod tests {
     #[test]
     fn median_and_worst_work_are_those_of_the_first_frame_that_had_it() {
         let mut works = Works::new();
-        // Of a hundred frames sixty have 6 evaluations, thirty-nine 9, the 70th 9 and ten turning points.
+        // Of a hundred frames, sixty have 6 evaluations and thirty-nine have 9. The 70th has 9 evaluations and ten knots.
         for frame in 0..100_u64 {
             let mut work = Work::default();
             work[2] = if frame < 60 { 6 } else { 9 };

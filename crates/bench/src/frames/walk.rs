@@ -1,11 +1,11 @@
-//! Inputs that change in every frame: seeded random walks, each within its range.
+//! Inputs that change in every frame: seeded random walks within their ranges.
 
 use stickslip_realtime::plant::{Input, Takes};
 
-/// Where every walk sets out from.
+/// Seed of all walks.
 const SEED: u64 = 0x5EED_2026;
 
-/// Where an input may go; headings and counts of steps stay what they are.
+/// Returns the range of an input. Signs and counts keep their initial value.
 fn range(input: &Input) -> (f64, f64) {
     match input.takes {
         Takes::Range(low, high) => (low, high),
@@ -13,8 +13,8 @@ fn range(input: &Input) -> (f64, f64) {
     }
 }
 
-/// Walks of all inputs of a scene: in a frame a value goes by at most a share of half its range, either way, and turns back at its
-/// limits. The same frames have the same values, whoever asks.
+/// Random walks of all inputs. In each frame a value changes by at most a fraction of half its range and is reflected at its limits.
+/// Equal frame numbers give equal values.
 #[derive(Debug, Clone)]
 pub(super) struct Walk {
     seed: u64,
@@ -24,7 +24,7 @@ pub(super) struct Walk {
 }
 
 impl Walk {
-    /// Walks from the inputs' initial values.
+    /// Returns walks that start at the initial values.
     pub(super) fn new(inputs: &[Input], share: f64) -> Self {
         Self {
             seed: SEED,
@@ -34,25 +34,25 @@ impl Walk {
         }
     }
 
-    /// The values now.
+    /// Returns the current values.
     pub(super) fn values(&self) -> &[f64] {
         &self.values
     }
 
-    /// Goes on to the next frame; nothing is allocated.
+    /// Advances to the next frame without allocation.
     pub(super) fn step(&mut self) {
         for place in 0..self.values.len() {
             let (low, high) = self.ranges[place];
             let reach = 0.5 * self.share * (high - low);
             let value = self.values[place] + reach * (2.0 * self.draw() - 1.0);
-            // Reflected: a value that stays at its limit would be no change.
+            // Reflected, because a value that stays at its limit would not change.
             let turned = if value > high { 2.0 * high - value } else { value };
             let turned = if turned < low { 2.0 * low - turned } else { turned };
             self.values[place] = turned.clamp(low, high);
         }
     }
 
-    /// Evenly from [0, 1): SplitMix64 (Steele, Lea, Flood, OOPSLA 2014).
+    /// Returns a uniform random number in [0, 1): SplitMix64 (Steele, Lea, Flood, OOPSLA 2014).
     fn draw(&mut self) -> f64 {
         self.seed = self.seed.wrapping_add(0x9E37_79B9_7F4A_7C15);
         let mut z = self.seed;

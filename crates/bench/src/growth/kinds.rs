@@ -1,4 +1,4 @@
-//! What grows, and in what sizes.
+//! Quantities that are increased, and their sizes.
 
 use super::Point;
 use super::scenes::{PERIOD, drive, remembering};
@@ -7,7 +7,7 @@ use stickslip_drive::scene::EngineChoice;
 use stickslip_drive::{Limits, Model, Plan, Scene, Stepper};
 use stickslip_run::Unrecorded;
 
-/// Something that there can be more of.
+/// Quantity that is increased.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Kind {
     Springs,
@@ -18,18 +18,18 @@ pub(super) enum Kind {
     Memory,
 }
 
-/// The stepper of all but the springs.
+/// Time integrator for all quantities except springs.
 const EVENT: Stepper = Stepper::Event { tolerance: 1e-6 };
-/// Periods of the shorter runs.
+/// Number of periods of the shorter runs.
 const PERIODS: f64 = 10.0;
-/// Inner swings by which a memory is measured.
+/// Number of inner cycles of a memory measurement.
 const INNER: u32 = 50;
 
 impl Kind {
     pub(super) const ALL: [Self; 6] =
         [Self::Springs, Self::Contacts, Self::Coordinates, Self::Time, Self::Rows, Self::Memory];
 
-    /// In the table.
+    /// Returns the name in the table.
     pub(super) fn key(self) -> &'static str {
         match self {
             Self::Springs => "springs",
@@ -41,7 +41,7 @@ impl Kind {
         }
     }
 
-    /// For people, with the unit.
+    /// Returns the name in plots, and the unit.
     pub(super) fn words(self) -> (&'static str, &'static str) {
         match self {
             Self::Springs => ("springs of a row", ""),
@@ -53,7 +53,7 @@ impl Kind {
         }
     }
 
-    /// All sizes, ready to be run.
+    /// Returns the measurements of all sizes.
     pub(super) fn points(self) -> Result<Vec<Point>, String> {
         let sizes: &[u32] = match self {
             Self::Springs => &[16, 64, 256, 1024, 4096, 16_384],
@@ -91,8 +91,8 @@ fn from_rest(size: f64, scene: Result<Scene, String>, plan: Plan) -> Result<Poin
     Point::new(size, model, plan)
 }
 
-/// A contact that remembers shrinking swings, measured while a smaller one goes on; its size is the number of corners of its
-/// memory.
+/// Returns the measurement of a contact with the memory of decreasing cycles, during a smaller cycle. The size is the number of knots of
+/// the memory.
 fn swung(swings: u32) -> Result<Point, String> {
     let (scene, from) = remembering(swings, INNER)?;
     let model = Model::new(&scene).map_err(|error| error.to_string())?;

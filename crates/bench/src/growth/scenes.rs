@@ -1,4 +1,4 @@
-//! The benchmark drive P1 with more of one thing.
+//! Models of the benchmark drive P1 with one size increased.
 
 use stickslip_contact::{Interface, Material, Pair, Profile};
 use stickslip_drive::scene::{
@@ -8,17 +8,17 @@ use stickslip_drive::{Scene, Shape, Timing, Waveform, WaveformError};
 
 /// Period of the drive, s.
 pub(super) const PERIOD: f64 = 1e-3;
-/// Parts by which contacts and sliders differ from their neighbours, so that their events do not coincide.
+/// Relative difference between neighbouring contacts and sliders, so that their events do not coincide.
 const SPREAD: f64 = 0.01;
-/// Swings of a memory's outer loops, m: shrinking from the first to the last, then the inner one.
+/// Amplitudes of the outer cycles from the first to the last, m; amplitude of the inner cycle, m.
 const OUTER: (f64, f64) = (50e-9, 10e-9);
 const INNER: f64 = 5e-9;
-/// Coulomb's coefficient of friction.
+/// Friction coefficient.
 const FRICTION: f64 = 0.15;
-/// Mass that hardly moves while its contact is swung, kg.
+/// Mass of a slider that practically does not move, kg.
 const HEAVY: f64 = 1e3;
 
-/// P1 with so many sliders, each on so many contacts of its own that share 1 N, on this engine.
+/// Returns P1 with a number of sliders. Each slider has its own contacts, which share a normal force of 1 N, with this engine.
 pub(super) fn drive(sliders: u32, contacts: u32, engine: EngineChoice) -> Result<Scene, String> {
     let shape = Shape::Sawtooth { stroke: 0.5e-6, flyback: 0.1 * PERIOD };
     let mut scene = with_foot(Waveform::new(shape, Timing::every(PERIOD)))?;
@@ -35,8 +35,8 @@ pub(super) fn drive(sliders: u32, contacts: u32, engine: EngineChoice) -> Result
     Ok(scene)
 }
 
-/// A heavy slider on a foot that swings ever less, so many times, and then by its last swing for ever; and the time at which
-/// that begins, s.
+/// Returns a heavy slider on a foot with `swings` decreasing half cycles and then `inner` equal cycles, and the start time of the latter,
+/// s.
 pub(super) fn remembering(swings: u32, inner: u32) -> Result<(Scene, f64), String> {
     let half = 0.5 * PERIOD;
     let outer = |k: u32| OUTER.0 + (OUTER.1 - OUTER.0) * f64::from(k) / f64::from(swings.max(2) - 1);
@@ -64,7 +64,7 @@ fn free(mass: f64) -> Body {
     Body { mass: Some(mass), x: Coordinate::FREE, ..Body::default() }
 }
 
-/// A steel ball between the foot and a body.
+/// Returns a contact of a steel ball between the foot and a body.
 fn touching(body: usize, radius: f64, force: f64, engine: EngineChoice) -> Result<Contact, String> {
     let steel = Material::new(210e9, 0.3).map_err(|error| error.to_string())?;
     let profile = Profile::paraboloid(radius).map_err(|error| error.to_string())?;

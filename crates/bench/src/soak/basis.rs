@@ -1,10 +1,10 @@
-//! The first contact of a scene: from it come the scales of everything else.
+//! First contact of a random scenario, which sets the scales of all other parts.
 
 use super::draw::Draw;
 use serde_json::{Map, Value, json};
 use stickslip_contact::{Interface, Material, Pair, Profile};
 
-/// Materials by name, Young's modulus (Pa) and Poisson's ratio.
+/// Materials: name, Young's modulus (Pa), Poisson's ratio.
 const MATERIALS: [(&str, f64, f64); 5] = [
     ("steel", 210e9, 0.30),
     ("ruby", 400e9, 0.27),
@@ -12,10 +12,10 @@ const MATERIALS: [(&str, f64, f64); 5] = [
     ("brass", 100e9, 0.34),
     ("ptfe", 0.5e9, 0.46),
 ];
-/// Springs of lists of heights.
+/// Smallest and largest number of springs of a list of heights.
 const HEIGHTS: (u64, u64) = (12, 80);
 
-/// A contact with its scales at its mean load.
+/// Contact with its scales at the mean load.
 #[derive(Debug, Clone)]
 pub(super) struct Basis {
     pub(super) materials: [&'static str; 2],
@@ -25,24 +25,24 @@ pub(super) struct Basis {
     pub(super) interface: Interface,
     /// Normal force of one contact, N.
     pub(super) force: f64,
-    /// Indentation under it, m.
+    /// Indentation at this force, m.
     pub(super) depth: f64,
-    /// Way along the slide that matters, m: u_c or, without friction, the indentation; no more than ten of these.
+    /// Natural displacement along the slide, m: u_c, at most ten times the indentation; without friction the indentation.
     pub(super) length: f64,
-    /// Of one contact that sticks, N/m.
+    /// Tangential stiffness of one sticking contact, N/m.
     pub(super) stick: f64,
-    /// Of one contact along the normal, N/m.
+    /// Normal stiffness of one contact, N/m.
     pub(super) normal: f64,
 }
 
 impl Basis {
-    /// None where the numbers drawn make no contact; a few draws in a thousand.
+    /// Draws a contact. Returns `None` if the numbers are invalid, which happens in a few of a thousand draws.
     pub(super) fn draw(draw: &mut Draw) -> Option<Self> {
         let materials = [0, 1].map(|_| MATERIALS[draw.below(MATERIALS.len() as u64) as usize]);
         let [first, second] = materials.map(|(_, modulus, ratio)| Material::new(modulus, ratio).ok());
         let pair = Pair::new(first?, second?);
         let radius = draw.spread(3e-6, 1e-4);
-        // Strains of 1e-5 to 1e-2: half-spaces, and spheres far from their equator.
+        // Strains of 1e-5 to 1e-2: valid half-space theory, and spheres far from their equator.
         let force = pair.normal_modulus() * radius * radius * draw.spread(2e-5, 2e-2);
         let (name, profile, shape) = profile(draw, radius, force / pair.normal_modulus())?;
         let friction = friction(draw);
@@ -67,7 +67,7 @@ impl Basis {
         })
     }
 
-    /// The materials that contacts name, as they stand in a scenario.
+    /// Returns the materials of the contacts as JSON of a scenario.
     pub(super) fn materials(contacts: &Map<String, Value>) -> Value {
         let named = |name: &str| {
             contacts
@@ -82,13 +82,13 @@ impl Basis {
         Value::Object(used.collect())
     }
 
-    /// The force at which the contact starts to slide, N.
+    /// Returns the friction limit, N.
     pub(super) fn hold(&self) -> f64 {
         self.friction * self.force
     }
 }
 
-/// Coulomb's coefficient: usual ones, none at all, and extremes.
+/// Draws a friction coefficient: common values, zero, and extremes.
 fn friction(draw: &mut Draw) -> f64 {
     match draw.below(20) {
         0 => 0.0,
@@ -98,9 +98,9 @@ fn friction(draw: &mut Draw) -> f64 {
     }
 }
 
-/// A profile whose contact has about this radius, m, under a force over E\*, m².
+/// Draws a profile whose contact radius is about `radius`, m, at a force divided by E\*, m².
 fn profile(draw: &mut Draw, radius: f64, reduced: f64) -> Option<(&'static str, Value, Profile)> {
-    // F = 2E*ad n/(n+1) of the power n.
+    // F = 2E*ad n/(n+1) for the exponent n.
     let depth = |n: f64| reduced * (n + 1.0) / (2.0 * n * radius);
     Some(match draw.below(7) {
         0 => ("flat", json!({ "flat": { "radius": radius } }), Profile::flat(radius).ok()?),

@@ -1,24 +1,24 @@
-//! Waveforms of every kind.
+//! Random waveforms.
 
 use super::draw::Draw;
 use serde_json::{Value, json};
 
-/// Points of a table.
+/// Number of points of a table.
 const POINTS: u64 = 12;
 
-/// What a waveform may be.
+/// Restriction of a waveform.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Course {
-    /// Anything; now and then it jumps.
+    /// Any waveform, sometimes with jumps.
     Any,
-    /// Anything whose velocity is bounded: a damper may follow it.
+    /// Waveform with bounded velocity, which a damper may follow.
     Continuous,
-    /// What stays at or above 0.
+    /// Waveform that is never negative.
     Above,
 }
 
-/// A waveform with a stroke, in the unit of what follows, and a period, s. Of those at or above 0 the mean is `mean`, which is
-/// half the stroke at least.
+/// Draws a waveform of a stroke, in the unit of the quantity that follows it, and a period, s. For [`Course::Above`], `mean` is the mean,
+/// which is at least half the stroke.
 pub(super) fn waveform(draw: &mut Draw, course: Course, stroke: f64, period: f64, mean: f64) -> Value {
     let kind = draw.below(6);
     if course == Course::Above {
@@ -58,10 +58,10 @@ pub(super) fn waveform(draw: &mut Draw, course: Course, stroke: f64, period: f64
     json!({ "sine": form })
 }
 
-/// One of the waveforms at or above 0.
+/// Draws a waveform that is never negative.
 fn above(draw: &mut Draw, kind: u64, stroke: f64, period: f64, mean: f64) -> Value {
     match kind {
-        // These begin at 0, where a force leaves its contact.
+        // These waveforms start at 0, where a contact loses its load.
         0 => timed(draw, "triangle", json!({ "stroke": stroke, "period": period }), period),
         1 => {
             let flyback = draw.between(0.05, 0.5) * period;
@@ -86,7 +86,7 @@ fn harmonics(draw: &mut Draw, stroke: f64, period: f64) -> Value {
     json!({ "harmonics": { "terms": terms, "period": period } })
 }
 
-/// Straight between points that are drawn, over four periods.
+/// Draws a table: linear between random points, over four periods.
 fn table(draw: &mut Draw, (low, high): (f64, f64), period: f64) -> Value {
     let points: Vec<Value> = (0..=POINTS)
         .map(|i| json!([4.0 * period * i as f64 / POINTS as f64, draw.between(low, high)]))
@@ -94,7 +94,7 @@ fn table(draw: &mut Draw, (low, high): (f64, f64), period: f64) -> Value {
     json!({ "table": { "points": points } })
 }
 
-/// With a phase, a delay and an end, now and then.
+/// Sometimes adds a phase, a delay or a number of cycles.
 fn timed(draw: &mut Draw, kind: &str, mut form: Value, period: f64) -> Value {
     if draw.chance(0.4) {
         form["phase"] = json!(draw.phase());

@@ -1,4 +1,4 @@
-//! Seeds judged side by side, and what guards against those that never come back.
+//! Judges seeds on several threads, and abandons those that do not finish.
 
 use super::finding::{Finding, Verdict};
 use super::{judge, kinds};
@@ -12,27 +12,26 @@ use std::thread;
 use std::time::{Duration, Instant};
 use stickslip_run::Watcher;
 
-/// Between two looks at who has not come back.
+/// Time between two checks for seeds that do not finish.
 const PAUSE: Duration = Duration::from_millis(200);
-/// Wall time after which a scene that no limit has ended is given up, s: all its runs together, each of which ends itself after
-/// twenty.
+/// Wall time after which a scenario is abandoned. The time includes all runs of the scenario, each of which has a limit of twenty
+/// seconds.
 const GIVEN_UP: Duration = Duration::from_secs(400);
 
-/// Which seeds, and how many of them against rows of springs.
+/// Seeds to judge.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Seeds {
-    /// All of them, each once.
+    /// Seeds; each occurs once.
     pub seeds: Vec<u64>,
-    /// How many of these are compared with rows of springs as well, from the first on.
+    /// Number of seeds, from the first on, that are also compared with rows of springs.
     pub rows: u64,
-    /// Scenes at a time.
+    /// Number of threads.
     pub threads: usize,
 }
 
-/// Judges seeds; the watcher is told how many there are.
+/// Judges seeds. The watcher receives the number of judged seeds.
 ///
-/// A scene that does not come back is given up: its thread stays behind, for a thread cannot be ended, and another takes its
-/// place.
+/// A scenario that does not finish is abandoned. Its thread continues, because threads cannot be stopped, and a new thread replaces it.
 pub fn soak(seeds: &Seeds, watcher: &dyn Watcher) -> Vec<Finding> {
     let rows = usize::try_from(seeds.rows).unwrap_or(usize::MAX);
     let rowed: HashSet<u64> = seeds.seeds.iter().take(rows).copied().collect();
@@ -45,33 +44,33 @@ pub fn soak(seeds: &Seeds, watcher: &dyn Watcher) -> Vec<Finding> {
     conduct(work, seeds.threads, watcher)
 }
 
-/// What a crew does.
+/// Work of the threads.
 pub(super) struct Work {
-    /// Each once.
+    /// Seeds; each occurs once.
     pub(super) seeds: Vec<u64>,
-    /// What becomes of one.
+    /// Judges a seed.
     pub(super) judge: Box<dyn Fn(u64) -> Finding + Send + Sync>,
-    /// The kind of one that says nothing itself.
+    /// Returns the kind of a seed that gives no finding.
     pub(super) kind: fn(u64) -> &'static str,
-    /// After what time.
+    /// Wall time after which a seed is abandoned.
     pub(super) given_up: Duration,
 }
 
-/// What the members of a crew share.
+/// Data shared by the threads.
 struct Shared {
     next: AtomicUsize,
     over: AtomicBool,
     work: Work,
-    /// What each is at, and since when.
+    /// Current seed of each thread, with its start time.
     at: Mutex<Vec<Option<(u64, Instant)>>>,
 }
 
 thread_local! {
-    /// Where the last panic of this thread was, and what it said.
+    /// Position and message of the last panic of this thread.
     static PANIC: RefCell<String> = const { RefCell::new(String::new()) };
 }
 
-/// Does work by so many threads; findings in the order of the seeds, as many as there are when the watcher wants no more.
+/// Executes work on threads. Returns the findings in the order of the seeds; after an interruption, those available.
 pub(super) fn conduct(work: Work, threads: usize, watcher: &dyn Watcher) -> Vec<Finding> {
     let hook = panic::take_hook();
     panic::set_hook(Box::new(remember));
@@ -88,7 +87,7 @@ fn gather(work: Work, threads: usize, watcher: &dyn Watcher) -> Vec<Finding> {
     let mut findings: BTreeMap<u64, Finding> = BTreeMap::new();
     while findings.len() < shared.work.seeds.len() && watcher.goes_on() {
         match receiver.recv_timeout(PAUSE) {
-            // One that was given up and came back after all stays given up.
+            // An abandoned seed stays abandoned even if it finishes later.
             Ok(finding) => {
                 findings.entry(finding.seed).or_insert(finding);
             }
@@ -106,7 +105,7 @@ fn gather(work: Work, threads: usize, watcher: &dyn Watcher) -> Vec<Finding> {
     findings.into_values().collect()
 }
 
-/// One more to do the work.
+/// Starts one more thread.
 fn hire(shared: &Arc<Shared>, sender: &Sender<Finding>) {
     let (shared, sender) = (Arc::clone(shared), sender.clone());
     let place = {
@@ -123,12 +122,12 @@ fn hire(shared: &Arc<Shared>, sender: &Sender<Finding>) {
             }
         }
     };
-    // Without a thread the others do its work.
+    // If no thread can be started, the others do its work.
     let _ = thread::Builder::new().name("soak".to_owned()).spawn(work);
 }
 
 impl Shared {
-    /// The next seed.
+    /// Returns the next seed.
     fn take(&self, place: usize) -> Option<u64> {
         let next = self.next.fetch_add(1, Ordering::Relaxed);
         let seed = self.work.seeds.get(next).filter(|_| !self.over.load(Ordering::Relaxed)).copied();
@@ -139,7 +138,7 @@ impl Shared {
         seed
     }
 
-    /// Seeds that have not come back; they are given up once.
+    /// Returns the seeds that exceed the time limit, each once.
     fn given_up(&self) -> Vec<u64> {
         let mut at = self.at.lock().unwrap_or_else(PoisonError::into_inner);
         let is_lost = |at: &Option<(u64, Instant)>| {
@@ -157,7 +156,7 @@ impl Shared {
 
     fn panicked(&self, seed: u64) -> Finding {
         let words = PANIC.with(|panic| panic.borrow().clone());
-        // It may have panicked while its scene was drawn.
+        // The panic may have occurred while the scenario was drawn.
         let kind = catch_unwind(AssertUnwindSafe(|| (self.work.kind)(seed))).unwrap_or("undrawn");
         let mut finding = Finding::new(seed, kind);
         finding.turns(Verdict::Panicked, || words);

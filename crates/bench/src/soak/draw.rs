@@ -1,14 +1,14 @@
-//! Numbers from a seed.
+//! Random numbers from a seed.
 
-/// `SplitMix64` (Steele, Lea, Flood, OOPSLA 2014): the same bits from a seed on every machine, and no crate whose next version
-/// deals other scenes. What is spread evenly in the logarithm has the last place of the machine's exp and ln.
+/// `SplitMix64` (Steele, Lea, Flood, OOPSLA 2014). The generator gives the same bits on every machine and does not depend on the version
+/// of a crate.
 #[derive(Debug, Clone)]
 pub(super) struct Draw(u64);
 
 impl Draw {
     pub(super) fn new(seed: u64) -> Self {
         let mut draw = Self(seed);
-        // Neighbouring seeds are neighbouring states: one round apart they have nothing in common.
+        // Seeds that are neighbours give neighbouring states; one round makes them independent.
         draw.0 = draw.bits();
         draw
     }
@@ -20,22 +20,22 @@ impl Draw {
         z ^ (z >> 31)
     }
 
-    /// Evenly between two numbers.
+    /// Returns a number uniform between two bounds.
     pub(super) fn between(&mut self, low: f64, high: f64) -> f64 {
         low + (high - low) * (self.bits() >> 11) as f64 / (1_u64 << 53) as f64
     }
 
-    /// Evenly in the logarithm between two numbers above 0.
+    /// Returns a number whose logarithm is uniform between those of two positive bounds.
     pub(super) fn spread(&mut self, low: f64, high: f64) -> f64 {
         math::exp(self.between(math::ln(low), math::ln(high)))
     }
 
-    /// One of the first whole numbers, evenly.
+    /// Returns an integer uniform in 0 to `count` - 1.
     pub(super) fn below(&mut self, count: u64) -> u64 {
         self.bits() % count.max(1)
     }
 
-    /// Whether something of this probability happens.
+    /// Returns true with this probability.
     pub(super) fn chance(&mut self, probability: f64) -> bool {
         self.between(0.0, 1.0) < probability
     }
@@ -44,12 +44,12 @@ impl Draw {
         if self.chance(0.5) { 1.0 } else { -1.0 }
     }
 
-    /// A phase, rad.
+    /// Returns a phase, rad.
     pub(super) fn phase(&mut self) -> f64 {
         self.between(0.0, std::f64::consts::TAU)
     }
 
-    /// One of several, each with its weight.
+    /// Returns one of several choices with weights.
     pub(super) fn among<T: Copy>(&mut self, choices: &[(f64, T)], otherwise: T) -> T {
         let sum: f64 = choices.iter().map(|(weight, _)| weight).sum();
         let mut left = self.between(0.0, sum);

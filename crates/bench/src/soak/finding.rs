@@ -1,37 +1,37 @@
-//! What became of a scene.
+//! Verdict about a random scenario.
 
-/// How a scene ended; of several runs the last in this order counts.
+/// Verdict about a scenario. Of several runs, the last verdict in this order counts.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Verdict {
-    /// As exact as it was asked for, its books closed.
+    /// Within the tolerance, with a closed energy balance.
     Right,
-    /// The same, and the program had said beforehand that something is odd.
+    /// As [`Self::Right`], with a warning before the run.
     Warned,
-    /// Refused before anything ran, with the reason.
+    /// Refused before the run, with the reason.
     Refused,
-    /// Ended by name where it left the range of the model.
+    /// Ended with a named error where it left the range of the model.
     Left,
-    /// Ended at a limit that the scene set itself.
+    /// Ended at a limit of the scenario.
     Limited,
-    /// Neither method is exact enough to judge the other.
+    /// Undecided: neither method is accurate enough to judge the other.
     Undecided,
-    /// Off by more than its own sensitivity to a change of 1e-9 explains, but not more than that to one of the tolerance's own
-    /// size: a contact that grazes.
+    /// Deviation larger than the growth of a perturbation of 1e-9 explains, but not larger than that of a perturbation of the tolerance's
+    /// size. This happens for grazing contacts.
     Grazing,
-    /// Its energy books did not close.
+    /// Energy balance violated.
     Unbalanced,
-    /// Wrong, and nothing said so.
+    /// Wrong result without an error message.
     Wrong,
-    /// Stopped itself.
+    /// Stopped with an error.
     Stopped,
-    /// Did not end in time.
+    /// Not finished in time.
     Hung,
-    /// Panicked.
+    /// The program panicked.
     Panicked,
 }
 
 impl Verdict {
-    /// All of them, in the order of tables.
+    /// All verdicts in the order of tables.
     pub const ALL: [Self; 12] = [
         Self::Right,
         Self::Warned,
@@ -47,7 +47,7 @@ impl Verdict {
         Self::Panicked,
     ];
 
-    /// In tables.
+    /// Returns the name in tables.
     pub fn name(self) -> &'static str {
         match self {
             Self::Right => "right",
@@ -57,7 +57,7 @@ impl Verdict {
             Self::Limited => "limited",
             Self::Undecided => "undecided",
             Self::Grazing => "grazing",
-            Self::Unbalanced => "books open",
+            Self::Unbalanced => "unbalanced",
             Self::Wrong => "wrong",
             Self::Stopped => "stopped",
             Self::Hung => "hung",
@@ -65,39 +65,39 @@ impl Verdict {
         }
     }
 
-    /// Whether the program is at fault.
+    /// Returns whether the verdict is a fault of the program.
     pub fn is_fault(self) -> bool {
         self >= Self::Unbalanced
     }
 }
 
-/// What became of the scene of a seed.
+/// Result for the scenario of a seed.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Finding {
-    /// Its seed.
+    /// Seed.
     pub seed: u64,
-    /// Name of its kind.
+    /// Name of the kind of scenario.
     pub kind: &'static str,
-    /// How it ended.
+    /// Verdict.
     pub verdict: Verdict,
-    /// What, where, how far; empty of what is right.
+    /// Message; empty for right scenarios.
     pub note: String,
-    /// Errors at each tolerance against the finest, in natural units; NaN where there is none.
+    /// Errors at the two coarser tolerances relative to the finest, in natural units; NaN if unknown.
     pub errors: [f64; 2],
-    /// Growth S of a change of 1e-9 of the start; 1 where nobody needed to know.
+    /// Growth factor S of a perturbation of the start by 1e-9; 1 if it was not needed.
     pub growth: f64,
-    /// Largest error of the energy books, in tolerances, parts of the throughput.
+    /// Largest error of the energy balance relative to the energy throughput, in tolerances.
     pub books: f64,
-    /// Error against a row of springs by fixed steps, in natural units, and that reference's own; NaN where there is none.
+    /// Error relative to a row of springs with fixed steps, in natural units, and the own error of that method; NaN if unknown.
     pub row: [f64; 2],
-    /// Number of runs, their wall time (s) and that of the longest.
+    /// Number of runs, total wall time (s), wall time of the longest run (s).
     pub runs: (u32, f64, f64),
-    /// Stretches by the whole law in all runs.
+    /// Number of intervals integrated with the full force law, in all runs.
     pub detours: u64,
 }
 
 impl Finding {
-    /// Of a seed of which nothing is known yet.
+    /// Returns an empty finding for a seed.
     pub(super) fn new(seed: u64, kind: &'static str) -> Self {
         Self {
             seed,
@@ -113,14 +113,14 @@ impl Finding {
         }
     }
 
-    /// Something about a run; the worst is kept, of equals the first.
+    /// Records a verdict. The worst one is kept; of equal ones the first.
     pub(super) fn turns(&mut self, verdict: Verdict, note: impl FnOnce() -> String) {
         if verdict > self.verdict {
             (self.verdict, self.note) = (verdict, note());
         }
     }
 
-    /// Books the work of a run.
+    /// Adds wall time and counts of a run.
     pub(super) fn took(&mut self, wall: f64, detours: u64) {
         let (runs, sum, longest) = self.runs;
         self.runs = (runs + 1, sum + wall, longest.max(wall));
@@ -141,6 +141,6 @@ mod tests {
         assert_eq!((finding.verdict, finding.note.as_str()), (Verdict::Wrong, "off"));
         let faults: Vec<&str> =
             Verdict::ALL.into_iter().filter(|verdict| verdict.is_fault()).map(Verdict::name).collect();
-        assert_eq!(faults, ["books open", "wrong", "stopped", "hung", "panicked"]);
+        assert_eq!(faults, ["unbalanced", "wrong", "stopped", "hung", "panicked"]);
     }
 }

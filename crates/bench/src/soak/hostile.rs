@@ -1,10 +1,9 @@
-//! A matrix of hostile scenes: one thing of a plain drive at a time goes to its extremes, by every stepper and tolerance.
+//! Matrix of extreme scenarios. One parameter of a simple drive at a time takes extreme values, with all steppers and tolerances.
 //!
-//! Every cell ends right, judged by a second method, or in a typed error that says what to try. [`matrix`] judges all of them,
-//! [`write_record`] tells of it: a page with its picture and table.
+//! Every cell must be right, compared with a second method, or end with a typed error with advice. [`matrix`] judges all cells;
+//! [`write_record`] writes a page with plot and table.
 //!
-//! In reading order: `family` (the scenes), `cell` (a scene with its stepper), `verify` (how one is judged), `record` and
-//! `picture` (what is written).
+//! Reading order: `family` (scenarios), `cell` (scenario with stepper), `verify` (judgement), `record` and `picture` (output).
 
 mod cell;
 mod family;
@@ -19,20 +18,20 @@ use stickslip_run::Watcher;
 
 pub use record::write_record;
 
-/// Wall time after which a cell that no limit has ended is given up: its own run, its reference and what sensitivity asks.
+/// Wall time after which a cell is abandoned. The time includes its run, its reference and the runs for the growth factor.
 const GIVEN_UP: Duration = Duration::from_secs(200);
 
-/// Number of cells.
+/// Returns the number of cells.
 pub fn size() -> usize {
     cell::Cells::new().count()
 }
 
-/// The scenario of a cell, as the text of its file; none beyond the last cell.
+/// Returns the scenario of a cell as the text of a file, or `None` beyond the last cell.
 pub fn scenario(cell: u64) -> Option<String> {
     cell::Cells::new().get(cell).map(|cell| cell.text())
 }
 
-/// Judges these cells; the watcher is told how many there are.
+/// Judges cells. The watcher receives the number of judged cells.
 pub fn matrix(cells: Vec<u64>, threads: usize, watcher: &dyn Watcher) -> Vec<Finding> {
     let judge = verify::Judge::new(cell::Cells::new());
     let work = Work {

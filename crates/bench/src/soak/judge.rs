@@ -1,4 +1,4 @@
-//! A seed judged: its scene at three tolerances against each other, against itself shifted, and against a row of springs.
+//! Judges a seed: its scenario at three tolerances, with a perturbed start, and with a row of springs.
 
 use super::finding::{Finding, Verdict};
 use super::kinds::{self, Kind};
@@ -7,20 +7,20 @@ use super::trial::{Ran, Trial};
 use stickslip_drive::{RunError, SceneError, Stepper};
 use stickslip_scenario::Scenario;
 
-/// Tolerances of the runs, the last is the reference of the others.
+/// Tolerances of the runs; the last is the reference for the others.
 pub(super) const TOLERANCES: [f64; 3] = [1e-6, 1e-8, 1e-10];
-/// Most error of a run and of its books, in tolerances.
+/// Largest allowed error of a run and of its energy balance, in tolerances.
 const MOST: f64 = 100.0;
-/// Change of the start whose growth is S, in natural lengths.
+/// Perturbation of the start whose growth factor is S, in natural lengths.
 const NUDGE: f64 = 1e-9;
 
-/// Judges the scene of a seed; `with_row`: also against a row of springs by fixed steps.
+/// Judges the scenario of a seed. `with_row`: also compares with a row of springs and fixed steps.
 pub(super) fn judge(seed: u64, with_row: bool) -> Finding {
     let (kind, text) = kinds::scenario(seed);
     let mut finding = Finding::new(seed, kind.name());
     match Scenario::from_str_alone(&text, "soak") {
         Ok(scenario) => judge_scenario(&mut finding, &scenario, with_row),
-        // A generator that writes files which cannot be read is at fault itself.
+        // An unreadable file is a fault of the generator.
         Err(error) => {
             finding.turns(Verdict::Wrong, || format!("unreadable: {}", one_line(&error.to_string())));
         }
@@ -65,7 +65,7 @@ pub(super) fn refused(finding: &mut Finding, scenario: &Scenario, error: &SceneE
     finding.turns(Verdict::Refused, || one_line(&told));
 }
 
-/// How a run ended.
+/// Records how a run ended.
 pub(super) fn ended(finding: &mut Finding, tolerance: f64, ran: &Ran) {
     let Some(error) = &ran.error else { return };
     let verdict = match error {
@@ -76,24 +76,24 @@ pub(super) fn ended(finding: &mut Finding, tolerance: f64, ran: &Ran) {
     finding.turns(verdict, || format!("at {tolerance:e}: {error}"));
 }
 
-/// Whether the energy books close.
+/// Checks the energy balance.
 pub(super) fn balanced(finding: &mut Finding, tolerance: f64, ran: &Ran) {
     let (error, throughput) = ran.books;
     let off = if error == 0.0 { 0.0 } else { error / throughput / tolerance };
-    // A NaN must not pass for a small error.
+    // A NaN must not count as a small error.
     let off = if off.is_nan() { f64::INFINITY } else { off };
     finding.books = finding.books.max(off);
     if off > MOST {
         let relative = error / throughput;
         finding.turns(Verdict::Unbalanced, || {
             format!(
-                "at {tolerance:e}: the books miss {relative:.1e} of {throughput:.1e} J, {off:.0} tolerances"
+                "at {tolerance:e}: the energy balance is off by {relative:.1e} of {throughput:.1e} J, {off:.0} tolerances"
             )
         });
     }
 }
 
-/// Errors against the finest run.
+/// Records the errors relative to the finest run.
 fn compared(finding: &mut Finding, trial: &Trial, runs: [&Ran; 2], finest: &Ran) {
     for (place, ran) in runs.into_iter().enumerate() {
         let tolerance = TOLERANCES[place];
@@ -107,7 +107,7 @@ fn compared(finding: &mut Finding, trial: &Trial, runs: [&Ran; 2], finest: &Ran)
         if apart.by <= MOST * tolerance * finding.growth {
             continue;
         }
-        // A contact that grazes feels a change of the tolerance's size, but not one of a thousandth of it.
+        // A grazing contact is sensitive to a perturbation of the tolerance's size, but not to one of a thousandth of it.
         let coarse = self::growth(finding, trial, tolerance, finest);
         let verdict =
             if apart.by <= MOST * tolerance * coarse.max(1.0) { Verdict::Grazing } else { Verdict::Wrong };
@@ -118,7 +118,7 @@ fn compared(finding: &mut Finding, trial: &Trial, runs: [&Ran; 2], finest: &Ran)
     }
 }
 
-/// Growth of a change of the start either way, at least 1.
+/// Returns the growth factor of a perturbation of the start in both directions, at least 1.
 pub(super) fn growth(finding: &mut Finding, trial: &Trial, part: f64, finest: &Ran) -> f64 {
     let [.., tolerance] = TOLERANCES;
     [part, -part].into_iter().fold(1.0, |most: f64, part| {
@@ -132,7 +132,7 @@ pub(super) fn growth(finding: &mut Finding, trial: &Trial, part: f64, finest: &R
     })
 }
 
-/// Whether runs that left the model did so together.
+/// Checks that either all runs left the range of the model, or none.
 fn left_together(finding: &mut Finding, runs: &[Ran]) {
     let left = runs.iter().filter(|ran| ran.error.is_some()).count();
     if left < runs.len() {
@@ -140,7 +140,7 @@ fn left_together(finding: &mut Finding, runs: &[Ran]) {
     }
 }
 
-/// The first line of a message.
+/// Returns the first line of a message.
 pub(super) fn one_line(message: &str) -> String {
     message.lines().next().unwrap_or_default().trim().to_owned()
 }

@@ -1,32 +1,32 @@
-//! What is drawn: kinds of scenes.
+//! Kinds of random scenarios.
 
 mod along;
 mod upright;
 
 use super::sketch::Sketch;
 
-/// A kind of scene.
+/// Kind of scenario.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Kind {
-    /// A slider that its foot drags, its contacts pressed by prescription.
+    /// Slider on a moving foot with prescribed normal loads.
     Slider,
-    /// The same with a foot on a piezo stack.
+    /// As [`Self::Slider`], with a foot on a piezo stack.
     Stack,
-    /// Two to four bodies on one another along the slide, or tied.
+    /// Two to four bodies in a chain along the slide, connected by contacts or springs.
     Chain,
-    /// A slider whose height presses its contact, on a foot that moves.
+    /// Slider with coupled normal motion on a moving foot.
     Planar,
-    /// A slider on two such contacts, which may rock.
+    /// Slider on two such contacts, which may rock.
     Rocking,
-    /// A body let go above, on or in the ground.
+    /// Body released above, on or in the ground.
     Ball,
     /// Bodies on top of each other.
     Pile,
-    /// Nothing is free: contacts walked along a path.
+    /// No free coordinates: contacts on prescribed paths.
     Walk,
 }
 
-/// All kinds with how often each of them comes.
+/// All kinds with their weights.
 const WEIGHTS: [(f64, Kind); 8] = [
     (26.0, Kind::Slider),
     (12.0, Kind::Stack),
@@ -39,7 +39,7 @@ const WEIGHTS: [(f64, Kind); 8] = [
 ];
 
 impl Kind {
-    /// All of them, in the order of tables.
+    /// All kinds in the order of tables.
     pub const ALL: [Self; 8] = [
         Self::Slider,
         Self::Stack,
@@ -51,7 +51,7 @@ impl Kind {
         Self::Walk,
     ];
 
-    /// In tables.
+    /// Returns the name in tables.
     pub fn name(self) -> &'static str {
         match self {
             Self::Slider => "slider",
@@ -66,7 +66,7 @@ impl Kind {
     }
 }
 
-/// The scenario of a seed, as the text of its file, and its kind.
+/// Returns the kind and the scenario of a seed, as the text of a file.
 pub fn scenario(seed: u64) -> (Kind, String) {
     let mut sketch = Sketch::new(seed);
     let kind = sketch.draw.among(&WEIGHTS, Kind::Slider);

@@ -1,5 +1,5 @@
-//! The second method: a row of springs by velocity Verlet, which shares neither forces, memory nor steps with the event stepper
-//! on the curve.
+//! Second method: a row of springs by velocity Verlet. The method shares neither force law, memory nor time steps with the event stepper
+//! on the memory curve.
 
 use super::finding::{Finding, Verdict};
 use super::judge;
@@ -7,20 +7,20 @@ use super::trial::{Ran, Trial};
 use stickslip_drive::scene::EngineChoice;
 use stickslip_drive::{SceneError, Stepper};
 
-/// Springs of a row.
+/// Number of springs of a row.
 const SPRINGS: usize = 2048;
-/// Most error against it, in natural units.
+/// Largest allowed difference, in natural units.
 const MOST: f64 = 1e-5;
-/// Steps of the first run of the reference; each later one halves them, at most to …
+/// Number of steps of the first run; each further run doubles it.
 const STEPS: f64 = 20_000.0;
-/// … this many.
+/// Largest number of steps.
 const FINEST: f64 = 700_000.0;
-/// Change of the start whose growth is S.
+/// Perturbation of the start whose growth factor is S.
 const NUDGE: f64 = 1e-9;
 
-/// Compares the scene on the curve with the same on rows by steps halved until their difference is small.
+/// Compares the memory-curve engine with rows of springs, whose time step is halved until the result changes little.
 pub(super) fn against_row(finding: &mut Finding, trial: &Trial, finest: &Ran) {
-    // The curve of a scene that was on rows is its second method, too.
+    // If the scenario has rows of springs, the memory curve is used for the comparison.
     let was_row = trial.scene.contacts.iter().any(|contact| contact.part.engine != EngineChoice::Curve);
     let (Ok(rows), Ok(curve)) = (on(trial, row(SPRINGS)), on(trial, EngineChoice::Curve)) else { return };
     let on_curve = was_row.then(|| curve.run(Stepper::Event { tolerance: 1e-10 }).ok()).flatten();
@@ -28,12 +28,12 @@ pub(super) fn against_row(finding: &mut Finding, trial: &Trial, finest: &Ran) {
     let Some(Reference { ran, own, step }) = reference(finding, &rows) else { return };
     let apart = trial.apart(finest, &ran);
     finding.row = [apart.by, own];
-    // Twice its own error: the last halving leaves a third of it, and rows follow chords.
+    // Twice the own error: the last halving leaves a third of it, and rows follow chords.
     let allowed = MOST.max(2.0 * own);
     if apart.by <= allowed {
         return;
     }
-    // A row is a sum over cells, and its error halves at the least with twice as many.
+    // The error of a row at least halves with twice as many springs.
     let cells = halved(finding, trial, &ran, step);
     finding.row[1] = own + cells;
     let allowed = allowed.max(2.0 * (own + cells));
@@ -54,14 +54,14 @@ fn row(count: usize) -> EngineChoice {
     EngineChoice::Springs { count, span: None }
 }
 
-/// The scene with all contacts on an engine.
+/// Returns the scenario with one contact engine for all contacts.
 fn on(trial: &Trial, engine: EngineChoice) -> Result<Trial, SceneError> {
     let mut scene = trial.scene.clone();
     scene.contacts.iter_mut().for_each(|contact| contact.part.engine = engine);
     Trial::new(scene, trial.plan)
 }
 
-/// How far a row of half the springs is away at the same step; nothing known where it cannot be run.
+/// Returns the difference to a row of half the springs at the same step, or 0 if it cannot be run.
 fn halved(finding: &mut Finding, trial: &Trial, reference: &Ran, step: f64) -> f64 {
     let Ok(rows) = on(trial, row(SPRINGS / 2)) else { return 0.0 };
     let Ok(ran) = rows.run(Stepper::Verlet { step }) else { return 0.0 };
@@ -69,23 +69,23 @@ fn halved(finding: &mut Finding, trial: &Trial, reference: &Ran, step: f64) -> f
     if ran.error.is_some() { 0.0 } else { trial.apart(reference, &ran).by }
 }
 
-/// A run by fixed steps.
+/// Run with fixed steps.
 struct Reference {
     ran: Ran,
-    /// Its difference from the run at twice its step, or half that of those before, in natural units: where a touch falls on
-    /// the grid, differences get small by chance.
+    /// Own error in natural units: the difference from the run at twice the step, but at least half of the error before. Single
+    /// differences may be small by chance.
     own: f64,
-    /// s.
+    /// Step, s.
     step: f64,
 }
 
-/// The reference; none where fixed steps do not follow the scene.
+/// Returns the reference, or `None` if fixed steps do not converge.
 fn reference(finding: &mut Finding, rows: &Trial) -> Option<Reference> {
     let (mut steps, mut last): (f64, Option<Reference>) = (STEPS, None);
     while steps <= FINEST {
         let step = rows.plan.duration / steps;
         steps *= 2.0;
-        // Refused where the stiffest motion grows at this step: a shorter one may do.
+        // The run is refused if the stiffest mode is unstable at this step; a shorter step may be stable.
         let Ok(ran) = rows.run(Stepper::Verlet { step }) else { continue };
         finding.took(ran.wall, 0);
         if ran.error.is_some() {

@@ -1,4 +1,4 @@
-//! What is said of findings: shares by kind, exceptions by seed, a table of all.
+//! Output of findings: counts by kind, exceptions by seed, and a table.
 
 use super::finding::{Finding, Verdict};
 use std::io;
@@ -6,14 +6,14 @@ use std::io;
 /// Name of the table of all findings.
 pub const TABLE: &str = "soak.csv";
 
-/// Number of findings of a kind and a verdict.
+/// Returns the number of findings of a kind and a verdict.
 pub fn count(findings: &[Finding], kind: Option<&str>, verdict: Verdict) -> usize {
     let same =
         |finding: &&Finding| kind.is_none_or(|kind| finding.kind == kind) && finding.verdict == verdict;
     findings.iter().filter(same).count()
 }
 
-/// A line for each finding that is neither right nor warned.
+/// Returns a line for each finding that is neither right nor warned.
 pub fn exceptions(findings: &[Finding]) -> Vec<String> {
     let odd = findings.iter().filter(|finding| finding.verdict > Verdict::Warned);
     let mut odd: Vec<&Finding> = odd.collect();
@@ -21,10 +21,10 @@ pub fn exceptions(findings: &[Finding]) -> Vec<String> {
     odd.iter().map(|f| format!("{}: {} ({}): {}", f.seed, f.verdict.name(), f.kind, f.note)).collect()
 }
 
-/// All findings as CSV.
+/// Returns all findings as CSV.
 ///
 /// # Errors
-/// What the writer says.
+/// An error of the CSV writer.
 pub fn table(findings: &[Finding]) -> io::Result<Vec<u8>> {
     let mut writer = csv::Writer::from_writer(Vec::new());
     writer.write_record([
@@ -65,7 +65,7 @@ pub fn table(findings: &[Finding]) -> io::Result<Vec<u8>> {
     writer.into_inner().map_err(|error| io::Error::other(error.to_string()))
 }
 
-/// Nothing where there is no number.
+/// Formats a number; NaN gives an empty text.
 fn number(value: f64) -> String {
     if value.is_nan() { String::new() } else { format!("{value:.3e}") }
 }

@@ -1,4 +1,4 @@
-//! A scenario being drawn, as it will stand in its file.
+//! Scenario under construction, as JSON.
 
 use super::basis::Basis;
 use super::course::{Course, waveform};
@@ -6,24 +6,24 @@ use super::draw::Draw;
 use serde_json::{Map, Value, json};
 use std::f64::consts::TAU;
 
-/// Most periods of the fastest swing in a run: what bounds its cost.
+/// Maximum number of periods of the fastest oscillation in a run, which limits its cost.
 const SWINGS: f64 = 30.0;
 /// Standard gravity, m/s².
 pub(super) const GRAVITY: f64 = 9.80665;
 
-/// What is decided first, and the parts of the file.
+/// Scales of the scenario and parts of its file.
 pub(super) struct Sketch {
     pub(super) draw: Draw,
     pub(super) basis: Basis,
-    /// Frequency of small swings on the first contact, Hz.
+    /// Frequency of small oscillations on the first contact, Hz.
     pub(super) frequency: f64,
     /// Period of the drive, s.
     pub(super) period: f64,
-    /// Peak to peak of the drive, m.
+    /// Stroke of the drive, peak to peak, m.
     pub(super) stroke: f64,
-    /// Whether the scene starts in equilibrium.
+    /// Whether the run starts from an equilibrium.
     pub(super) settled: bool,
-    /// Whether a waveform may jump: not where a damper could follow it.
+    /// Restriction of waveforms: jumps are not allowed if a damper could follow them.
     pub(super) course: Course,
     pub(super) title: String,
     pub(super) waveforms: Map<String, Value>,
@@ -36,7 +36,7 @@ pub(super) struct Sketch {
 }
 
 impl Sketch {
-    /// A scene without parts.
+    /// Returns a scenario without parts.
     pub(super) fn new(seed: u64) -> Self {
         let mut draw = Draw::new(seed);
         let basis = loop {
@@ -73,13 +73,13 @@ impl Sketch {
         map.insert(name.to_owned(), part);
     }
 
-    /// A waveform of this stroke under a name, and how a part follows it.
+    /// Adds a waveform of this stroke and returns the reference to it.
     pub(super) fn follows(&mut self, name: &str, stroke: f64, period: f64) -> Value {
         let form = waveform(&mut self.draw, self.course, stroke, period, 0.0);
         self.course_of(name, form)
     }
 
-    /// A waveform that stays at or above 0 under a name, and how a part follows it.
+    /// Adds a waveform that is never negative and returns the reference to it.
     pub(super) fn follows_above(&mut self, name: &str, stroke: f64, period: f64, mean: f64) -> Value {
         let form = waveform(&mut self.draw, Course::Above, stroke, period, mean);
         self.course_of(name, form)
@@ -90,17 +90,17 @@ impl Sketch {
         json!({ "follows": name })
     }
 
-    /// Mass (kg) that swings at a frequency (Hz) on a stiffness, N/m.
+    /// Returns the mass, kg, with a natural frequency, Hz, on a stiffness, N/m.
     pub(super) fn mass(stiffness: f64, frequency: f64) -> f64 {
         stiffness / (TAU * frequency).powi(2)
     }
 
-    /// Damping (N s/m) of a ratio on a stiffness, N/m, and the mass it carries, kg.
+    /// Returns the damping, N s/m, of a damping ratio on a stiffness, N/m, with a mass, kg.
     pub(super) fn damper(ratio: f64, stiffness: f64, mass: f64) -> f64 {
         2.0 * ratio * (stiffness * mass).sqrt()
     }
 
-    /// A contact pressed by `normal` between two bodies, by the first contact's pair and profile.
+    /// Returns a contact between two bodies with a normal load, and with the pair and profile of the first contact.
     pub(super) fn contact(&mut self, between: [&str; 2], normal: &Value, count: u64) -> Value {
         let [first, second] = self.basis.materials;
         let mut contact = json!({
@@ -120,7 +120,7 @@ impl Sketch {
         contact
     }
 
-    /// Velocity and place of a body along the slide, where the scene does not start in equilibrium.
+    /// Sometimes draws initial velocity and position along the slide, unless the run starts from an equilibrium.
     pub(super) fn start_along(&mut self, start: &mut Map<String, Value>) {
         if self.settled {
             return;
@@ -134,7 +134,7 @@ impl Sketch {
         }
     }
 
-    /// The scenario's text, to be run for some periods of the drive.
+    /// Returns the text of the file, with a duration of some drive periods.
     pub(super) fn text(mut self) -> String {
         let duration = (self.draw.between(1.2, 4.0) * self.period).min(SWINGS / self.frequency);
         let start = if self.settled { "equilibrium" } else { "given" };

@@ -1,4 +1,4 @@
-//! A scene made ready, and its runs.
+//! Model of a random scenario, and its runs.
 
 use std::time::Instant;
 use stickslip_drive::scene::{Axis, Freedom, Side};
@@ -9,37 +9,37 @@ use stickslip_drive::{
 /// Wall time after which a run counts as hung, s.
 pub(crate) const PATIENCE: f64 = 20.0;
 
-/// A scene, its model and what is looked at of its runs.
+/// Model with the evaluated columns of its runs.
 pub(crate) struct Trial {
     pub(crate) scene: Scene,
     pub(crate) model: Model,
     pub(crate) plan: Plan,
-    /// Columns looked at, and the natural unit of each.
+    /// Evaluated columns, and the natural unit of each.
     looks: Vec<(usize, f64)>,
     names: Vec<String>,
-    /// Places of input, kinetic, elastic and friction energy, damping and error.
+    /// Columns of input, kinetic, elastic and friction energy, damping and error.
     energies: [usize; 6],
     width: usize,
 }
 
-/// What came of a run.
+/// Result of a run.
 #[derive(Clone)]
 pub(crate) struct Ran {
     pub(crate) error: Option<RunError>,
-    /// Values of the columns looked at, in their natural units, row by row.
+    /// Values of the evaluated columns in natural units, row by row.
     pub(crate) rows: Vec<f64>,
-    /// Largest error of the energy books, J, and what it is measured by: the largest of input, kinetic energy, change of elastic
-    /// energy and heat, or the work of gross slip.
+    /// Largest error of the energy balance, J, and the energy throughput. The throughput is the largest of input, kinetic energy, change
+    /// of elastic energy and heat, but at least the work of gross slip.
     pub(crate) books: (f64, f64),
     pub(crate) counts: Counts,
-    /// s.
+    /// Wall time, s.
     pub(crate) wall: f64,
 }
 
 impl Trial {
     pub(crate) fn new(scene: Scene, plan: Plan) -> Result<Self, SceneError> {
         let model = Model::new(&scene)?;
-        // What can be refused is, before anything is run.
+        // Detects all errors of the model before a run.
         model.start(&plan)?;
         let channels = model.channels();
         let place = |name: &str| channels.iter().position(|channel| channel.name == name).unwrap_or(0);
@@ -52,7 +52,7 @@ impl Trial {
         Ok(Self { scene, model, plan, looks: looked, names, energies, width: channels.len() })
     }
 
-    /// Runs it by a stepper.
+    /// Runs the model with a stepper.
     pub(crate) fn run(&self, stepper: Stepper) -> Result<Ran, SceneError> {
         let plan = Plan { stepper, ..self.plan };
         let mut state = self.model.start(&plan)?;
@@ -68,14 +68,14 @@ impl Trial {
         Ran { error: result.err(), books, rows: looked.rows, counts: state.counts(), wall }
     }
 
-    /// Natural scale of work, J: μF_N u_c of the smallest contact; 0 where none has friction.
+    /// Returns the natural scale of work, J: μF_N u_c of the smallest contact, or 0 without friction.
     fn work(&self) -> f64 {
         let scales = (0..self.scene.contacts.len()).filter_map(|c| self.model.contact_natural(c));
         let works = scales.map(|scale| scale.force * scale.displacement).filter(|work| *work > 0.0);
         works.reduce(f64::min).unwrap_or(0.0)
     }
 
-    /// The largest difference of two runs in natural units, its column and its row.
+    /// Returns the largest difference of two runs in natural units.
     pub(crate) fn apart(&self, a: &Ran, b: &Ran) -> Apart<'_> {
         let mut most = Apart { by: 0.0, name: "", share: 0.0 };
         if a.rows.len() != b.rows.len() {
@@ -84,7 +84,7 @@ impl Trial {
         let width = self.looks.len().max(1);
         for (i, (x, y)) in a.rows.iter().zip(&b.rows).enumerate() {
             let by = (x - y).abs();
-            // A NaN must not pass for a small difference.
+            // A NaN must not count as a small difference.
             if by.is_nan() || by > most.by {
                 let by = if by.is_nan() { f64::INFINITY } else { by };
                 let share = (i / width) as f64 / (a.rows.len() / width).max(1) as f64;
@@ -94,8 +94,8 @@ impl Trial {
         most
     }
 
-    /// The same scene, its start changed by a part of its natural lengths and speeds; in equilibrium, which says where it starts,
-    /// its loads by that part of the holding force.
+    /// Returns the model with a perturbed start: positions and velocities change by a fraction of natural lengths and velocities. If the
+    /// run starts from an equilibrium, loads change by this fraction of the friction limit.
     pub(crate) fn nudged(&self, part: f64) -> Result<Self, SceneError> {
         let mut scene = self.scene.clone();
         let settled = scene.start == stickslip_drive::scene::Start::Equilibrium;
@@ -119,7 +119,8 @@ impl Trial {
         Self::new(scene, self.plan)
     }
 
-    /// Rounding of the widest stroke in the smallest natural length along the slide: no tolerance below it is met.
+    /// Returns the rounding error of the largest stroke, relative to the smallest natural length along the slide. This error limits the
+    /// attainable accuracy.
     pub(crate) fn rounding(&self) -> f64 {
         let stroke = |freedom: Freedom| match freedom {
             Freedom::Follows(w) => self.scene.waveforms.get(w).map(|w| w.part.range().1 - w.part.range().0),
@@ -132,38 +133,39 @@ impl Trial {
         f64::EPSILON * widest / lengths.fold(f64::INFINITY, f64::min)
     }
 
-    /// Natural scales of a body: those of its most sensitive contact.
+    /// Returns the natural scales of a body: those of its most sensitive contact.
     fn scale(&self, body: usize) -> Option<Scale> {
         scale(&self.scene, &self.model, body)
     }
 }
 
-/// How far two runs are apart.
+/// Difference of two runs.
 pub(crate) struct Apart<'a> {
-    /// In natural units.
+    /// Difference in natural units.
     pub(crate) by: f64,
-    /// Of which channel.
+    /// Name of the channel.
     pub(crate) name: &'a str,
-    /// At which share of the run.
+    /// Time of the difference relative to the duration.
     pub(crate) share: f64,
 }
 
 /// Natural scales of a body.
 #[derive(Debug, Clone, Copy)]
 struct Scale {
-    /// Along x, m.
+    /// Natural length along x, m.
     along: f64,
-    /// Along z, m.
+    /// Natural length along z, m.
     deep: f64,
-    /// Friction limit, N, or without friction the force on its stiffest spring.
+    /// Friction limit, N; without friction the normal force.
     force: f64,
-    /// rad/s.
+    /// Angular frequency, rad/s.
     frequency: f64,
-    /// Farthest contact point, m.
+    /// Distance of the farthest contact point, m.
     arm: f64,
 }
 
-/// Without friction u_c is 0 and along the slide the indentation is the measure; with much of it the widest waveform.
+/// Returns the natural scales of a body. Along the slide the scale is u_c, but at most the larger of stroke and indentation. Without
+/// friction it is the indentation.
 fn scale(scene: &Scene, model: &Model, body: usize) -> Option<Scale> {
     let widest = scene.waveforms.iter().map(|w| w.part.range().1 - w.part.range().0).fold(0.0, f64::max);
     let mut least: Option<Scale> = None;
@@ -198,7 +200,7 @@ fn scale(scene: &Scene, model: &Model, body: usize) -> Option<Scale> {
     least
 }
 
-/// Columns of free coordinates with their natural units; where nothing is free, the tangential forces.
+/// Returns the columns of free coordinates with their natural units; without free coordinates those of the tangential forces.
 fn looks(scene: &Scene, model: &Model, channels: &[Channel]) -> Vec<(usize, f64)> {
     let place = |name: String| channels.iter().position(|channel| channel.name == name);
     let mut looks = Vec::new();
@@ -228,11 +230,11 @@ fn looks(scene: &Scene, model: &Model, channels: &[Channel]) -> Vec<(usize, f64)
     looks
 }
 
-/// Keeps what is looked at.
+/// Recorder of the evaluated columns.
 struct Looked<'a> {
     trial: &'a Trial,
     rows: Vec<f64>,
-    /// Elastic energy at the start, J.
+    /// Initial elastic energy, J.
     before: Option<f64>,
     worst: f64,
     throughput: f64,
@@ -249,7 +251,7 @@ impl Record for Looked<'_> {
         let before = *self.before.get_or_insert(elastic);
         let flows = [input.abs(), kinetic, (elastic - before).abs(), friction + damping];
         self.throughput = flows.into_iter().fold(self.throughput, f64::max);
-        // The last places of what is stored are no energy that went anywhere: of a body that rests all else is 0.
+        // Rounding errors of the elastic energy do not count, because for a body at rest all other energies are 0.
         let rounding = 4.0 * f64::EPSILON * elastic.abs();
         if error.is_nan() || error.abs() > self.worst.max(rounding) {
             self.worst = error.abs();

@@ -1,4 +1,4 @@
-//! The least code that simulates the benchmark drive against the event stepper at 1e-12.
+//! Compares the minimal code for the benchmark drive with the event stepper at 1e-12.
 
 use stickslip_bench::floor::{Floor, Rule};
 use stickslip_drive::{Model, run};
@@ -6,7 +6,7 @@ use stickslip_scenario::Scenario;
 
 const P1: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../scenarios/p1.json");
 
-/// Where the slider is after so many periods, m.
+/// Returns the position of the slider after a number of periods, m.
 fn stepped(periods: &str) -> f64 {
     let set = [("run.stepper.event.tolerance", "1e-12"), ("run.cycles", periods)];
     let scenario = Scenario::load_with(P1, &set).unwrap();
@@ -16,7 +16,8 @@ fn stepped(periods: &str) -> f64 {
     state.body(&model, 1).unwrap().0
 }
 
-/// Errors in u_c: 32 nodes leave rounding alone, of a way of 160 u_c and 1 600; 4, 10 and 16 nodes what they leave of the time.
+/// Errors are in units of u_c. With 32 nodes only rounding errors remain, over 160 and 1 600 u_c of displacement. With 4, 10 and 16
+/// nodes, quadrature errors remain.
 #[test]
 fn the_least_code_is_the_benchmark_drive() {
     let floor = Floor::p1();

@@ -1,6 +1,6 @@
-//! What the bench measures with and by: the least code that runs the benchmark drive is that drive, and drawn scenes are right.
+//! Tests of the minimal code, and of random scenarios.
 //!
-//! One binary, linked once.
+//! All tests are in one binary, which is linked once.
 
 #![allow(
     clippy::unwrap_used,

@@ -1,19 +1,14 @@
-//! A sample of the soak: scenes drawn from seeds run to their end, and are right. The rest is `stickslip-lab soak`.
+//! Judges a sample of random scenarios. The command `stickslip-lab soak` judges more.
 
 use std::collections::BTreeSet;
 use stickslip_bench::soak::{Kind, Seeds, Verdict, hostile, scenario, soak};
 use stickslip_scenario::Scenario;
 
-/// Seeds of the sample.
+/// Number of seeds of the sample.
 const SAMPLE: u64 = 160;
 
-/// Faults of the sample that are known, by seed: books that miss a hundred tolerances by a factor of 1 to 3, of contacts that grow,
-/// whose path is kept in straight pieces that bend by less than a hundred tolerances of u_c.
-/// 36 and 133, on rows of 50 and 107 springs under constant normals, went as estimates of such rows are asked for more than the tolerance.
-/// 24 came and 98 went as guards learned what rounding is in them, of 400 seeds 25 had such books before it and after; 14, 24 and 90
-/// went with short steps, 87 with rows whose springs part without stretch. 45 went with steps to gross slip that are aimed nearer, and
-/// came back, as did 90, with other last digits of sines and cube roots; 73, which is hardly damped, went with paths as fine as strong
-/// damping asks for, and came back as they became as fine as its own does. Both went as friction came to know what chords of growth lack.
+/// Seeds of the sample with known faults. Their energy balance errors exceed the limit of a hundred tolerances by a factor of 1 to 3. The
+/// contacts grow along paths that are approximated by straight segments.
 const KNOWN: [u64; 3] = [90, 120, 149];
 
 #[test]
@@ -24,7 +19,7 @@ fn a_sample_of_drawn_scenes_runs_to_its_end_and_is_right() {
     let faults: Vec<_> = findings.iter().filter(|finding| finding.verdict.is_fault()).collect();
     let new: Vec<_> = faults.iter().filter(|finding| !KNOWN.contains(&finding.seed)).collect();
     assert!(new.is_empty(), "{new:#?}");
-    // Whoever mends one takes it off the list.
+    // A fault that is fixed must be removed from the list.
     let gone: Vec<_> =
         KNOWN.iter().filter(|seed| faults.iter().all(|finding| finding.seed != **seed)).collect();
     assert!(gone.is_empty(), "no fault any more: {gone:?}");
@@ -34,7 +29,7 @@ fn a_sample_of_drawn_scenes_runs_to_its_end_and_is_right() {
     assert!(compared > 0);
 }
 
-/// What the generator promises: of everything something, files that can be read, and the same ones again.
+/// Checks that the generator draws all kinds, and that its files are readable and reproducible.
 #[test]
 fn everything_is_drawn() {
     let mut met = BTreeSet::new();
@@ -91,7 +86,7 @@ fn everything_is_drawn() {
     assert_eq!(met.len(), Kind::ALL.len() + 34 + 4, "{met:?}");
 }
 
-/// Every 41st cell of the matrix in docs/stability.md, which has all of them.
+/// Every 41st cell of the matrix in docs/stability.md.
 #[test]
 fn a_sample_of_hostile_scenes_ends_right_or_in_an_error_that_helps() {
     let threads = std::thread::available_parallelism().map_or(1, usize::from);

@@ -10,12 +10,12 @@ use stickslip_study::curve::{Kind, holding};
 pub(crate) const ABOUT: &str = "\
 Trace a curve: step versus amplitude, speed versus frequency or load, holding force
 
-For each point of the curve, the command replaces one value of the scenario and finds the periodic motion of the drive by \
-shooting. If shooting fails or the periodic motion is unstable, the command simulates the drive until the steps are steady. If the \
-step length oscillates, the point is the mean step length, with error and spread.
+For each point of the curve, the command replaces one value of the scenario and finds the periodic orbit of the drive by shooting. If \
+shooting fails or the periodic orbit is unstable, the command simulates the drive until the steps are steady. If the step length \
+oscillates, the point is the mean step length, with error and spread.
 
   step-amplitude   step length versus stroke or amplitude of the drive waveform;
-                   zero-step amplitude S₀, the largest amplitude without a step
+                   zero-step stroke S₀, the largest stroke or amplitude without a step
   speed-frequency  mean speed versus drive frequency; maximum speed
   force-speed      mean speed and power versus a load that opposes the steps;
                    stall force and maximum power
@@ -26,12 +26,12 @@ step length oscillates, the point is the mean step length, with error and spread
 S₀ and the stall force are intervals: the drive makes steps at one end of the interval and no steps at the other end.
 
 --both also traces the curve with all waveforms reversed in time. Waveforms with jumps, tables, bursts and sequences cannot be \
-reversed. --vary traces the step length over any parameter of the scenario. With `--curve holding-force`, --vary traces the \
-holding force. Waveforms that act along the same axis with the same period and stroke are varied together. The run duration and \
-output tables of the scenario have no effect.
+reversed. --vary traces the step length over any parameter of the scenario. With `--curve holding-force`, --vary traces the holding \
+force. Waveforms that act along the same axis with the same period and stroke are varied together. The run duration and output tables \
+of the scenario have no effect.
 
-Writes curve.csv, curve.json and the plot curve.png. If a point has no result, its row gives the reason. The results do not depend \
-on the number of threads. Exit codes: 0 done; 2 bad input; 3 no point has a result, or a file cannot be written; 130 interrupted. An \
+Writes curve.csv, curve.json and the plot curve.png. If a point has no result, its row gives the reason. The results do not depend on \
+the number of threads. Exit codes: 0 done; 2 bad input; 3 no point has a result, or a file cannot be written; 130 interrupted. An \
 interrupted command writes finished points to curve-partial.csv, .json and .png and keeps earlier results. The same command then \
 resumes, also after a kill.";
 

@@ -12,19 +12,20 @@ use stickslip_scenario::quantity;
 pub(crate) const ABOUT: &str = "\
 Fit parameters of a scenario to a measured loop or trajectory: values, intervals, correlations
 
-The command finds the values of the free parameters with the least squares of the force, by the method of Levenberg and Marquardt. A file \
-of several cycles is averaged to its mean loop, as in `stickslip measure`. The contact of the scenario is moved along the measured \
-displacement, and its steady loop is compared with the measured force. A constant offset of the force is allowed.
+The command finds the values of the free parameters with the least squares of the force, by the method of Levenberg and Marquardt. A \
+file of several cycles is averaged to its mean loop, as in `stickslip measure`. The contact of the scenario is moved along the \
+measured displacement, and its steady loop is compared with the measured force. A constant offset of the force is allowed.
 
---displacement COLUMN=CHANNEL selects another displacement. If the channel belongs to a body that follows a waveform, the body is moved \
-along the measured loop instead of its waveform, with everything in between, such as the spring of a rig. For any other channel the \
-scenario is run as it is, and the rows of both channels are compared over time.
+--displacement COLUMN=CHANNEL selects another displacement. If the channel belongs to a body that follows a waveform, the body is \
+moved along the measured loop instead of its waveform, together with the parts in between, such as the spring of a rig. For any other \
+channel the scenario runs unchanged, and the rows of both channels are compared over time.
 
 Intervals contain the true value in 95 of 100 cases if the model is right. The noise is estimated from the data or given by --noise. \
-Parameters that the data cannot distinguish are named, and the command fails: a loop at constant load determines \u{3bc}F_N and the stiffness \
-2G*a, and no more. If the residual is more than noise, the command reports that the model does not fit.
+If the data cannot distinguish some parameters, the command names these parameters and fails. A loop at constant load determines only \
+\u{3bc}F_N and the stiffness 2G*a. If the residual is larger than the noise, the command reports that the model does not fit.
 
-Writes fit.json and the plot fit.png with the residual. Exit codes: 0 done, 2 bad input or parameters that cannot be distinguished, 3 a file cannot be written, 130 interrupted.";
+Writes fit.json and the plot fit.png with the residual. Exit codes: 0 done, 2 bad input or parameters that cannot be distinguished, 3 \
+a file cannot be written, 130 interrupted.";
 
 pub(crate) const EXAMPLES: &str = "\
 Examples:

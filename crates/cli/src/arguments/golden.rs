@@ -39,7 +39,7 @@ Examples:
   stickslip golden accept golden --reason \"preload measured anew: 12 N\"
   stickslip golden accept golden stage walker --reason \"a softer spring\"
 
-In CI, beside the scenarios in golden/ and drives/:
+In CI, with the folders golden/ and drives/ in the repository:
   stickslip golden check golden --junit golden.xml || exit 1";
 
 #[derive(Debug, Subcommand)]

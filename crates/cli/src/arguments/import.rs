@@ -10,11 +10,11 @@ Show how a measured table is read; write the recipe
 
 The command reads the table of an instrument: a log of a rig, an oscilloscope, a tribometer or a profilometer. It finds encoding \
 (UTF-8, UTF-16, Latin-1), delimiter, decimal sign, lines before the first row, units, start and increment of scopes, clock times and \
-missing values, and it shows what each column is taken for, with its first three rows.
+missing values. It prints the meaning of each column with its first three rows.
 
---out writes a recipe, a JSON file that contains all of this. Each key can be changed or left out. Keys that are left out are found \
-by the program. The value of a column is gain x cell + offset, in the unit of the column. `stickslip measure` takes the recipe with \
---recipe. Lines that are passed over are counted: empty lines, comments, lines of words and rows with a missing value.
+--out writes a recipe, a JSON file with these settings. Each key can be changed or left out. The program determines keys that are \
+left out. The value of a column is gain x cell + offset, in the unit of the column. `stickslip measure` takes the recipe with \
+--recipe. The program counts the lines that it skips: empty lines, comments, lines of words and rows with a missing value.
 
 Units: ns to h, nm to m, mil, in, uN to MN, gf, kgf, lbf; g and kg of a force are weights. Exit codes: 0 done, 2 bad input, 3 a file \
 cannot be written.";

@@ -21,6 +21,9 @@ pub(crate) struct LookArguments {
     /// have 600 dpi
     #[arg(long, value_name = "LENGTH", value_parser = width, conflicts_with = "scale")]
     width: Option<u32>,
+    /// No title above the plot, for a figure with a caption
+    #[arg(long)]
+    no_title: bool,
 }
 
 /// Reads a width in print, in tenths of a millimetre.
@@ -77,6 +80,7 @@ impl LookArguments {
             themes,
             scale: self.scale,
             width: self.width,
+            title: !self.no_title,
         }
     }
 }

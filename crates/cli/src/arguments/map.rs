@@ -10,18 +10,17 @@ use std::path::PathBuf;
 pub(crate) const ABOUT: &str = "\
 Map a result over two parameters: contours; borders of stick, partial and gross slip
 
-The command computes a result at the points of a grid over two parameters of a scenario, and draws a heat map with contours. A result is \
-a path of summary.json, or a channel at the end of the run, as in `stickslip study`.
+The command computes a result at the points of a grid over two parameters of a scenario, and draws a heat map with contours. A result \
+is a path of summary.json, or a channel at the end of the run, as in `stickslip study`.
 
 The result contacts.NAME.regime is the slip regime of a contact over the last period: open, stick, partial or gross. Borders between \
-regimes are traced: each point of a border is computed by itself and does not depend on the grid. If waveforms alone prescribe the motion of \
-the contact, no run is needed: gross slip begins where the maximum of u-κd equals the minimum of u+κd over a period, with κ = μE*/G*. \
-Otherwise, regimes are taken from runs, and borders are exact to 1e-4 of the ranges.
+regimes are traced. Each point of a border is computed independently of the grid. If waveforms alone prescribe the motion of the \
+contact, no run is needed: gross slip begins where the maximum of u-κd equals the minimum of u+κd over a period, with κ = μE*/G*. \
+Otherwise, regimes are results of runs, and borders are exact to 1e-4 of the ranges.
 
-Writes map.csv (x, y, result), map.json with the borders, and the plot map.png. Runs of a grid are kept in DIR/parts, in a folder of \
-their own for each map, those of traced borders in map.journal until the map is complete; after an interruption, the same command \
-computes what is missing. Exit codes: 0 done; 2 bad input; 3 no point \
-has a result, or a file cannot be written; 130 interrupted.";
+Writes map.csv (x, y, result), map.json with the borders, and the plot map.png. The runs of the grid are kept in DIR/parts, one \
+folder per map. The runs of traced borders are kept in map.journal until the map is complete. After an interruption, the same command \
+computes the missing runs. Exit codes: 0 done; 2 bad input; 3 no point has a result, or a file cannot be written; 130 interrupted.";
 
 pub(crate) const EXAMPLES: &str = "\
 Examples:

@@ -84,7 +84,7 @@ pub(crate) fn answered(said: clap::Error) -> clap::Error {
         Some((_, command)) => format!("stickslip {command}"),
         None => return said,
     };
-    let what = if is_file { "is a file and no command" } else { "is no command" };
+    let what = if is_file { "is a file, not a command" } else { "is not a command" };
     let message = format!("\"{}\" {what}; did you mean `{}`?", word.escape_debug(), meant.escape_debug());
     Arguments::command().error(ErrorKind::InvalidSubcommand, message)
 }

@@ -16,12 +16,13 @@ in 95 of 100 records. The file contains displacements and tangential forces, and
 file is read. The options --time, --displacement and --force select columns by name or number, with a unit after a colon. Numbers \
 without a unit are in SI.
 
-Cycles extend from one reversal to the next in the same direction. Cycles of one amplitude \
-are a stage; rows and work in cycles and outside add up to the record. Lag and drift of the signals are estimated. \
-If the force opposes the motion, the sign of the force is reversed, and a note reports the reversal.
+Cycles extend from one reversal to the next in the same direction. Consecutive cycles of one amplitude are a stage. The rows and work \
+inside and outside of cycles add up to those of the record. Lag and drift of the signals are estimated. If the force opposes the \
+motion, the sign of the force is reversed, and a note reports the reversal.
 
 With --beside, the plot shows the last simulated cycle together with the measured loop, and each loop is shifted to its own centre. \
-Writes cycles.csv and loop.png; for five cycles or more also log.png and evolution.png. Exit codes: 0 done, 2 bad input, 3 a file cannot be written.";
+Writes cycles.csv and loop.png; for five cycles or more also log.png and evolution.png. Exit codes: 0 done, 2 bad input, 3 a file \
+cannot be written.";
 
 pub(crate) const EXAMPLES: &str = "\
 Examples:

@@ -19,9 +19,10 @@ Exit codes: 0 done; 1 a comparison found a difference; 2 bad input, nothing was 
 stopped early or a file could not be written; 130 interrupted, results so far are written
 
 Start:  `stickslip new`, then `stickslip run drive.json`; the results are in results/drive";
-const PLOTS: &str = "Options for plots: --format, --theme, --scale, --width; see `stickslip plot --help`";
+const PLOTS: &str =
+    "Options for plots: --format, --theme, --scale, --width, --no-title; see `stickslip plot --help`";
 /// Options of plots, which `plot --help` alone describes.
-const LOOK: [&str; 4] = ["formats", "themes", "scale", "width"];
+const LOOK: [&str; 5] = ["formats", "themes", "scale", "width", "no_title"];
 
 /// The command line with its help.
 pub(crate) fn command() -> clap::Command {

@@ -12,7 +12,7 @@ Examples:
   stickslip plot results/p1                                  the plots of its scenario
   stickslip plot results/* --plots trajectory --format svg   one plot of every run, as SVG
   stickslip plot a/p1 b/p1 --over --plots loop --out .       both loops in one plot: over-loop.png
-  stickslip plot results/p1 --scale 2 --out pictures         into pictures/p1/, at twice the size";
+  stickslip plot results/p1 --scale 2 --out pictures         into pictures/p1/, twice as large";
 
 pub(super) const REPRO_EXAMPLES: &str = "\
 Examples:
@@ -63,5 +63,5 @@ pub(crate) struct ReproArguments {
 fn plot_names() -> impl TypedValueParser<Value = PlotName> {
     let all = || PlotName::ALL.into_iter().chain([PlotName::Xy]);
     let names = PossibleValuesParser::new(all().map(PlotName::name));
-    names.try_map(move |given| all().find(|plot| plot.name() == given).ok_or("no such picture"))
+    names.try_map(move |given| all().find(|plot| plot.name() == given).ok_or("no such plot"))
 }

@@ -15,21 +15,21 @@ Run a drive in real time with inputs and outputs over UDP or shared memory
 
 A frame is one --period of simulated time. Deadlines are multiples of --period on the monotonic clock. After each deadline the loop \
 takes the newest input, computes one frame and sends the outputs. Latency is the time from the deadline until the loop wakes. \
-Execution time is the time from waking until the outputs are sent. Both are counted in bins of 1 µs. A frame that ends after the \
-next deadline is an overrun. Before the run, an empty loop with the same period shows the limits of the machine.
+Execution time is the time from waking until the outputs are sent. Both are counted in bins of 1 µs. A frame that ends after the next \
+deadline is an overrun. Before the run, an empty loop with the same period shows the limits of the machine.
 
 Inputs are the waveforms of kind \"input\". A held input takes a new value at the start of a frame. A linear input reaches a new \
 value at the end of a frame. A waveform of kind \"generator\" has four inputs: NAME.stroke, NAME.frequency (Hz), NAME.heading (1 or \
 -1) and NAME.steps (-1 for no limit). Without --inputs, all inputs keep their initial values. All values are in SI. \
-docs/realtime.md describes packets, shared memory and recordings byte by byte, with clients in C and Python.
+docs/real_time_interface.md describes packets, shared memory and recordings byte by byte, with clients in C and Python.
 
-About a hundred frames are computed before the start. A --period shorter than the median computing time of these frames is refused \
-unless --force is given. If the operating system refuses the priority, the processor or locked memory, the loop runs without the \
-refused setting, and the report says so.
+Before the start, the command computes 500 frames, but for at most 0.5 s. A --period shorter than the median computing time of these \
+frames is refused unless --force is given. If the operating system refuses the priority, the processor or locked memory, the loop \
+runs without the refused setting, and the report says so.
 
-Writes to DIR/NAME: realtime.json, histogram.csv, frames.csv (the slowest frames and their work), realtime.png and timeline.png. \
-Exit codes: 0 all frames were computed; 2 bad input, no input arrived, or a port is in use; 3 the run stopped early, \
---overrun stop or --silence stop ended the loop, or a file cannot be written; 130 interrupted. Results so far are written.";
+Writes to DIR/NAME: realtime.json, histogram.csv, frames.csv (the slowest frames and their work), realtime.png and timeline.png. Exit \
+codes: 0 all frames were computed; 2 bad input, no input arrived, or a port is in use; 3 the run stopped early, --overrun stop or \
+--silence stop ended the loop, or a file cannot be written; 130 interrupted. Results so far are written.";
 
 /// Examples under the long help.
 pub(crate) const EXAMPLES: &str = "\
@@ -229,14 +229,14 @@ fn not_negative(text: &str) -> Result<f64, String> {
         return Ok(0.0);
     }
     let seconds = stickslip_scenario::quantity(text, "s")?;
-    if seconds >= 0.0 { Ok(seconds) } else { Err("expected 0 or a time above it".to_owned()) }
+    if seconds >= 0.0 { Ok(seconds) } else { Err("expected 0 or a time above 0".to_owned()) }
 }
 
 fn address(text: &str) -> Result<SocketAddr, String> {
     let refuse = |why: String| format!("{why}; expected HOST:PORT, such as 127.0.0.1:5005");
     let mut found = text.to_socket_addrs().map_err(|error| refuse(format!("\"{text}\": {error}")))?;
     // Port 0 is whichever the system likes: nobody would know it.
-    found.find(|address| address.port() != 0).ok_or_else(|| refuse(format!("\"{text}\" is no address")))
+    found.find(|address| address.port() != 0).ok_or_else(|| refuse(format!("\"{text}\" is not an address")))
 }
 
 fn name(text: &str, what: &str) -> Result<PathBuf, String> {

@@ -10,7 +10,7 @@ Examples:
   stickslip run drive.json
   stickslip run drive.json --out small --set waveforms.drive.sawtooth.stroke=\"70 nm\"
   stickslip run scenarios/*.json --threads 4 --json > summaries.jsonl
-  stickslip run drive.json --set figures.steady_motion=false   without the search for the periodic motion
+  stickslip run drive.json --set figures.steady_motion=false   without the search for the periodic orbit
   stickslip run drive.json --checkpoint-every \"30 s\"
   stickslip run --resume results/drive                           finish a run that was interrupted or killed
   stickslip run --resume results/drive --set run.duration=\"2 s\"  extend a run";

@@ -15,18 +15,18 @@ elasticity. The elasticity is the change of the result in per cent for a change 
 extrapolated from four runs or more with the parameter changed by 0.8 % to 0.0002 % to both sides. The error estimate covers \
 curvature and numerical noise.
 
-A derivative does not exist if the slopes on the two sides of the parameter value differ, if the result jumps, if an event appears \
-or disappears, or if the parameter value on one side is refused. The command then reports each side separately, with the reason.
+A derivative does not exist if the slopes on the two sides of the parameter value differ, if the result jumps, if an event appears or \
+disappears, or if the parameter value on one side is refused. The command then reports each side separately, with the reason.
 
 A result is a number of summary.json given by its path; the final value of a channel, such as slider.x_m; or steady.step_m or \
-steady.speed_m_s of the periodic motion. Parameters are all numbers of the scenario except zeros, counts and settings of the run, \
-or the parameters given by --to.
+steady.speed_m_s of the periodic orbit. Parameters are all numbers of the scenario except zeros, counts and settings of the run, or \
+the parameters given by --to.
 
-Writes sensitivity.csv, sensitivity.json and the plot sensitivity.png. The results do not depend on the number of threads. \
-Exit codes: 0 done; 2 bad input; 3 the run of the scenario stops early, a periodic motion or all derivatives are missing, or a \
-file cannot be written; 130 interrupted. An interrupted command writes finished derivatives to sensitivity-partial.csv, .json and \
-.png and keeps earlier results. The same command then resumes where it was interrupted or killed: finished runs are in \
-sensitivity.journal until all derivatives are known.";
+Writes sensitivity.csv, sensitivity.json and the plot sensitivity.png. The results do not depend on the number of threads. Exit \
+codes: 0 done; 2 bad input; 3 the run of the scenario stops early, the periodic orbit or all derivatives are missing, or a file \
+cannot be written; 130 interrupted. An interrupted command writes finished derivatives to sensitivity-partial.csv, .json and .png and \
+keeps earlier results. The same command then resumes where it was interrupted or killed: finished runs are in sensitivity.journal \
+until all derivatives are known.";
 
 pub(crate) const EXAMPLES: &str = "\
 Examples:

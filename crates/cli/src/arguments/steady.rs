@@ -7,20 +7,20 @@ use std::path::PathBuf;
 
 /// Long help; paragraphs are broken where the terminal ends.
 pub(crate) const ABOUT: &str = "\
-Find the periodic motion of a drive without a long run: step, speed, stability
+Find the periodic orbit of a drive without a long run: step, speed, stability
 
-A drive is in periodic motion when every period of the waveforms repeats the same motion, shifted by one step. The command finds the \
-periodic motion by shooting: a few periods are simulated, then Newton's method solves for a fixed point of the Poincaré map. \
-Shooting also finds unstable periodic motions, to which no run converges. Waveforms are assumed to continue without end, even if the \
-scenario limits the number of cycles.
+On a periodic orbit, every period of the waveforms repeats the same motion, shifted by one step. The command finds the periodic orbit \
+by shooting: a few periods are simulated, then Newton's method solves for a fixed point of the Poincaré map. Shooting also finds \
+unstable periodic orbits, to which no run converges. Waveforms are assumed to continue without end, even if the scenario limits the \
+number of cycles.
 
 Prints the step length with its error, the speed, and the Floquet multipliers λ. A small disturbance changes by the factor |λ| in \
-each period. Writes steady.json, a plot of one period with the multipliers, and a checkpoint. `stickslip run --resume DIR` \
-continues the motion from the checkpoint.
+each period. Writes steady.json, a plot of one period with the multipliers, and a checkpoint. `stickslip run --resume DIR` continues \
+the motion from the checkpoint.
 
-Exit codes: 0 a periodic motion was found, stable or not; 2 bad input, or no periodic motion can exist; 3 no periodic motion was \
-found, or a file cannot be written; 130 interrupted. No periodic motion can exist if the waveforms have no common period, if a \
-calling program commands a waveform, or if nothing holds a body.";
+Exit codes: 0 a periodic orbit was found, stable or not; 2 bad input, or no periodic orbit can exist; 3 no periodic orbit was found, \
+or a file cannot be written; 130 interrupted. No periodic orbit can exist if the waveforms have no common period, if a calling \
+program commands a waveform, or if nothing holds a body.";
 
 pub(crate) const EXAMPLES: &str = "\
 Examples:
@@ -31,16 +31,17 @@ Examples:
 
 /// Long help of a branch.
 pub(crate) const BRANCH_ABOUT: &str = "\
-Follow the periodic motion while a parameter changes: folds, bifurcations
+Follow the periodic orbit while a parameter changes: folds, bifurcations
 
-The command starts from the periodic motion of the scenario and follows this motion to both ends of the parameter range. The method is \
-pseudo-arclength continuation, which also follows the branch around folds and along unstable motions. The command reports folds, period \
-doublings and Neimark-Sacker bifurcations. It also reports parameter values at which an event of the period, such as the start of slip, \
-appears or disappears. If the branch ends within the range, for example because gross slip ceases, the command gives the reason. Writes \
-branch.csv, branch.json and the plot branch.png. In the plot, lines are solid for stable motions and dashed for unstable motions.
+The command starts from the periodic orbit of the scenario and follows this orbit to both ends of the parameter range. The method is \
+pseudo-arclength continuation, which also follows the branch around folds and along unstable orbits. The command reports folds, \
+period doublings and Neimark-Sacker bifurcations. It also reports parameter values at which an event of the period, such as the start \
+of slip, appears or disappears. If the branch ends within the range, for example because gross slip ceases, the command gives the \
+reason. Writes branch.csv, branch.json and the plot branch.png. In the plot, lines are solid for stable orbits and dashed for \
+unstable orbits.
 
-Exit codes: 0 done; 2 bad input, or no periodic motion can exist; 3 no periodic motion was found, or a file cannot be written; 130 \
-interrupted. An interrupted command writes the motions found so far to branch-partial.csv, .json and .png and keeps earlier results. \
+Exit codes: 0 done; 2 bad input, or no periodic orbit can exist; 3 no periodic orbit was found, or a file cannot be written; 130 \
+interrupted. An interrupted command writes the orbits found so far to branch-partial.csv, .json and .png and keeps earlier results. \
 The same command then resumes where it was interrupted or killed: finished steps are in branch.journal until the branch is complete.";
 
 pub(crate) const BRANCH_EXAMPLES: &str = "\

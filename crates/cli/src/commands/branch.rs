@@ -1,4 +1,4 @@
-//! `stickslip branch`: steady motions one after another, as a number of the scenario changes.
+//! `stickslip branch`: continuation of a periodic orbit over a parameter.
 
 use super::output::{Output, OutputFailure};
 use super::steady::verdict;
@@ -18,24 +18,24 @@ use stickslip_study::steady::continuation::{
 };
 use thiserror::Error;
 
-/// Why there is no branch.
+/// Error that stops the command.
 #[derive(Debug, Error)]
 enum BranchFailure {
-    /// The scenario.
+    /// The scenario is rejected.
     #[error(transparent)]
     Refused(#[from] Refusal),
-    /// What is asked for, or no motion to start with.
+    /// The request is invalid, or there is no periodic orbit at the start.
     #[error(transparent)]
     Branch(#[from] ContinuationError),
-    /// A range that is none.
+    /// The range is invalid.
     #[error("--vary  {0}")]
     Range(String),
-    /// The files.
+    /// The files cannot be written.
     #[error(transparent)]
     Output(#[from] OutputFailure),
 }
 
-/// Follows a branch and writes it.
+/// Follows a branch and writes the results.
 pub(crate) fn branch(arguments: &BranchArguments) -> Verdict {
     answer(arguments).unwrap_or_else(|failure| {
         complain(format_args!("{failure}"));
@@ -52,7 +52,7 @@ fn answer(arguments: &BranchArguments) -> Result<Verdict, BranchFailure> {
         warn(&of.job);
     }
     let interrupt = Interrupt::install();
-    // Before the first motion, which may take long.
+    // Before the first orbit, which may take long.
     let output = Output::ready(arguments.out.as_deref(), &format!("{}-branch", of.job.name))?;
     let out = output.path.clone();
     let BranchArguments { accuracy, points, search, fresh, .. } = arguments;
@@ -100,7 +100,7 @@ fn write(
     })
 }
 
-/// The branch by its ends and what lies between them, in its order.
+/// Prints the ends of the branch and its special points in order.
 fn tell(of: &Continuation, branch: &Branch) {
     let mut table = table::plain([of.path.as_str(), "\u{b1}", "step", "stable", "what"]);
     let step = |step: Option<f64>| step.map_or(String::new(), |step| quantity(Real(step), "m"));
@@ -123,7 +123,7 @@ fn tell(of: &Continuation, branch: &Branch) {
     };
     table.add_row(end(0)).add_rows(branch.marks.iter().map(row)).add_row(end(1));
     table::to_the_right(&mut table, 0..=2);
-    say(format_args!("{}: {} steady motions\n\n{table}\n", of.job.name, branch.points.len()));
+    say(format_args!("{}: {} periodic orbits\n\n{table}\n", of.job.name, branch.points.len()));
     let words = branch.marks.iter().map(|mark| (shown(of, mark.value), mark.kind.words()));
     words.for_each(|(value, words)| say(format_args!("{value}: {words}")));
     let both = branch.points.first().zip(branch.points.last());
@@ -132,12 +132,12 @@ fn tell(of: &Continuation, branch: &Branch) {
         say(format_args!("end at {}: {}", shown(of, point.value), end.words()));
     }
     if branch.is_cut() {
-        complain(format_args!("interrupted: what was found is written"));
+        complain(format_args!("interrupted: the orbits found so far are written"));
     }
 }
 
 fn shown(of: &Continuation, value: f64) -> String {
-    // A prefix belongs to a unit.
+    // A number without a unit has no prefix.
     if of.unit.is_empty() { format!("{value:.4e}") } else { quantity(Real(value), of.unit) }
 }
 

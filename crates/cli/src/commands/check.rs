@@ -1,4 +1,4 @@
-//! `stickslip check`: everything that a run would refuse, and no run.
+//! `stickslip check`: reports all errors that a run would report, without a run.
 
 use crate::arguments::CheckArguments;
 use schemars::JsonSchema;
@@ -10,64 +10,64 @@ use stickslip_console::verdict::Verdict;
 use stickslip_run::{Job, Refusal};
 use stickslip_scenario::Report;
 
-/// What is found of a file, for machines.
+/// Result of the check of a file, for JSON.
 #[derive(Debug, Serialize, JsonSchema)]
 struct Finding<'a> {
-    /// the file as it was named
+    /// name of the file, as given
     file: &'a Path,
-    /// whether a run would take it
+    /// whether a run would accept the file
     ok: bool,
-    /// the first of `errors`, with the same keys
+    /// first entry of `errors`, with the same keys. Absent if there are none.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(with = "Option<bool>")]
     error: Option<Fault>,
-    /// Everything that is wrong and no consequence of something else, in the order of the file; at most twenty.
+    /// Errors in the order of the file, without consequences of other errors; at most twenty.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     errors: Vec<Fault>,
-    /// `true` where there are more errors than the twenty listed
+    /// true if there are more errors than the twenty listed. Absent otherwise.
     #[serde(skip_serializing_if = "std::ops::Not::not")]
     more: bool,
-    /// what was not judged, or not all of it, because of the errors: `form` (keys, units, ranges), `meaning` (what parts are to
-    /// each other), `equilibrium` (whether there is one to start from), `limits` (rows, lines and memory of a run); more may be
-    /// wrong there
+    /// checks that the errors prevented, completely or in part: `form` (keys, units, ranges), `meaning` (relations
+    /// between parts), `equilibrium` (existence of a static start), `limits` (rows, lines and memory of a run). They
+    /// may reveal more errors. Absent if all were done.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     not_checked: Vec<&'static str>,
-    /// What is allowed and probably not meant.
+    /// Warnings: valid but implausible values.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     warnings: Vec<Fault>,
 }
 
-/// What is wrong, and where. Lines and columns count from 1, columns in characters.
+/// Error or warning with its position. Lines and columns count from 1, columns in characters.
 #[derive(Debug, Default, Serialize, JsonSchema)]
 struct Fault {
-    /// of warnings: what it is about, one word for machines
+    /// kind of a warning, one word for programs. Absent in errors.
     #[serde(skip_serializing_if = "Option::is_none")]
     kind: Option<&'static str>,
-    /// the table that line and column count in, where one that the scenario names is to blame
+    /// name of the table that contains line and column. Absent if they are in the scenario file.
     #[serde(skip_serializing_if = "Option::is_none")]
     table: Option<String>,
-    /// the argument of --set that line and column count in, where one is to blame
+    /// argument of `--set` that contains line and column. Absent if they are in a file.
     #[serde(rename = "override", skip_serializing_if = "Option::is_none")]
     assignment: Option<String>,
-    /// line, from 1
+    /// line of the position, from 1. Absent without a position.
     #[serde(skip_serializing_if = "Option::is_none")]
     line: Option<usize>,
-    /// column in characters, from 1
+    /// column of the position in characters, from 1. Absent without a position.
     #[serde(skip_serializing_if = "Option::is_none")]
     column: Option<usize>,
-    /// characters that are to blame
+    /// number of characters to which the message refers. Absent without a position.
     #[serde(skip_serializing_if = "Option::is_none")]
     width: Option<usize>,
-    /// key path such as `contacts.ball.friction`; empty for the file as a whole
+    /// path of the key, such as `contacts.ball.friction`. Empty for the file as a whole.
     path: String,
-    /// what was expected and what came
+    /// expected and given value, or what is implausible
     message: String,
-    /// what to try
+    /// advice. Absent if there is none.
     #[serde(skip_serializing_if = "Option::is_none")]
     help: Option<String>,
 }
 
-/// Checks all files and says of each what it found: "ok" on stdout, errors on stderr; with `--json` all on stdout.
+/// Checks all files. Prints "ok" on stdout or errors on stderr for each; with `--json`, prints everything on stdout.
 pub(crate) fn check(arguments: &CheckArguments) -> Verdict {
     let mut worst = Verdict::Done;
     for file in &arguments.files {
@@ -95,7 +95,7 @@ fn tell(arguments: &CheckArguments, file: &Path, job: &Result<Job, Refusal>) {
             },
             warnings: odd.iter().map(|odd| Fault { kind: Some(odd.kind), ..Fault::at(odd, file) }).collect(),
         };
-        // A path that is not Unicode is the only thing that JSON has no words for.
+        // Only a path that is not Unicode cannot be serialised.
         let line = serde_json::to_string(&finding);
         say_json(&line.unwrap_or_else(|_| format!("{{\"ok\":{}}}", job.is_ok())));
         return;
@@ -137,7 +137,7 @@ impl Fault {
     }
 }
 
-/// What every key of `check --json` is.
+/// Returns the definitions of all keys of `check --json`.
 pub(super) fn definitions() -> Vec<stickslip_quantity::Definition> {
     stickslip_quantity::report::<Finding<'_>>("check --json")
 }

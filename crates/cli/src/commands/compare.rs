@@ -1,4 +1,4 @@
-//! `stickslip compare`: two folders of results, channel by channel, event by event, figure by figure.
+//! `stickslip compare`: compares two folders of results by channels, events and summary values.
 
 mod account;
 
@@ -13,24 +13,24 @@ use stickslip_plot::PlotError;
 use stickslip_run::complaint::words;
 use thiserror::Error;
 
-/// Why two folders are not compared, or not drawn.
+/// Error that stops the command.
 #[derive(Debug, Error)]
 enum CompareFailure {
-    /// What the comparison says; it names what was asked as the options do.
+    /// The comparison fails. The message names the arguments like options.
     #[error("{}{error}", dashes(.error))]
     Compare { error: CompareError },
-    /// A picture of a form that is not drawn.
+    /// The file format of the plot is not supported.
     #[error("--plot {}  expected a file name that ends in .png or .svg", .0.display())]
     NoPicture(PathBuf),
-    /// The picture cannot be drawn.
-    #[error("the picture cannot be drawn: {0}")]
+    /// The plot cannot be drawn.
+    #[error("the plot cannot be drawn: {0}")]
     Plot(#[from] PlotError),
-    /// The picture cannot be written.
+    /// The plot cannot be written.
     #[error("--plot {}  cannot be written: {}", .path.display(), words(.source))]
     NotWritten { path: PathBuf, source: io::Error },
 }
 
-/// Compares two folders and prints what was found.
+/// Compares two folders and prints the result.
 pub(crate) fn run(arguments: &CompareArguments) -> Verdict {
     match compare(arguments) {
         Ok(comparison) => {
@@ -57,7 +57,7 @@ impl From<CompareError> for CompareFailure {
 }
 
 fn compare(arguments: &CompareArguments) -> Result<Comparison, CompareFailure> {
-    // Before anything is read: a large comparison for nothing helps nobody.
+    // Check the plot format first, before a long comparison.
     let form = |file: &PathBuf| Form::of(file).ok_or_else(|| CompareFailure::NoPicture(file.clone()));
     let form = arguments.plot.as_ref().map(form).transpose()?;
     let read =
@@ -73,7 +73,7 @@ fn compare(arguments: &CompareArguments) -> Result<Comparison, CompareFailure> {
     Ok(comparison)
 }
 
-/// What makes the name of a term that of an option.
+/// Returns the prefix that makes the name of a term an option.
 fn dashes(error: &CompareError) -> &'static str {
     match error {
         CompareError::UnknownName { .. } | CompareError::Absolute { .. } => "--",

@@ -1,4 +1,4 @@
-//! `stickslip completions SHELL`: what a shell completes a command line by.
+//! `stickslip completions SHELL`: completion script for a shell.
 
 use crate::arguments::command;
 use clap_complete::Shell;

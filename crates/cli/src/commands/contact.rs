@@ -1,4 +1,4 @@
-//! `stickslip contact`: what the theory says of one contact, without a run.
+//! `stickslip contact`: solution of the contact theory for one contact, without a run.
 
 mod page;
 
@@ -17,25 +17,25 @@ use stickslip_run::theory::{
 use stickslip_run::{Job, Refusal};
 use thiserror::Error;
 
-/// Points of the tables that are printed, and of those that are written.
+/// Number of rows in printed and in written tables.
 const PRINTED: usize = 11;
 const WRITTEN: usize = 201;
 
-/// Why there is no answer.
+/// Error that stops the command.
 #[derive(Debug, Error)]
 enum ContactFailure {
-    /// The scenario.
+    /// The scenario is rejected.
     #[error(transparent)]
     Refused(#[from] Refusal),
-    /// The contact, or what is asked of it.
+    /// The contact or the load is invalid.
     #[error(transparent)]
     Theory(#[from] TheoryError),
-    /// A picture.
+    /// A plot fails.
     #[error(transparent)]
     Figure(#[from] FigureError),
 }
 
-/// Answers for a contact.
+/// Solves a contact and prints or writes the results.
 pub(crate) fn contact(arguments: &ContactArguments) -> Verdict {
     match answer(arguments) {
         Ok(()) => Verdict::Done,
@@ -49,12 +49,16 @@ pub(crate) fn contact(arguments: &ContactArguments) -> Verdict {
 fn answer(arguments: &ContactArguments) -> Result<(), ContactFailure> {
     let job = Job::prepare(&arguments.file, &arguments.set, Path::new(""))?;
     let subject = Subject::find(&job, arguments.contact.as_deref())?;
+    let own = format!("contacts.{}", subject.name);
+    for text in job.warnings().iter().map(ToString::to_string).filter(|text| text.contains(&own)) {
+        complain(format_args!("warning: {text}"));
+    }
     let normal = arguments.pressed.given().unwrap_or_else(|| subject.pressed());
     let pushed = arguments.pushed.given();
     let history = history(arguments)?;
     let sheet = Sheet::of(&subject, normal, pushed, PRINTED)?;
     let asked = match (&history, &sheet.loading) {
-        // A first loading is a history of one corner.
+        // A first loading is a history with one corner.
         (None, Some(found)) if arguments.out.is_some() => {
             let tangential = Tangential::Displacement(found.u.0);
             Some(History { corners: vec![Corner { normal: None, tangential }] })
@@ -69,7 +73,7 @@ fn answer(arguments: &ContactArguments) -> Result<(), ContactFailure> {
     if arguments.json {
         say_json(&json(&sheet, walk.as_ref()));
     } else if !arguments.quiet {
-        // With a history its corners take the place of the curves.
+        // With a history, its corners replace the curves.
         let shown = if walk.is_some() { sheet.without_curves() } else { sheet };
         say(format_args!("{}", page::text(&shown)));
     }
@@ -83,7 +87,8 @@ fn answer(arguments: &ContactArguments) -> Result<(), ContactFailure> {
     Ok(())
 }
 
-/// The history asked for: a file where there is one of that name, else corners.
+/// Returns the requested loading history: from a CSV file if the text ends in ".csv", otherwise from corners in the
+/// text.
 fn history(arguments: &ContactArguments) -> Result<Option<History>, TheoryError> {
     let Some(text) = &arguments.history else { return Ok(None) };
     let path = Path::new(text);
@@ -92,7 +97,7 @@ fn history(arguments: &ContactArguments) -> Result<Option<History>, TheoryError>
     history.map(Some)
 }
 
-/// Writes tables and pictures; returns the names.
+/// Writes tables and plots. Returns their names.
 fn files(
     arguments: &ContactArguments,
     (subject, walk): (&Subject<'_>, &Walk),
@@ -106,7 +111,7 @@ fn files(
     let (mut pictures, mut notes) = (Vec::new(), Vec::new());
     if !sheet.constants.axisymmetric {
         notes.push(
-            "a list of springs or a normal law has no shape in three dimensions: no fields, no map of friction"
+            "a list of springs or a normal law has no shape in three dimensions: fields and friction work per area are not computed"
                 .to_owned(),
         );
     }
@@ -114,7 +119,7 @@ fn files(
         pictures.extend(drawn?);
     }
     let folder = Folder::make(out).map_err(failed)?;
-    // A command that was killed has left its drafts.
+    // An interrupted command may have left temporary files.
     let stale = theory::all_files();
     let tables = table_files().into_iter().map(str::to_owned).chain([CONTACT.to_owned()]);
     sweep(out, &tables.chain(stale.iter().cloned()).collect::<Vec<_>>());

@@ -1,4 +1,4 @@
-//! `stickslip curve`: a curve of a machine.
+//! `stickslip curve`: curves of a drive.
 
 mod holding;
 
@@ -17,34 +17,32 @@ use stickslip_run::{Job, Real, Warning, quantity};
 use stickslip_study::curve::{self, Curve, CurveError, Kind, Point, Range, Traced, Way};
 use thiserror::Error;
 
-/// An error below this share of the step does not show in its digits.
+/// Smallest error relative to the step length that is shown.
 const SHOWN: f64 = 1e-4;
 
-/// Why there is no curve.
+/// Error that stops the command.
 #[derive(Debug, Error)]
 enum CurveFailure {
-    /// What is asked for.
+    /// The request is invalid.
     #[error(transparent)]
     Curve(#[from] CurveError),
-    /// A range that is none.
+    /// A range is invalid.
     #[error("{option}  {message}")]
     Range { option: &'static str, message: String },
-    /// A curve that says what it varies, and a path.
+    /// A named curve was requested together with a parameter.
     #[error(
-        "--vary  cannot be used with --curve {0}, which says what is varied; only holding-force takes both"
+        "--vary  cannot be used with --curve {0}, which has its own parameter; only holding-force takes both options"
     )]
     VariesItself(&'static str),
-    /// Holding forces in both senses.
-    #[error(
-        "--both  cannot be used with --curve holding-force, which has both ways by itself: nothing is driven"
-    )]
+    /// Holding forces were requested with reversed waveforms.
+    #[error("--both  cannot be used with --curve holding-force, which always gives both directions")]
     HeldBothWays,
-    /// The files.
+    /// The files cannot be written.
     #[error(transparent)]
     Output(#[from] OutputFailure),
 }
 
-/// Traces a curve and writes it.
+/// Computes a curve and writes the results.
 pub(crate) fn curve(arguments: &CurveArguments) -> Verdict {
     answer(arguments).unwrap_or_else(|failure| {
         complain(format_args!("{failure}"));
@@ -70,7 +68,7 @@ fn answer(arguments: &CurveArguments) -> Result<Verdict, CurveFailure> {
     }
 }
 
-/// Traces a curve of motions, in one sense or both, and writes it.
+/// Computes a curve of the steady motion, for one or both directions of the waveforms, and writes it.
 fn trace(arguments: &CurveArguments, kind: Kind) -> Result<Verdict, CurveFailure> {
     let job = prepared(arguments)?;
     let mut curves = match arguments.both {
@@ -123,7 +121,7 @@ fn trace(arguments: &CurveArguments, kind: Kind) -> Result<Verdict, CurveFailure
     if verdict != Verdict::Interrupted {
         journal.remove();
     }
-    // Why there is nothing at all is no note.
+    // If there is no result at all, the reason is an error and not a note.
     if verdict == Verdict::Stopped && (arguments.quiet || arguments.json) {
         ways.iter().take(1).for_each(|(curve, traced)| complain_of_faults(curve, traced));
     }
@@ -135,7 +133,7 @@ fn prepared(arguments: &CurveArguments) -> Result<Job, CurveFailure> {
         .map_err(|refusal| CurveError::from(refusal).into())
 }
 
-/// Where the points lie; none where somebody interrupted the search for a range.
+/// Returns the values of the points. Returns `None` if the search for a default range was interrupted.
 fn values(
     arguments: &CurveArguments,
     (curves, asked): (&[Curve], Option<Range>),
@@ -147,22 +145,22 @@ fn values(
     let name = &curves[0].job.name;
     progress.tell(format_args!("{name}: searching for a range"));
     let found = wide(curves, interrupt);
-    // What was tried until then is no range.
+    // An interrupted search gives no range.
     if interrupt.is_raised() {
-        complain(format_args!("{name}: interrupted while a range was looked for; no point is done"));
+        complain(format_args!("{name}: interrupted during the search for a range; no point is done"));
         return Ok(None);
     }
     Ok(Some(found.map(|range| of(arguments, range).values()).transpose()?.unwrap_or_default()))
 }
 
-/// A range worth looking at for all of them.
+/// Returns a default range that covers those of all curves.
 fn wide(curves: &[Curve], interrupt: &Interrupt) -> Option<[f64; 2]> {
     let ranges = curves.iter().map(|curve| curve.range(&Interrupted(interrupt)));
     let all: Vec<[f64; 2]> = ranges.collect::<Option<_>>()?;
     all.into_iter().reduce(|[from, to], [other, beyond]| [from.min(other), to.max(beyond)])
 }
 
-/// A curve with its points and its places with a name.
+/// Computes the points and landmarks of a curve.
 fn followed(
     arguments: &CurveArguments,
     (curve, values): (&Curve, &[f64]),
@@ -172,12 +170,12 @@ fn followed(
     let bar = progress.budget(&format!("{}{sense}", curve.kind.name()), values.len() as f64, interrupt);
     let mut traced = curve.trace(values, arguments.work.threads.count(), &bar);
     drop(bar);
-    let bar = progress.budget(&format!("stall, S\u{2080} and best points{sense}"), 1.0, interrupt);
+    let bar = progress.budget(&format!("stall, S\u{2080} and maxima{sense}"), 1.0, interrupt);
     curve.mark(&mut traced, arguments.tolerance, arguments.work.threads.count(), &bar)?;
     Ok(traced)
 }
 
-/// The range asked for; none where it is to be found what is worth looking at.
+/// Returns the requested range, or `None` if a default range must be found.
 fn range(arguments: &CurveArguments, curve: &Curve) -> Result<Option<Range>, CurveFailure> {
     let asked = ends(arguments, curve.variation.unit)?;
     let known = || curve.variation.range.ok_or_else(|| curve.no_range());
@@ -186,7 +184,7 @@ fn range(arguments: &CurveArguments, curve: &Curve) -> Result<Option<Range>, Cur
     Ok(asked.map(|_| range))
 }
 
-/// What is wrong with a range, by the argument that it comes from and in its unit.
+/// Adds the option and the unit to the message of an invalid range.
 fn said(arguments: &CurveArguments, unit: &str, error: CurveError) -> CurveFailure {
     let own = if arguments.vary.is_some() { "--vary" } else { "--range" };
     let shown = |end: f64| if end.is_finite() { shown(end, unit) } else { end.to_string() };
@@ -201,11 +199,7 @@ fn said(arguments: &CurveArguments, unit: &str, error: CurveError) -> CurveFailu
         ),
         CurveError::Decades { from, to } => (
             "--log",
-            format!(
-                "expected a range above 0 for points that are as many per decade, got {} to {}",
-                shown(from),
-                shown(to)
-            ),
+            format!("expected a range above 0 for logarithmic spacing, got {} to {}", shown(from), shown(to)),
         ),
         CurveError::Points { .. } => ("--points", error.to_string()),
         other => return other.into(),
@@ -213,7 +207,7 @@ fn said(arguments: &CurveArguments, unit: &str, error: CurveError) -> CurveFailu
     CurveFailure::Range { option, message }
 }
 
-/// The ends of the range asked for, SI.
+/// Returns the ends of the requested range, SI.
 fn ends(arguments: &CurveArguments, unit: &str) -> Result<Option<[f64; 2]>, CurveFailure> {
     let (option, text) = match (&arguments.vary, &arguments.range) {
         (Some((_, range)), _) => ("--vary", Some(range.as_str())),
@@ -227,7 +221,7 @@ fn of(arguments: &CurveArguments, [from, to]: [f64; 2]) -> Range {
     Range { from, to, points: arguments.points, decades: arguments.log }
 }
 
-/// Where the files go, tried before the first point, which may take long.
+/// Returns the output folder. It is checked before the first point, which may take long.
 fn place(arguments: &CurveArguments, job: &Job, curve: &str) -> Result<Output, OutputFailure> {
     Output::ready(arguments.out.as_deref(), &format!("{}-{curve}", job.name))
 }
@@ -238,15 +232,15 @@ fn write(arguments: &CurveArguments, ways: &[Way<'_>], output: Output) -> Result
     output.write(curve::all_files(), stale, |folder, stale| curve::write(folder, ways, &pictures, stale))
 }
 
-/// Most points whose table is printed unasked.
+/// Maximum number of points whose table is printed by default.
 const MOST_ROWS: usize = 20;
 
-/// Whether the table of so many points is printed.
+/// Returns whether the table of points is printed.
 fn shows_rows(arguments: &CurveArguments, points: usize) -> bool {
     arguments.rows || points <= MOST_ROWS
 }
 
-/// The landmarks, the points as a table where that is wanted, and what is wrong with some of them.
+/// Prints the landmarks, the table of points if requested, and notes on points without results.
 fn tell(curve: &Curve, traced: &Traced, rows: bool) {
     if let Some(sense) = curve.sense {
         say(format_args!("{}", sense.name()));
@@ -259,15 +253,13 @@ fn tell(curve: &Curve, traced: &Traced, rows: bool) {
         say(format_args!("{} points in curve.csv, --rows prints them", traced.points.len()));
     }
     if !traced.is_known {
-        complain(format_args!(
-            "note: which way the drive steps without load is not known; loads act against +x"
-        ));
+        complain(format_args!("note: the step direction without load is not known; loads act against +x"));
     }
     complain_of_faults(curve, traced);
     complain_of_warnings(&curve.job, traced.points.iter().map(|point| point.warnings.as_slice()));
 }
 
-/// What points are warned of, by kind, beyond what the scenario itself is.
+/// Prints how many points have warnings of each kind, except for kinds that the scenario itself has.
 fn complain_of_warnings<'a>(job: &Job, points: impl Iterator<Item = &'a [Warning]>) {
     let (own, all): (_, Vec<&[Warning]>) = (job.warnings(), points.collect());
     let mut kinds: Vec<&str> = all.iter().flat_map(|warnings| warnings.iter().map(|it| it.kind)).collect();
@@ -283,7 +275,7 @@ fn complain_of_warnings<'a>(job: &Job, points: impl Iterator<Item = &'a [Warning
     }
 }
 
-/// The points as a table.
+/// Prints the points as a table.
 fn tell_rows(curve: &Curve, traced: &Traced) {
     let heads = [curve.variation.name.as_str(), "step", "\u{b1}", "oscillates by", "mean speed"].into_iter();
     let mut table = table::plain(heads.chain(curve.kind.is_of_load().then_some("power")).chain(["motion"]));
@@ -301,25 +293,25 @@ fn tell_landmarks(curve: &Curve, traced: &Traced) {
                 let there = landmark.value.map(|value| shown(value, landmark.unit()) + " at ");
                 say(format_args!(
                     "{}: {}{} \u{b1} {} ({} points)",
-                    landmark.words(),
+                    landmark.words(&curve.variation.name),
                     there.unwrap_or_default(),
                     shown(*at, curve.variation.unit),
                     shown(landmark.half_width, curve.variation.unit),
                     landmark.runs
                 ));
             }
-            Err(why) => say(format_args!("{}: {why}", landmark.words())),
+            Err(why) => say(format_args!("{}: {why}", landmark.words(&curve.variation.name))),
         }
     }
 }
 
-/// That points have no motion, and why the first of them has none.
+/// Prints the number of points without a result and the first reason.
 fn complain_of_faults(curve: &Curve, traced: &Traced) {
     let first = traced.points.iter().find_map(|point| Some((point.value, point.motion.as_ref().err()?)));
     if let Some((value, fault)) = first {
         let (count, all) = (traced.faults(), traced.points.len());
         let at = shown(value, curve.variation.unit);
-        complain(format_args!("note: {count} of {all} points have no motion; at {at}: {fault}"));
+        complain(format_args!("note: {count} of {all} points have no result; at {at}: {fault}"));
     }
 }
 
@@ -345,11 +337,11 @@ fn row(curve: &Curve, traced: &Traced, (place, point): (usize, &Point)) -> Vec<S
 }
 
 fn shown(value: f64, unit: &str) -> String {
-    // A prefix belongs to a unit.
+    // A number without a unit has no prefix.
     if unit.is_empty() { format!("{value:.4}") } else { quantity(Real(value), unit) }
 }
 
-/// How the command ends.
+/// Returns the exit status of the command.
 fn verdict(ways: &[Way<'_>]) -> Verdict {
     match () {
         () if ways.iter().any(|(_, traced)| traced.is_cut()) => Verdict::Interrupted,

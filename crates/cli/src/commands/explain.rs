@@ -1,4 +1,4 @@
-//! `stickslip explain NAME`: keys of scenarios from the schema, columns, numbers of reports and their symbols from what defines them.
+//! `stickslip explain NAME`: explains keys of scenarios, columns, results, symbols and terms.
 
 use super::check;
 use stickslip_console::answer::{complain, say};
@@ -7,18 +7,18 @@ use stickslip_quantity::terms::{TERMS, letter};
 use stickslip_quantity::{Definition, columns, page, report};
 use stickslip_scenario::{explained, suggestion};
 
-/// Explains every name, or says that nothing has it; without a name prints the page of all definitions.
+/// Explains every name. Without a name it prints the page of all definitions.
 pub(crate) fn explain(names: &[String]) -> Verdict {
     let all = definitions();
     if names.is_empty() {
         say(format_args!("{}", page(&all).trim_end()));
     }
-    // Each is explained, whatever becomes of the others.
+    // An unknown name does not prevent the explanation of the others.
     let unknown = names.iter().filter(|name| !explain_either(name, &all)).count();
     if unknown == 0 { Verdict::Done } else { Verdict::BadInput }
 }
 
-/// All that the program prints.
+/// Returns the definitions of all output.
 fn definitions() -> Vec<Definition> {
     let mut all = stickslip_study::definitions();
     all.extend(check::definitions());
@@ -27,14 +27,14 @@ fn definitions() -> Vec<Definition> {
     all
 }
 
-/// Most texts that are shown where a word stands in the midst of them.
+/// Maximum number of definitions shown if only their text contains the name.
 const MOST: usize = 6;
 
-/// Explains a name, or the key that is written like it with underscores: "slip ratio" is `slip_ratio`.
+/// Explains a name, or the key that is spelled like it with underscores: "slip ratio" is `slip_ratio`.
 fn explain_either(name: &str, all: &[Definition]) -> bool {
     let key = name.trim().replace([' ', '-'], "_");
     let is_term = TERMS.iter().any(|term| term.names.contains(&name.to_lowercase().as_str()));
-    // A column's name ends with its unit.
+    // The name of a column ends with its unit.
     let is_it =
         |own: &&str| own.strip_prefix(&*key).is_some_and(|unit| unit.is_empty() || unit.starts_with('_'));
     let found = all.iter().filter_map(|one| one.name.rsplit('.').next()).find(is_it);
@@ -44,8 +44,10 @@ fn explain_either(name: &str, all: &[Definition]) -> bool {
     }
 }
 
-/// Whether anything has a name: a term, what is called so, else what holds others by that name, else symbols and states, which are names
-/// of nothing, else texts with all of its words.
+/// Explains one name and returns whether there is an entry.
+///
+/// The order of the search is: terms, names of definitions and keys of scenarios; groups with this name; symbols;
+/// states; texts that contain all of its words.
 fn explain_one(name: &str, all: &[Definition]) -> bool {
     let print = |fits: &dyn Fn(&Definition) -> bool, most: usize| {
         let found = all.iter().filter(|definition| fits(definition)).take(most);
@@ -75,10 +77,10 @@ fn explain_one(name: &str, all: &[Definition]) -> bool {
         let help = suggestion(name, known).filter(|help| help.starts_with("did you mean"));
         found = help.is_none() && print(&has_words, MOST);
         let help = help.unwrap_or_else(|| {
-            "stickslip explain lists columns and results, stickslip schema the keys of scenarios".to_owned()
+            "`stickslip explain` lists columns and results, `stickslip schema` prints the keys of scenarios".to_owned()
         });
         if !found {
-            complain(format_args!("nothing is called \"{}\"\n   help: {help}", name.escape_debug()));
+            complain(format_args!("there is no entry \"{}\"\n   help: {help}", name.escape_debug()));
         }
     }
     found

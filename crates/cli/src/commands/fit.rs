@@ -1,4 +1,4 @@
-//! `stickslip fit`: numbers of a scenario that fit what was measured.
+//! `stickslip fit`: fits parameters of a scenario to measured data.
 
 use super::output::{Output, OutputFailure};
 use crate::arguments::FitArguments;
@@ -14,23 +14,23 @@ use stickslip_run::{Job, Real, Watcher, quantity};
 use stickslip_study::fit::{Asked, Fit, FitError, fit as search};
 use thiserror::Error;
 
-/// Correlations from which on two numbers are told together.
+/// Correlation above which two parameters are reported as strongly correlated.
 const TOGETHER: f64 = 0.95;
-/// Name of the table of values.
+/// Name of the file with the results.
 const FIT: &str = "fit.json";
 
-/// Why there is no fit.
+/// Error that stops the command.
 #[derive(Debug, Error)]
 enum FitFailure {
-    /// What is asked for, and what was found.
+    /// The fit fails.
     #[error(transparent)]
     Fit(#[from] FitError),
-    /// The files.
+    /// The files cannot be written.
     #[error(transparent)]
     Output(#[from] OutputFailure),
 }
 
-/// Fits numbers and writes them.
+/// Fits parameters and writes the results.
 pub(crate) fn fit(arguments: &FitArguments) -> Verdict {
     match answer(arguments) {
         Ok(()) => Verdict::Done,
@@ -97,7 +97,7 @@ fn answer(arguments: &FitArguments) -> Result<(), FitFailure> {
 fn tell(fit: &Fit) {
     let mut page = table::plain(["parameter", "start", "value", "standard deviation", "95 %", ""]);
     for fitted in &fit.parameters {
-        // Two digits of the error, and as many places of the value.
+        // Two digits of the error, and as many decimal places of the value.
         let places = (1.0 - math::log10(fitted.sd.abs().max(f64::MIN_POSITIVE)).floor()).clamp(0.0, 12.0);
         let shown = |value: f64| match fitted.unit {
             "" => format!("{value:.*}", places as usize),
@@ -112,7 +112,7 @@ fn tell(fit: &Fit) {
         for (j, correlation) in row.iter().enumerate().take(i).filter(|(_, value)| value.abs() > TOGETHER) {
             let [a, b] = [i, j].map(|k| &fit.parameters[k].path);
             say(format_args!(
-                "{a} and {b} are known together only: their errors have the correlation {correlation:.3}"
+                "{a} and {b} are strongly correlated: the correlation of their errors is {correlation:.3}"
             ));
         }
     }
@@ -123,7 +123,7 @@ fn tell(fit: &Fit) {
         fit.runs
     ));
     if !fit.model_fits {
-        say(format_args!("the model does not fit: what is left is more than noise (fit.png)"));
+        say(format_args!("the model does not fit: the residual is larger than the noise (fit.png)"));
     }
     say(format_args!("--set {}\n", fit.assignments().join(" --set ")));
 }

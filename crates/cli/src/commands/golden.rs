@@ -1,4 +1,4 @@
-//! `stickslip golden`: what scenarios come to, recorded, checked, accepted.
+//! `stickslip golden`: regression tests of scenarios; commands `record`, `check` and `accept`.
 
 mod junit;
 
@@ -22,20 +22,20 @@ use stickslip_run::folder::{self, sweep};
 use tempfile::TempDir;
 use thiserror::Error;
 
-/// At larger tolerances another rounding chooses other steps.
+/// Tolerance of recorded runs. At larger tolerances, rounding can change the time steps.
 const TOLERANCE: f64 = 1e-12;
 
-/// Why a golden is not recorded, or not told to be good.
+/// Error of recording or checking a golden result.
 #[derive(Debug, Error)]
 enum Fault {
     #[error(transparent)]
     Golden(#[from] GoldenError),
     #[error("{0}")]
     Compare(#[from] CompareError),
-    /// A run that did not come to its end; it says which.
+    /// A run stopped early; with its exit status and message.
     #[error("{1}")]
     Run(Verdict, String),
-    #[error("there is no room for results: {}", words(.0))]
+    #[error("no temporary folder for the results: {}", words(.0))]
     Room(io::Error),
 }
 
@@ -52,14 +52,14 @@ impl Fault {
     }
 }
 
-/// What a check has found.
+/// Result of a check.
 struct Finding {
     outcome: Outcome,
-    /// What follows the verdict.
+    /// Text after the verdict.
     words: String,
 }
 
-/// Where runs write and whom they tell.
+/// Environment of the runs: temporary folder, interruption and progress.
 struct Workshop {
     room: TempDir,
     interrupt: Interrupt,
@@ -84,7 +84,7 @@ fn record(arguments: &RecordArguments) -> Result<Verdict, Fault> {
     let plan = |file: &PathBuf| {
         let mut golden = goldens.plan(file, set.clone(), arguments.ignore.clone())?;
         if !file.exists() {
-            // Told as `run` tells it, with the files that are there.
+            // Use the error message of `run`, which lists the existing files.
             Job::prepare(file, &[], Path::new(""))?;
         }
         let (stepper, of, value) = golden.job(Path::new(""))?.stepper();
@@ -93,7 +93,7 @@ fn record(arguments: &RecordArguments) -> Result<Verdict, Fault> {
         }
         Ok(golden)
     };
-    // All are read before the first is run.
+    // Read all scenarios before the first run.
     let planned = arguments.files.iter().map(plan).collect::<Result<Vec<Golden>, GoldenError>>()?;
     if let Some((_, second)) =
         planned.iter().enumerate().find(|(i, golden)| planned[..*i].iter().any(|it| it.name == golden.name))
@@ -124,7 +124,7 @@ fn check(arguments: &CheckArguments) -> Result<Verdict, Fault> {
             .map(|(name, finding)| (name.as_str(), (!is_good(finding)).then(|| line(finding))))
             .collect();
         let text = junit::suite(&cases);
-        // A pipe, a device or a link is written through, not replaced.
+        // Write into pipes, devices and links instead of replacing them.
         let is_other = fs::symlink_metadata(file).is_ok_and(|found| !found.is_file());
         let written = if is_other { fs::write(file, text) } else { folder::write(file, text.as_bytes()) };
         written.map_err(|source| GoldenError::File { path: file.clone(), source })?;
@@ -138,13 +138,13 @@ fn accept(arguments: &AcceptArguments) -> Result<Verdict, Fault> {
     let names = goldens.names(&arguments.names)?;
     let workshop = Workshop::open()?;
     let found = workshop.check_all(&goldens, &names);
-    // What somebody names is renewed down to the bits.
+    // A scenario named explicitly is renewed if it is not identical.
     let is_wanted = |finding: &Result<Finding, Fault>| match finding {
         Ok(finding) => {
             finding.outcome == Outcome::Differs
                 || (!arguments.names.is_empty() && finding.outcome == Outcome::Equal)
         }
-        // What is damaged is made again, as long as it is known how.
+        // Damaged results are renewed if the recipe is known.
         Err(fault) => fault.verdict() == Verdict::Differs,
     };
     let mut worst = Verdict::Done;
@@ -193,10 +193,10 @@ impl Workshop {
         Ok(Self { room, interrupt: Interrupt::install(), progress: Progress::new(true) })
     }
 
-    /// Runs a golden's file as it is now; what has changed in it, and the folder in which the results lie.
+    /// Runs the current scenario of a golden result. Returns the changes of the scenario and the folder of the results.
     fn run(&self, golden: &Golden, place: usize) -> Result<(Vec<String>, PathBuf), Fault> {
         let job = golden.job(&self.room.path().join(place.to_string()))?;
-        let look = Look { formats: Vec::new(), themes: Vec::new(), scale: 1, width: None };
+        let look = Look::default();
         let (interrupt, progress) = (&self.interrupt, &self.progress);
         if interrupt.is_raised() {
             return Err(Fault::Run(Verdict::Interrupted, "not run: interrupted".to_owned()));
@@ -205,12 +205,13 @@ impl Workshop {
             run_job(&job, Beginning::Plain, &Conduct { look: &look, interrupt, progress, realtime: false });
         match report.verdict {
             Verdict::Done => Ok((golden.changes(&job), job.folder)),
-            // What it has left behind goes with this command.
+            // The temporary results are deleted with this command.
             verdict => Err(Fault::Run(verdict, without_place(&report.error, &golden.name))),
         }
     }
 
-    /// Runs and keeps goldens, side by side; the names of those that were kept, and the worst ending.
+    /// Runs scenarios in parallel and stores their results. Returns the names of the stored ones and the worst exit
+    /// status.
     fn keep(&self, goldens: &[&Golden]) -> (Vec<String>, Verdict) {
         let keep = |(place, golden): (usize, &&Golden)| {
             let (_, results) = self.run(golden, place)?;
@@ -256,7 +257,7 @@ impl Workshop {
             outcome = Outcome::Differs;
         }
         if comparison.verdict == Outcome::Differs {
-            // One that cannot be drawn costs the check nothing else.
+            // A plot that cannot be drawn does not affect the check.
             let drawn = draw((&recorded, &results), &comparison, &rows, Form::Png)
                 .map_err(|error| error.to_string())
                 .and_then(|(bytes, _)| folder::write(&picture, &bytes).map_err(|error| self::words(&error)));
@@ -272,7 +273,7 @@ impl Workshop {
     }
 }
 
-/// What a run says of its end, but for its name and for where its results are.
+/// Returns the message of a run without its name and the folder of its results.
 fn without_place(said: &str, name: &str) -> String {
     let said = said.strip_prefix(&format!("{name}: ")).unwrap_or(said);
     let lines = said.lines().map(|line| line.split("the results so far").next().unwrap_or_default());
@@ -283,7 +284,7 @@ fn without_place(said: &str, name: &str) -> String {
         .join("\n")
 }
 
-/// The first few changes of a scenario.
+/// Describes the first few changes of a scenario.
 fn changes_in_words(changes: &[String]) -> Vec<String> {
     const SHOWN: usize = 3;
     let shown = changes.iter().take(SHOWN).cloned().collect::<Vec<_>>().join(", ");

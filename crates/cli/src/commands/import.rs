@@ -1,4 +1,4 @@
-//! `stickslip import`: how a table of an instrument is read.
+//! `stickslip import`: shows how a measured table is read.
 
 use crate::arguments::ImportArguments;
 use std::io;
@@ -11,18 +11,18 @@ use stickslip_run::complaint::words;
 use stickslip_run::folder;
 use thiserror::Error;
 
-/// Why there is no recipe.
+/// Error that stops the command.
 #[derive(Debug, Error)]
 enum ImportFailure {
-    /// The table.
+    /// The table cannot be read.
     #[error(transparent)]
     Record(#[from] RecordError),
-    /// The file of the recipe.
+    /// The recipe cannot be written.
     #[error("{}: {}", .path.display(), words(.source))]
     Write { path: PathBuf, source: io::Error },
 }
 
-/// Reads a table, shows how, and writes the recipe.
+/// Reads a table, shows its interpretation and writes the recipe.
 pub(crate) fn import(arguments: &ImportArguments) -> Verdict {
     match answer(arguments) {
         Ok(()) => Verdict::Done,
@@ -40,7 +40,7 @@ fn answer(arguments: &ImportArguments) -> Result<(), ImportFailure> {
     let record = Record::read(&arguments.file, &arguments.reading.recipe()?, &[])?;
     let recipe = record.recipe();
     if arguments.json {
-        // Numbers and words: there is nothing that JSON could refuse.
+        // The recipe consists of numbers and strings, for which JSON has no errors.
         say_json(&serde_json::to_string(&recipe).unwrap_or_default());
     } else {
         tell(&record);
@@ -85,18 +85,18 @@ fn tell(record: &Record) {
         Encoding::Latin1 => "Latin-1",
     };
     let delimiter = match layout.delimiter {
-        '\t' => "tabs".to_owned(),
-        ' ' => "blanks".to_owned(),
+        '\t' => "tab".to_owned(),
+        ' ' => "spaces".to_owned(),
         sign => format!("\"{sign}\""),
     };
     let thousands =
-        layout.thousands.map_or_else(String::new, |sign| format!(", groups of three digits by \"{sign}\""));
+        layout.thousands.map_or_else(String::new, |sign| format!(", digits grouped by \"{sign}\""));
     say(format_args!(
-        "{encoding}, fields between {delimiter}, decimal sign \"{}\"{thousands}, lines before the first row: {}, rows: {}",
+        "{encoding}, delimiter {delimiter}, decimal sign \"{}\"{thousands}, lines before the first row: {}, rows: {}",
         layout.decimal, layout.skip, record.rows
     ));
     if let Some([start, increment]) = layout.pace {
-        say(format_args!("times: {start:e} s for the first row, {increment:e} s from row to row"));
+        say(format_args!("times: {start:e} s in the first row, {increment:e} s between rows"));
     }
     record.notes.iter().for_each(|note| say(format_args!("note: {note}")));
 }

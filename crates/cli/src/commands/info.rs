@@ -1,4 +1,4 @@
-//! `stickslip info`: what a scenario means, before it runs.
+//! `stickslip info`: properties of a scenario before a run.
 
 pub(super) mod columns;
 pub(super) mod digits;
@@ -12,7 +12,7 @@ use stickslip_console::verdict::Verdict;
 use stickslip_run::Job;
 use stickslip_study::Info;
 
-/// Reads and builds a scenario and prints what it means.
+/// Builds the model of a scenario and prints its properties.
 pub(crate) fn info(arguments: &InfoArguments) -> Verdict {
     let job = match Job::prepare(&arguments.file, &arguments.set, Path::new("")) {
         Ok(job) => job,
@@ -25,7 +25,7 @@ pub(crate) fn info(arguments: &InfoArguments) -> Verdict {
     let begun = Instant::now();
     let wall = job.scenario.plan.limits.wall.unwrap_or(f64::INFINITY);
     let info = Info::of(&job, &|| begun.elapsed().as_secs_f64() < wall);
-    // Numbers and strings only: there is nothing that JSON could refuse.
+    // The report consists of numbers and strings, for which JSON has no errors.
     if arguments.json {
         say_json(&serde_json::to_string(&info).unwrap_or_default());
     } else {

@@ -13,21 +13,21 @@ use stickslip_study::map::{self, Asked, Field, Map, MapError, Overlay};
 use stickslip_study::sweep::StudyError;
 use thiserror::Error;
 
-/// Most reasons that are printed.
+/// Maximum number of reasons that are printed.
 const REASONS: usize = 3;
 
-/// Why there is no map.
+/// Error that stops the command.
 #[derive(Debug, Error)]
 enum MapFailure {
-    /// What is asked for.
+    /// The map fails.
     #[error(transparent)]
     Map(#[from] MapError),
-    /// The files.
+    /// The files cannot be written.
     #[error(transparent)]
     Output(#[from] OutputFailure),
 }
 
-/// Computes a map and writes it.
+/// Computes a map and writes the results.
 pub(crate) fn map(arguments: &MapArguments) -> Verdict {
     answer(arguments).unwrap_or_else(|failure| {
         complain(format_args!("{failure}"));
@@ -92,7 +92,7 @@ fn answer(arguments: &MapArguments) -> Result<Verdict, MapFailure> {
     Ok(Verdict::Done)
 }
 
-/// What stands out of a map.
+/// Prints a short description of the map.
 fn tell(map: &Map, field: &Field) {
     let known = || field.values.iter().copied().filter(|value| value.is_finite());
     match &field.words {
@@ -100,7 +100,7 @@ fn tell(map: &Map, field: &Field) {
             let (low, high) =
                 (known().fold(f64::INFINITY, f64::min), known().fold(f64::NEG_INFINITY, f64::max));
             let shown = |value: f64| match map.unit {
-                // A prefix belongs to a unit.
+                // A number without a unit has no prefix.
                 "" => format!("{value:.4}"),
                 unit => quantity(Real(value), unit),
             };
@@ -116,11 +116,11 @@ fn tell(map: &Map, field: &Field) {
     }
     for border in &field.borders {
         let [lesser, greater] = border.between.map(map::Regime::word);
-        say(format_args!("border of {lesser} and {greater}: {} points", border.points.len()));
+        say(format_args!("border between {lesser} and {greater}: {} points", border.points.len()));
     }
     if map.is_of_regime() {
         match field.runs {
-            0 => say(format_args!("no run was needed: waveforms prescribe the motion")),
+            0 => say(format_args!("computed without runs: waveforms prescribe the motion")),
             runs => say(format_args!("{runs} runs")),
         }
     }

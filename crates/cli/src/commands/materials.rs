@@ -1,10 +1,10 @@
-//! `stickslip materials`: the table of named materials.
+//! `stickslip materials`: table of named materials.
 
 use stickslip_console::answer::say;
 use stickslip_console::verdict::Verdict;
 use stickslip_scenario::MATERIALS;
 
-/// Prints the table, a line each.
+/// Prints one material per line.
 pub(crate) fn list() -> Verdict {
     say(format_args!("{:<14} {:>7}  {:>5}  source", "name", "E, GPa", "nu"));
     for material in MATERIALS {

@@ -1,4 +1,4 @@
-//! `stickslip measure`: measured loops, and a simulated one beside them.
+//! `stickslip measure`: evaluates measured loops and compares them with a simulated loop.
 
 use crate::arguments::{MeasureArguments, RigStiffness};
 use serde_json::json;
@@ -20,36 +20,36 @@ use stickslip_run::{Real, Results, ResultsError, quantity};
 use stickslip_scenario::PlotName;
 use thiserror::Error;
 
-/// Most stages that are printed.
+/// Maximum number of stages that are printed.
 const MOST_STAGES: usize = 12;
-/// Cycles from which on their course is drawn.
+/// Number of cycles from which on plots of their evolution are drawn.
 const MANY: usize = 5;
-/// Most rows of cycles before the last that are drawn.
+/// Maximum number of rows of cycles before the last that are drawn.
 const MOST_DRAWN: usize = 100_000;
-/// Name of the table that is written.
+/// Name of the output table.
 const CYCLES: &str = "cycles.csv";
 
-/// Why there are no loops.
+/// Error that stops the command.
 #[derive(Debug, Error)]
 enum LoopFailure {
-    /// The table.
+    /// The table cannot be read or evaluated.
     #[error(transparent)]
     Measured(#[from] MeasuredError),
-    /// What is to stand beside.
+    /// The simulated results cannot be read.
     #[error(transparent)]
     Results(#[from] ResultsError),
-    /// Its contact.
+    /// The contact of the simulated results is invalid.
     #[error("--contact  {folder}: {words}")]
     Contact { folder: String, words: String },
-    /// A rig that nothing stands beside.
+    /// A fit of the rig stiffness requires a simulated loop.
     #[error(
-        "--rig-stiffness fit  expected --beside with a simulated contact whose last cycle is known: the rig is what softens the measured loop beside it"
+        "--rig-stiffness fit  expected --beside with a simulated contact that has a closed last cycle: the rig stiffness follows from the difference between the measured and the simulated loop"
     )]
     Rig,
-    /// The picture.
+    /// A plot fails.
     #[error(transparent)]
     Figure(#[from] FigureError),
-    /// The folder.
+    /// The files cannot be written.
     #[error("{}: the files cannot be written: {}", .folder.display(), words(.source))]
     Write { folder: PathBuf, source: io::Error },
 }
@@ -60,16 +60,16 @@ struct Simulated {
     u: Vec<f64>,
     force: Vec<f64>,
     cycle: Cycle,
-    /// What the run itself has of the cycle, by the names of results.
+    /// Results of the cycle from the summary of the run, by name.
     exact: Vec<(&'static str, f64)>,
-    /// Tangent at the reversals, N/m.
+    /// Tangent stiffness at the reversals, N/m.
     tangent: Option<f64>,
-    /// u_c (m) and μF_N (N), and F_N (N) where the load is constant.
+    /// u_c (m) and μF_N (N), and F_N (N), if the load is constant.
     scale: Option<[f64; 2]>,
     normal: Option<f64>,
 }
 
-/// Measures the loops of a table.
+/// Evaluates the loops of a table.
 pub(crate) fn measure(arguments: &MeasureArguments) -> Verdict {
     match answer(arguments) {
         Ok(()) => Verdict::Done,
@@ -120,7 +120,7 @@ fn answer(arguments: &MeasureArguments) -> Result<(), LoopFailure> {
     Ok(())
 }
 
-/// Stages by their cycles, where there are several.
+/// Prints the stages if there are several.
 fn tell_stages(stages: &[Stage]) {
     if stages.len() < 2 {
         return;
@@ -129,8 +129,8 @@ fn tell_stages(stages: &[Stage]) {
         let [from, to] = stage.time.map(|time| quantity(Real(time), "s"));
         let shown = |name, unit| shown(stage.result(name).map(|interval| interval.value), unit);
         say(format_args!(
-            "stage {number}: cycles {}, from {from} to {to}, \u{3b4}* {}, E_d {}",
-            stage.cycles.len(),
+            "stage {number}: {}, from {from} to {to}, \u{3b4}* {}, E_d {}",
+            counted(stage.cycles.len()),
             shown("displacement_amplitude_m", "m"),
             shown("dissipated_J", "J")
         ));
@@ -140,15 +140,15 @@ fn tell_stages(stages: &[Stage]) {
     }
 }
 
-/// What lies in the cycles, and what outside.
+/// Prints rows and work inside and outside of cycles.
 fn tell_account(account: &Account) {
     let Account { rows, rows_in_cycles, rows_outside, work, work_in_cycles, work_outside } = account;
-    say(format_args!("rows: {rows_in_cycles} in cycles, {rows_outside} outside, {rows} in all"));
+    say(format_args!("rows: {rows_in_cycles} in cycles, {rows_outside} outside, {rows} in total"));
     let [within, outside, all] = [work_in_cycles, work_outside, work].map(|work| quantity(Real(*work), "J"));
-    say(format_args!("work of the force: {within} in cycles, {outside} outside, {all} in all"));
+    say(format_args!("work of the force: {within} in cycles, {outside} outside, {all} in total"));
 }
 
-/// Names of results, and of what the summary of a run has of a contact's last cycle.
+/// Names of results, with the names of the same values in the summary of a run.
 const EXACT: [(&str, &str); 9] = [
     ("displacement_amplitude_m", "displacement_amplitude_m"),
     ("force_amplitude_N", "force_amplitude_N"),
@@ -160,10 +160,10 @@ const EXACT: [(&str, &str); 9] = [
     ("slip_ratio", "slip_ratio"),
     ("stiffness_N_m", "stiffness_after_maximum_N_m"),
 ];
-/// Those that are the same whichever displacement is taken.
+/// Results that do not depend on the choice of displacement.
 const OF_FORCE: [&str; 2] = ["force_amplitude_N", "dissipated_J"];
 
-/// The contact of results that stands beside.
+/// Returns the simulated contact for the comparison.
 fn find(folder: &Path, arguments: &MeasureArguments) -> Result<Simulated, LoopFailure> {
     let Results { job, kept, .. } = Results::read(folder, &[PlotName::Loop])?;
     let failed = |words: String| LoopFailure::Contact { folder: folder.display().to_string(), words };
@@ -178,7 +178,7 @@ fn find(folder: &Path, arguments: &MeasureArguments) -> Result<Simulated, LoopFa
     let loop_of = simulated(&job, place, &kept, channel);
     let (u, force, cycle) = loop_of.ok_or_else(|| {
         let channel = channel.map_or_else(String::new, |channel| format!(" along {channel}"));
-        failed(format!("contact {} has no cycle{channel} that comes back", names[place]))
+        failed(format!("contact {} has no closed cycle{channel}", names[place]))
     })?;
     let count = f64::from(job.count(place));
     let friction = job.model.contacts().nth(place).map_or(0.0, |(_, law)| law.friction());
@@ -189,7 +189,7 @@ fn find(folder: &Path, arguments: &MeasureArguments) -> Result<Simulated, LoopFa
     let place_of = |key: &str| {
         format!("/contacts/{}/fretting/{key}", names[place].replace('~', "~0").replace('/', "~1"))
     };
-    // Of a loop about another force than zero, the opening at the middle is another.
+    // If the loop is not centred at zero force, the opening at mean force differs from that in the summary.
     let is_centred = middle(&force).abs() < 1e-6 * cycle.force_amplitude;
     let known = EXACT.into_iter().filter(|(name, _)| {
         (channel.is_none() || OF_FORCE.contains(name)) && (is_centred || *name != "half_opening_m")
@@ -199,12 +199,12 @@ fn find(folder: &Path, arguments: &MeasureArguments) -> Result<Simulated, LoopFa
     Ok(Simulated { name: names[place].clone(), u, force, cycle, exact, tangent, scale, normal })
 }
 
-/// What is told: what stands before it, the name among the results, the unit.
+/// Printed rows: label, name of the result, unit.
 const ROWS: [(&str, &str, &str); 10] = [
     ("displacement amplitude \u{3b4}*", "displacement_amplitude_m", "m"),
     ("force amplitude Q*", "force_amplitude_N", "N"),
     ("dissipated energy E_d", "dissipated_J", "J"),
-    ("half opening \u{3b4}\u{2080}, middle of forces", "half_opening_m", "m"),
+    ("half opening \u{3b4}\u{2080} at mean force", "half_opening_m", "m"),
     ("half opening at zero force", "half_opening_at_zero_force_m", "m"),
     ("A = E_d/(4Q*\u{3b4}*)", "energy_ratio", ""),
     ("B = E_d/(4Q*\u{3b4}\u{2080})", "system_free_ratio", ""),
@@ -213,23 +213,24 @@ const ROWS: [(&str, &str, &str); 10] = [
     ("stiffness at the reversal", "stiffness_N_m", "N/m"),
 ];
 
-/// A table on the terminal: the figures of the stage of most cycles with half of their intervals, with the rig in them and without it, and what was simulated.
+/// Prints the results of the stage with most cycles and their confidence intervals. If the rig stiffness is
+/// known, values with and without the rig are shown; a simulated loop is added if given.
 fn tell(evaluated: &Evaluated, beside: Option<&Simulated>, normal: Option<f64>) {
     let Some(stage) = evaluated.longest() else { return };
     let count = match stage.cycles.len() {
-        count if count == evaluated.cycles.len() => format!("measured, {count} cycles"),
-        count => format!("measured, {count} of {} cycles", evaluated.cycles.len()),
+        count if count == evaluated.cycles.len() => format!("measured, {}", counted(count)),
+        count => format!("measured, {count} of {}", counted(evaluated.cycles.len())),
     };
     let mut columns = vec![(count, stage)];
     if let Some((whole, rig)) = &evaluated.with_rig {
         columns[0].0 = format!("without the rig of {}", quantity(Real(rig.value), "N/m"));
         columns.insert(
             0,
-            (format!("{}, as it is", columns[0].0.replace("without the rig of", "rig of")), whole),
+            (format!("{}, included", columns[0].0.replace("without the rig of", "rig of")), whole),
         );
     }
     let simulated = beside.map(|beside| format!("simulated, {}", beside.name));
-    let heads = columns.iter().flat_map(|(head, _)| [head.as_str(), "\u{b1}, 95 %"]);
+    let heads = columns.iter().flat_map(|(head, _)| [head.as_str(), "95 % interval"]);
     let mut page = table::plain([""].into_iter().chain(heads).chain(simulated.as_deref()));
     for (words, name, unit) in ROWS {
         let scale = match (name, normal) {
@@ -243,21 +244,22 @@ fn tell(evaluated: &Evaluated, beside: Option<&Simulated>, normal: Option<f64>) 
             continue;
         }
         let cells = measured.iter().flat_map(|interval| {
-            let half = interval.map(|interval| scale * interval.half_width()).filter(|half| half.is_finite());
-            [shown(interval.map(|interval| scale * interval.value), unit), shown(half, unit)]
+            let ends = interval.map(|interval| [scale * interval.low, scale * interval.high]);
+            let ends = ends.filter(|ends| ends.iter().all(|end| end.is_finite()));
+            let ends = ends.map(|ends| ends.map(|end| shown(Some(end), unit)).join(" to "));
+            [shown(interval.map(|interval| scale * interval.value), unit), ends.unwrap_or_default()]
         });
         let simulated = beside.map(|value| shown(value.map(|own| scale * own), unit));
         page.add_row([words.to_owned()].into_iter().chain(cells).chain(simulated));
     }
-    if let Some(regime) = stage.regime {
-        page.add_row(["slip regime", regime]);
-    }
+    let blank = std::iter::repeat_n("", 2 * (columns.len() - 1));
+    page.add_row(["slip regime"].into_iter().chain(blank).chain([stage.regime.unwrap_or("needs --profile")]));
     table::to_the_right(&mut page, 1..=2 * columns.len() + usize::from(beside.is_some()));
     say(format_args!("{page}"));
 }
 
 impl Simulated {
-    /// A figure by its name.
+    /// Returns a result by its name.
     fn result(&self, name: &str) -> Option<f64> {
         if let Some((_, value)) = self.exact.iter().find(|(own, _)| *own == name) {
             return Some(*value);
@@ -277,6 +279,10 @@ impl Simulated {
     }
 }
 
+fn counted(cycles: usize) -> String {
+    format!("{cycles} cycle{}", if cycles == 1 { "" } else { "s" })
+}
+
 fn shown(value: Option<f64>, unit: &str) -> String {
     match value {
         None => String::new(),
@@ -294,7 +300,7 @@ fn draw(
     let cycles = &evaluated.cycles;
     let Some(last) = cycles.last() else { return Ok(Vec::new()) };
     let [u, force] = evaluated.rows.as_ref().map_or([&measured.u, &measured.force], |[u, force]| [u, force]);
-    // Of a long record the last cycles are drawn, and nobody could tell more of them apart.
+    // Only the last cycles of a long record are drawn.
     let is_drawn = |cycle: &&MeasuredCycle| last.span.start - cycle.span.start <= MOST_DRAWN;
     let first = cycles.iter().find(is_drawn).unwrap_or(last);
     let curve = |name, from: usize, to: usize| Curve { name, u: &u[from..to], force: &force[from..to] };
@@ -303,8 +309,9 @@ fn draw(
     let simulated = beside.map(|beside| (Curve { name, u: &beside.u, force: &beside.force }, beside.scale));
     let loops = Loops {
         title,
-        before: (cycles.len() > 1).then(|| curve("measured before", first.span.start, last.span.start + 1)),
-        measured: curve("measured, last cycle", last.span.start, last.span.end),
+        before: (cycles.len() > 1)
+            .then(|| curve("earlier cycles, measured", first.span.start, last.span.start + 1)),
+        measured: curve("last cycle, measured", last.span.start, last.span.end),
         simulated,
     };
     let mut pictures = picture::draw(&loops, &arguments.look.look())?;
@@ -330,10 +337,10 @@ fn draw(
     Ok(pictures)
 }
 
-/// Writes the table and the pictures, all or none.
+/// Writes table and plots, all or none.
 fn write(out: &Path, cycles: &str, pictures: &[(String, Vec<u8>)]) -> io::Result<Vec<String>> {
     let mut folder = Folder::make(out)?;
-    // A command that was killed has left its drafts.
+    // An interrupted command may have left temporary files.
     sweep(out, &picture::all_files().into_iter().chain([CYCLES.to_owned()]).collect::<Vec<_>>());
     folder.write(CYCLES, cycles.as_bytes())?;
     pictures.iter().try_for_each(|(name, bytes)| folder.write(name, bytes))?;

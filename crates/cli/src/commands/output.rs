@@ -1,4 +1,4 @@
-//! The files of a study: where they go, the journal beside them, and what may go wrong with both.
+//! Output folder and journal of a study, and their errors.
 
 use serde::Serialize;
 use std::io;
@@ -11,35 +11,37 @@ use stickslip_run::folder::{Folder, sweep};
 use stickslip_study::Journal;
 use thiserror::Error;
 
-/// Why there are no files.
+/// Error that prevents output files.
 #[derive(Debug, Error)]
 pub(crate) enum OutputFailure {
-    /// The picture.
+    /// A plot fails.
     #[error(transparent)]
     Figure(#[from] FigureError),
-    /// Where the files are to go.
+    /// The output folder is not usable.
     #[error(transparent)]
     Folder(#[from] Unwritable),
-    /// A file.
+    /// A file cannot be read or written.
     #[error("{}: {}", .path.display(), words(.source))]
     File { path: PathBuf, source: io::Error },
 }
 
-/// A folder that is to hold the files of a study.
+/// Output folder of a study.
 pub(crate) struct Output {
     pub(crate) path: PathBuf,
     folder: Folder,
 }
 
 impl Output {
-    /// The folder that is asked for, or a folder of results; tried before the first run.
+    /// Prepares the requested folder, or `results/` with the name `own`. Called before the first run, so that errors
+    /// are found early.
     pub(crate) fn ready(asked: Option<&Path>, own: &str) -> Result<Self, OutputFailure> {
         let path = asked.map_or_else(|| Path::new("results").join(own), Path::to_owned);
         let folder = place::ready(&path)?;
         Ok(Self { path, folder })
     }
 
-    /// The journal of a study whose results depend on `of`, from which the same command continues after a kill.
+    /// Opens the journal of a study whose results depend on `of`. The same command resumes from it after an
+    /// interruption.
     pub(crate) fn journal(
         &self,
         name: &str,
@@ -50,8 +52,8 @@ impl Output {
         Journal::open(path.clone(), of, is_fresh).map_err(|source| OutputFailure::File { path, source })
     }
 
-    /// Writes the files, which may have any of these names, by what takes the folder and the names that are none of it; drafts that a killed
-    /// command has left go.
+    /// Writes the files with `write`, which receives the folder and old files to delete. `names` lists all possible
+    /// names; temporary files with these names are deleted.
     pub(crate) fn write(
         mut self,
         names: impl Iterator<Item = String>,

@@ -1,4 +1,4 @@
-//! Pictures drawn again from results on disk.
+//! `stickslip plot`: draws plots from results on disk.
 
 mod over;
 
@@ -14,27 +14,27 @@ use stickslip_run::{Results, ResultsError};
 use stickslip_scenario::PlotName;
 use thiserror::Error;
 
-/// Why pictures of a folder are not there.
+/// Error that prevents plots of a folder.
 #[derive(Debug, Error)]
 enum PlotFailure {
-    /// The results.
+    /// The results cannot be read.
     #[error(transparent)]
     Results(#[from] ResultsError),
-    /// A scenario without pictures.
-    #[error("{}: its scenario names no pictures\n   help: name some with --plots, such as --plots {}", .0.display(), PlotName::ALL.map(PlotName::name).join(","))]
+    /// The scenario has no plots.
+    #[error("{}: the scenario names no plots\n   help: name some with --plots, such as --plots {}", .0.display(), PlotName::ALL.map(PlotName::name).join(","))]
     NoPlots(PathBuf),
-    /// Results that are not several, or pictures that are no curves.
+    /// The results or plots cannot be overlaid.
     #[error("--over  {0}")]
     Over(String),
-    /// One picture; the others are drawn.
+    /// One plot fails; the others are drawn.
     #[error("{}: {source}{}", .folder.display(), advice(.source))]
     Figure { folder: PathBuf, source: Box<FigureError> },
-    /// The pictures cannot be written.
-    #[error("{}: the pictures cannot be written: {}", .folder.display(), words(.source))]
+    /// The plots cannot be written.
+    #[error("{}: the plots cannot be written: {}", .folder.display(), words(.source))]
     Write { folder: PathBuf, source: io::Error },
 }
 
-/// Draws the pictures of all folders; what is wrong with one does not keep the others from being drawn.
+/// Draws the plots of all folders. An error in one folder does not affect the others.
 pub(crate) fn plot(arguments: &PlotArguments) -> Verdict {
     if arguments.over {
         return over::plot(arguments);
@@ -49,7 +49,7 @@ pub(crate) fn plot(arguments: &PlotArguments) -> Verdict {
     worst
 }
 
-/// Draws the pictures of one folder; returns what went wrong.
+/// Draws the plots of one folder and returns the errors.
 fn plot_folder(folder: &Path, arguments: &PlotArguments) -> Vec<PlotFailure> {
     let results = match Results::read(folder, &arguments.plots) {
         Ok(results) => results,
@@ -81,13 +81,13 @@ fn plot_folder(folder: &Path, arguments: &PlotArguments) -> Vec<PlotFailure> {
     failures
 }
 
-/// Writes the pictures, all or none.
+/// Writes the plots, all or none.
 fn write(out: &Path, pictures: &[(String, Vec<u8>)]) -> io::Result<Vec<String>> {
     if pictures.is_empty() {
         return Ok(Vec::new());
     }
     let mut folder = Folder::make(out)?;
-    // A command that was killed has left its drafts.
+    // An interrupted command may have left temporary files.
     let written: Vec<String> = pictures.iter().map(|(name, _)| name.clone()).collect();
     sweep(out, &[Look::all_files(), written].concat());
     pictures.iter().try_for_each(|(name, bytes)| folder.write(name, bytes))?;
@@ -110,15 +110,15 @@ impl PlotFailure {
     }
 }
 
-/// What to try.
+/// Returns advice for an error.
 fn advice(error: &FigureError) -> &'static str {
     match error {
         FigureError::Missing { .. } => {
-            "\n   help: run the scenario with these channels, or without output.channels, which writes all"
+            "\n   help: run the scenario with these channels, or without output.channels, to write all channels"
         }
-        FigureError::Absent { .. } => "\n   help: run the scenario with this picture among its plots",
+        FigureError::Absent { .. } => "\n   help: run the scenario with this plot in its key \"plots\"",
         FigureError::Unlike { .. } => {
-            "\n   help: draw those over each other that have the same panels, or name two channels of all in their plots"
+            "\n   help: overlay plots with the same panels, or give all scenarios a plot of the same two channels"
         }
         FigureError::Unnamed { .. } | FigureError::Table { .. } | FigureError::Plot { .. } => "",
     }

@@ -1,4 +1,4 @@
-//! `stickslip realtime`: a drive after a clock.
+//! `stickslip realtime`: runs a drive in real time.
 
 mod failure;
 mod files;
@@ -42,7 +42,9 @@ fn run(arguments: &RealtimeArguments) -> Result<Verdict, Failure> {
         stage.warnings().iter().for_each(|odd| complain(format_args!("warning: {odd}")));
         wires::exposed(&arguments.wires).iter().for_each(|odd| complain(format_args!("warning: {odd}")));
         if cfg!(debug_assertions) {
-            complain(format_args!("this program was built without --release: its times tell little"));
+            complain(format_args!(
+                "this program was built without --release: its times do not apply to a release build"
+            ));
         }
         complain(format_args!("{}", stage.introduction()));
     }
@@ -50,7 +52,7 @@ fn run(arguments: &RealtimeArguments) -> Result<Verdict, Failure> {
         Some(Inputs::Replay(path)) => Some(path.as_path()),
         _ => None,
     };
-    // Where the report goes is known to take it before the loop begins: nothing of that comes again.
+    // Check the output folder before the loop starts, because the run cannot be repeated.
     let folder = files::ready(&stage)?;
     let mut drafts = Drafts::beside(std::iter::once(arguments.file.as_path()).chain(replayed), &job.folder);
     let Wires { wiring, mut reels, recorded } = wires::open(&stage, &mut drafts)?;
@@ -81,7 +83,7 @@ fn run(arguments: &RealtimeArguments) -> Result<Verdict, Failure> {
     let report = Report::new(subject, &order.pace, order.frames, &ended);
     let unwritten = reels.iter().find_map(|reel| reel.failure().map(ToString::to_string));
     drop(reels);
-    // Whatever becomes of the one, the other is tried.
+    // Write both, even if one fails.
     let (written, kept) = (files::write(folder, &stage, &report, &ended), drafts.keep());
     tell(arguments, &report, &ended, written.as_deref().ok())?;
     written?;
@@ -91,14 +93,14 @@ fn run(arguments: &RealtimeArguments) -> Result<Verdict, Failure> {
     kept.map(|()| verdict(&ended))
 }
 
-/// Prints the report, also where it could not be `written`.
+/// Prints the report, even if it could not be `written`.
 fn tell(
     arguments: &RealtimeArguments,
     report: &Report,
     ended: &Ended,
     written: Option<&str>,
 ) -> Result<(), Failure> {
-    // Whoever asked for a favour learns that there was none, also where no report is printed.
+    // Refused requests to the operating system are reported even without a printed report.
     if arguments.quiet || arguments.json {
         ended.denied.iter().for_each(|denied| complain(format_args!("{denied}")));
     }
@@ -112,7 +114,7 @@ fn tell(
     Ok(())
 }
 
-/// How the loop ended.
+/// Returns the exit status of the loop.
 fn verdict(ended: &Ended) -> Verdict {
     match ended.outcome {
         Ok(()) => Verdict::Done,

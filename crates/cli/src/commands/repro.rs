@@ -1,4 +1,4 @@
-//! Runs again what a picture carries, and tells whether the same comes out.
+//! `stickslip repro`: repeats the run stored in a plot file and compares the results.
 
 use crate::arguments::ReproArguments;
 use crate::commands::run;
@@ -17,30 +17,30 @@ use stickslip_run::program::this_program;
 use stickslip_run::{Recorder, SynopsisError, check_published};
 use thiserror::Error;
 
-/// Most differences of a table that are shown.
+/// Maximum number of differences shown per table.
 const SHOWN: usize = 5;
 
-/// Why nothing was compared.
+/// Reason why nothing was compared.
 #[derive(Debug, Error)]
 enum ReproFailure {
-    /// The picture.
+    /// The plot file cannot be read.
     #[error(transparent)]
     Origin(#[from] OriginError),
-    /// The folder where it lies.
+    /// The folder of the plot has incomplete results.
     #[error(transparent)]
     Folder(#[from] SynopsisError),
     /// The results cannot be written.
     #[error("{}: the results cannot be written: {}", .folder.display(), words(.source))]
     Write { folder: PathBuf, source: io::Error },
-    /// The run takes too long.
-    #[error("{}: {error}, nothing compared\n   help: give it longer with --wall", .picture.display())]
+    /// The run reached its time limit.
+    #[error("{}: {error}, nothing compared\n   help: allow more time with --wall", .picture.display())]
     OutOfTime { picture: PathBuf, error: RunError },
-    /// Somebody interrupted the run.
+    /// The run was interrupted.
     #[error("{}: interrupted, nothing compared", .0.display())]
     Interrupted(PathBuf),
 }
 
-/// Runs what a picture carries and compares.
+/// Repeats the run of a plot file and compares the results.
 pub(crate) fn repro(arguments: &ReproArguments) -> Verdict {
     match compare(arguments) {
         Ok(true) => Verdict::Done,
@@ -58,7 +58,7 @@ pub(crate) fn repro(arguments: &ReproArguments) -> Verdict {
 
 fn compare(arguments: &ReproArguments) -> Result<bool, ReproFailure> {
     let file = &arguments.file;
-    // Beside results that were not published whole it may be of this run or of one before.
+    // In a folder with incomplete results, the plot may be from an earlier run.
     check_published(file.parent().unwrap_or(Path::new("")))?;
     let mut origin = Origin::read(file, arguments.out.as_deref())?;
     origin.job.scenario.plan.limits.wall = arguments.wall;
@@ -83,7 +83,7 @@ fn compare(arguments: &ReproArguments) -> Result<bool, ReproFailure> {
     Ok(found.is_empty())
 }
 
-/// Runs the job, and writes its results where that is asked for.
+/// Runs the job and writes its results if requested.
 fn run_again(origin: &Origin, arguments: &ReproArguments) -> Result<Fingerprint, ReproFailure> {
     let job = &origin.job;
     let (interrupt, progress) = (Interrupt::install(), Progress::new(!arguments.quiet));
@@ -117,13 +117,13 @@ fn run_again(origin: &Origin, arguments: &ReproArguments) -> Result<Fingerprint,
     Ok(outcome.kept.fingerprint())
 }
 
-/// What is told of a table's differences; `of` comes before the name of a column.
+/// Describes the differences of a table. `of` precedes the name of a column.
 fn lines(differences: &[Difference], of: &str, rows: &str) -> Vec<String> {
     let line = |difference: &Difference| {
         let what = match &difference.what {
             Differing::Column(name) => format!("{of}{name}"),
-            Differing::Missing(name) => format!("{of}{name}, which the run has no more,"),
-            Differing::Added(name) => format!("{of}{name}, which the picture does not know,"),
+            Differing::Missing(name) => format!("{of}{name}, which is not in the run,"),
+            Differing::Added(name) => format!("{of}{name}, which is not in the plot file,"),
             Differing::Rows(before, now) => format!("{now} {rows} instead of {before}"),
         };
         format!("differs: {what} from t = {} s, within {} {rows}", difference.from, difference.within)

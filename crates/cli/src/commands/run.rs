@@ -1,4 +1,4 @@
-//! `stickslip run`: scenarios, one after the other or side by side.
+//! `stickslip run`: runs scenarios one after another or in parallel.
 
 mod pace;
 mod report;
@@ -20,11 +20,10 @@ use stickslip_run::{Job, Refusal};
 pub(crate) use report::Report;
 pub(crate) use scenario::{Beginning, Conduct, run as run_job, write};
 
-/// A job and how it begins.
+/// A job with its kind of start.
 pub(crate) type Task = (Job, Beginning);
 
-/// Prepares and runs all scenarios; the worst ending counts. A file that is refused does not keep the others from
-/// running.
+/// Prepares and runs all scenarios. Returns the worst exit status. A rejected file does not prevent the other runs.
 pub(crate) fn run(arguments: &RunArguments) -> Verdict {
     if arguments.resume.is_empty() {
         conduct(&arguments.conduct, arguments.realtime, || prepare(arguments))
@@ -38,7 +37,7 @@ fn resumptions(arguments: &RunArguments) -> Vec<Result<Task, CheckpointError>> {
     let mut taken = HashSet::new();
     let mut prepare = |folder: &PathBuf| {
         let (job, resumption) = Resumption::read(folder, &arguments.set)?;
-        // Two runs in one folder would cut each other's journal.
+        // Two runs in one folder would damage each other's journal.
         if !taken.insert(folder.canonicalize().unwrap_or_else(|_| folder.clone())) {
             return Err(CheckpointError::Twice(folder.clone()));
         }
@@ -47,7 +46,7 @@ fn resumptions(arguments: &RunArguments) -> Vec<Result<Task, CheckpointError>> {
     arguments.resume.iter().map(&mut prepare).collect()
 }
 
-/// Runs all tasks that were not refused.
+/// Runs all tasks that were not rejected.
 fn conduct<E: Display + Send>(
     arguments: &ConductArguments,
     realtime: bool,
@@ -80,13 +79,13 @@ fn conduct<E: Display + Send>(
             let tasks = tasks.into_par_iter().enumerate().with_max_len(1);
             pool.install(|| tasks.map(work).max())
         }
-        // One after the other is slower and as right where no threads can be had.
+        // Without threads, the tasks run one after another.
         _ => tasks.into_iter().enumerate().map(work).max(),
     };
     worst.unwrap_or(Verdict::Done)
 }
 
-/// Reads and checks all scenarios before the first is run.
+/// Reads and checks all scenarios before the first run.
 fn prepare(arguments: &RunArguments) -> Vec<Result<Task, Refusal>> {
     let mut taken: HashMap<PathBuf, PathBuf> = HashMap::new();
     let beginning = |job: &Job| match arguments.checkpoint_every {
@@ -107,7 +106,7 @@ fn prepare(arguments: &RunArguments) -> Vec<Result<Task, Refusal>> {
     arguments.files.iter().map(prepare).collect()
 }
 
-/// Prints reports in the order of the files, whichever is ready first.
+/// Prints reports in the order of the files.
 struct Console<'a> {
     arguments: &'a ConductArguments,
     progress: &'a Progress,

@@ -4,7 +4,7 @@ use clap::ValueEnum;
 use stickslip_console::answer::say;
 use stickslip_console::verdict::Verdict;
 
-/// A kind of file.
+/// Kind of input file.
 #[derive(Debug, Clone, Copy, ValueEnum)]
 pub(crate) enum Kind {
     /// Scenario files

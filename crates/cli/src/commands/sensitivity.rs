@@ -1,4 +1,4 @@
-//! `stickslip sensitivity`: which numbers matter.
+//! `stickslip sensitivity`: derivatives of results with respect to parameters.
 
 use super::output::{Output, OutputFailure};
 use super::steady;
@@ -14,18 +14,18 @@ use stickslip_run::{Job, Real, quantity};
 use stickslip_study::sensitivity::{self, Asked, Sensitivity, SensitivityError, Taken};
 use thiserror::Error;
 
-/// Why there is no answer.
+/// Error that stops the command.
 #[derive(Debug, Error)]
 enum SensitivityFailure {
-    /// What is asked for.
+    /// The request is invalid.
     #[error(transparent)]
     Asked(#[from] SensitivityError),
-    /// The files.
+    /// The files cannot be written.
     #[error(transparent)]
     Output(#[from] OutputFailure),
 }
 
-/// Takes derivatives and writes them.
+/// Computes derivatives and writes the results.
 pub(crate) fn sensitivity(arguments: &SensitivityArguments) -> Verdict {
     answer(arguments).unwrap_or_else(|failure| {
         complain(format_args!("{failure}"));
@@ -36,7 +36,7 @@ pub(crate) fn sensitivity(arguments: &SensitivityArguments) -> Verdict {
     })
 }
 
-/// What an error in what is asked comes to.
+/// Returns the exit status of an error.
 fn verdict(error: &SensitivityError) -> Verdict {
     match error {
         SensitivityError::Interrupted => Verdict::Interrupted,
@@ -92,7 +92,7 @@ fn write(
     output: Output,
 ) -> Result<Vec<String>, OutputFailure> {
     let pictures = match picture::draw((asked, taken), &arguments.look.look()) {
-        // Of what was interrupted before anything was known nothing may have room for its reasons.
+        // If the command was interrupted early, there may be nothing to draw.
         Err(_) if taken.is_cut() => Vec::new(),
         drawn => drawn?,
     };
@@ -101,7 +101,7 @@ fn write(
     })
 }
 
-/// A table for each figure, and what is to be said of some of its rows.
+/// Prints a table for each result, with notes.
 fn tell(asked: &Sensitivity, taken: &Taken) {
     for (f, figure) in asked.figures.iter().enumerate() {
         say(format_args!("{} = {}", figure.name, shown(figure.value, figure.unit)));
@@ -133,7 +133,8 @@ fn tell(asked: &Sensitivity, taken: &Taken) {
     }
 }
 
-/// A value by as many places after the point as its error leaves, and the error; of one that drowns in its error how large it may be.
+/// Formats a value with as many digits as its error allows, and the error. A value below its error is shown as an upper
+/// bound.
 fn known((value, error): (f64, f64), digits: impl Fn(i32) -> String) -> [String; 2] {
     match error {
         0.0 => [digits(i32::MAX), format!("{error:.0e}")],
@@ -143,6 +144,6 @@ fn known((value, error): (f64, f64), digits: impl Fn(i32) -> String) -> [String;
 }
 
 fn shown(value: f64, unit: &str) -> String {
-    // A prefix belongs to a unit.
+    // A number without a unit has no prefix.
     if unit.is_empty() { format!("{value:.4}") } else { quantity(Real(value), unit) }
 }

@@ -1,4 +1,4 @@
-//! `stickslip steady`: the motion that repeats itself every period.
+//! `stickslip steady`: finds a periodic orbit and its stability.
 
 mod page;
 
@@ -19,30 +19,30 @@ use stickslip_run::{Job, Refusal, Watcher};
 use stickslip_study::steady::{Aftermath, Options, Orbit, Report, Steady, SteadyError, find};
 use thiserror::Error;
 
-/// Wall time between two checkpoints of a run that goes on, s.
+/// Wall time between two checkpoints of a resumed run, s.
 const EVERY: f64 = 30.0;
 
-/// Why there is no answer.
+/// Error that stops the command.
 #[derive(Debug, Error)]
 enum SteadyFailure {
-    /// The scenario.
+    /// The scenario is rejected.
     #[error(transparent)]
     Refused(#[from] Refusal),
-    /// No steady motion.
+    /// No periodic orbit was found.
     #[error("{name}: {source}")]
     NotFound { name: String, source: SteadyError },
-    /// The picture.
+    /// A plot fails.
     #[error(transparent)]
     Figure(#[from] FigureError),
-    /// Where the files are to go.
+    /// The output folder is not usable.
     #[error(transparent)]
     Folder(#[from] Unwritable),
-    /// A file.
+    /// A file cannot be written.
     #[error("{}: cannot be written: {}", .folder.display(), words(.source))]
     Write { folder: PathBuf, source: io::Error },
 }
 
-/// Finds the steady motion of a scenario.
+/// Finds the periodic orbit of a scenario.
 pub(crate) fn steady(arguments: &SteadyArguments) -> Verdict {
     match answer(arguments) {
         Ok(verdict) => verdict,
@@ -62,7 +62,7 @@ fn answer(arguments: &SteadyArguments) -> Result<Verdict, SteadyFailure> {
     let not_found = |source| SteadyFailure::NotFound { name: job.name.clone(), source };
     let out =
         arguments.out.clone().unwrap_or_else(|| Path::new("results").join(format!("{}-steady", job.name)));
-    // Before the first period: of some drives it takes thousands.
+    // Before the first period, because the search may take thousands of periods.
     let folder = place::ready(&out)?;
     let (found, aftermath) = search(arguments, &job, &interrupt).map_err(not_found)?;
     let orbit = found.orbit(&job, picture::ROWS).map_err(not_found)?;
@@ -83,14 +83,14 @@ fn answer(arguments: &SteadyArguments) -> Result<Verdict, SteadyFailure> {
     Ok(if interrupt.is_raised() { Verdict::Interrupted } else { Verdict::Done })
 }
 
-/// The search itself and, where a run leaves the motion, what it ends on, with their progress.
+/// Searches for the orbit with a progress display. For an unstable orbit it also computes the motion after leaving it.
 fn search(
     arguments: &SteadyArguments,
     job: &Job,
     interrupt: &Interrupt,
 ) -> Result<(Steady, Option<Aftermath>), SteadyError> {
     let progress = Progress::new(!arguments.search.quiet);
-    progress.tell(format_args!("{}: looking for its steady motion", job.name));
+    progress.tell(format_args!("{}: searching for the periodic orbit", job.name));
     let line = progress.count(&job.name, "periods", interrupt);
     let options = Options {
         tolerance: arguments.search.tolerance,
@@ -102,14 +102,14 @@ fn search(
     let found = find(job, &options)?;
     progress.tell(format_args!("{}: found in {} periods", job.name, found.work));
     let aftermath = match found.aftermath(job, &options) {
-        // The motion is found, whatever a run that leaves it would end on.
+        // The orbit is valid even if this simulation is interrupted.
         Err(SteadyError::Interrupted(_)) => None,
         other => other?,
     };
     Ok((found, aftermath))
 }
 
-/// Writes what was found, the picture and the checkpoint of the job whose waveforms last.
+/// Writes the results, the plots and the checkpoint of the job with endless waveforms.
 fn write(
     arguments: &SteadyArguments,
     (job, lasting): (&Job, &Job),
@@ -121,12 +121,12 @@ fn write(
     let keeps = lasting.check_checkpoints().is_ok();
     if !keeps {
         let stepper = lasting.stepper().0;
-        report.notes.push(format!("no checkpoint to go on from: the stepper \"{stepper}\" keeps none"));
+        report.notes.push(format!("no checkpoint was written: the stepper \"{stepper}\" has no checkpoints"));
     }
     let failed = |source| SteadyFailure::Write { folder: lasting.folder.clone(), source };
     let write = || -> io::Result<()> {
         folder.release();
-        // A command that was killed has left its drafts.
+        // An interrupted command may have left temporary files.
         let stale = picture::all_files();
         sweep(&lasting.folder, &stale.iter().cloned().chain([STEADY.to_owned()]).collect::<Vec<_>>());
         pictures.iter().try_for_each(|(name, bytes)| folder.write(name, bytes))?;
@@ -137,7 +137,7 @@ fn write(
         }
         folder.forget(stale);
         folder.write(STEADY, report.file().as_bytes())?;
-        // That of another motion must not stand beside this one.
+        // Delete the checkpoint of an earlier orbit.
         checkpoint::remove(&lasting.folder)?;
         folder.publish()?;
         if keeps {
@@ -159,7 +159,8 @@ impl SteadyFailure {
     }
 }
 
-/// What a search comes to that finds nothing: scenes without a period are bad input, searches that fail are not.
+/// Returns the exit status of an unsuccessful search. A scenario without a period is bad input; a search without
+/// convergence is not.
 pub(super) fn verdict(error: &SteadyError) -> Verdict {
     match error {
         SteadyError::Interrupted(_) => Verdict::Interrupted,

@@ -1,4 +1,4 @@
-//! `stickslip study`: many runs of one scenario that differ in some numbers.
+//! `stickslip study`: many runs of one scenario with different parameters.
 
 mod optimise;
 
@@ -19,7 +19,7 @@ use stickslip_quantity::names;
 use stickslip_run::{Real, quantity};
 use stickslip_study::sweep::{Forecast, Indices, Ran, Shard, Statistics, Status, Study, StudyError};
 
-/// Runs one of the commands.
+/// Runs one of the subcommands.
 pub(crate) fn study(command: &StudyCommand) -> Verdict {
     let verdict = match command {
         StudyCommand::Check(arguments) => check(arguments),
@@ -74,7 +74,7 @@ fn plan(arguments: &PlanStudyArguments) -> Result<Verdict, StudyError> {
     ));
     let each = quantity(case_s, "s");
     say(format_args!(
-        "expected time: {} on {} ({each} a case)",
+        "expected time: {} on {} ({each} per case)",
         duration(expected_s),
         counted(threads as u64, "thread")
     ));
@@ -99,6 +99,12 @@ fn run(arguments: &RunStudyArguments) -> Result<Verdict, StudyError> {
     };
     if !quiet {
         warn(&study.job);
+    }
+    if !(0..study.parts()).any(|part| shard.takes(part)) {
+        complain(format_args!(
+            "warning: this shard has no part, the study has {}\n   help: use fewer shards, or a smaller chunk",
+            counted(study.parts(), "part")
+        ));
     }
     let out = folder(place, &study);
     if arguments.fresh {
@@ -130,7 +136,7 @@ fn run(arguments: &RunStudyArguments) -> Result<Verdict, StudyError> {
     Ok(Verdict::Done)
 }
 
-/// Computes what is missing; none where it was interrupted.
+/// Computes the missing parts. Returns `None` if interrupted.
 fn compute(
     study: &Study,
     out: &Path,
@@ -156,9 +162,9 @@ fn status(arguments: &StatusStudyArguments) -> Result<Verdict, StudyError> {
         json(&json!({ "parts": parts, "of": of, "missing": missing, "damaged": damaged }));
         return Ok(Verdict::Done);
     }
-    let none = if out.exists() { "" } else { ", there is no such folder yet" };
+    let none = if out.exists() { "" } else { ", this folder does not exist yet" };
     say(format_args!("{}: {parts} of {of} parts{none}", out.display()));
-    for (what, parts) in [("missing", &missing), ("not whole, to be computed again", &damaged)] {
+    for (what, parts) in [("missing", &missing), ("damaged, will be computed again", &damaged)] {
         if !parts.is_empty() {
             say(format_args!("{what}: {}", ranges(parts)));
         }
@@ -194,11 +200,11 @@ fn indices(arguments: &IndicesStudyArguments) -> Result<Verdict, StudyError> {
 
 /// Prints a line of JSON.
 fn json(told: &impl Serialize) {
-    // Numbers and texts: there is nothing that JSON could refuse.
+    // The output consists of numbers and strings, for which JSON has no errors.
     say_json(&serde_json::to_string(told).unwrap_or_default());
 }
 
-/// Where the parts are.
+/// Returns the folder of the parts.
 fn folder(place: &PlaceArguments, study: &Study) -> PathBuf {
     let name = place
         .file
@@ -274,7 +280,7 @@ fn tell_indices(indices: &Indices) {
         let left_out = indices.left_out.0.iter().find(|(name, count)| name == result && *count > 0);
         if let Some((_, count)) = left_out {
             say(format_args!(
-                "{count} of {} base samples are left out: one of their cases has no such result",
+                "{count} of {} base samples are left out: a case of each has no such result",
                 indices.samples
             ));
         }
@@ -284,19 +290,19 @@ fn tell_indices(indices: &Indices) {
 }
 
 fn shown(value: Real, unit: &str) -> String {
-    // A prefix belongs to a unit.
+    // A number without a unit has no prefix.
     if value.0.is_nan() {
         return "\u{2013}".to_owned();
     }
     if unit.is_empty() { format!("{:.4}", value.0) } else { quantity(value, unit) }
 }
 
-/// A number of things, one or more.
+/// Formats a count with a noun.
 fn counted(count: u64, thing: &str) -> String {
     format!("{count} {thing}{}", if count == 1 { "" } else { "s" })
 }
 
-/// A time as people say it.
+/// Formats a duration in suitable units.
 fn duration(seconds: Real) -> String {
     let seconds = seconds.0;
     match seconds {
@@ -307,7 +313,7 @@ fn duration(seconds: Real) -> String {
     }
 }
 
-/// Numbers with those that follow each other as ranges: `0-3, 7`.
+/// Formats numbers with consecutive ones as ranges: `0-3, 7`.
 fn ranges(numbers: &[u64]) -> String {
     let mut ranges: Vec<[u64; 2]> = Vec::new();
     for number in numbers {

@@ -1,4 +1,4 @@
-//! What is kept of results: some rows, the events, the figures.
+//! Excerpt of results that a golden stores: some rows, the first events and the summary values.
 
 use super::GoldenError;
 use crate::{LENGTHS, Results};
@@ -9,17 +9,17 @@ use std::path::Path;
 use stickslip_run::files::{EVENTS, SCENARIO, SUMMARY, TRACE};
 use stickslip_run::{Seal, hash};
 
-/// Bytes of rows that a golden has at most, but for the fewest, besides the first and the last.
+/// Maximum size of the rows between the first and the last, in bytes. At least `FEWEST` rows are kept.
 const BYTES: usize = 12_000;
 const FEWEST: usize = 10;
 const MOST: usize = 40;
-/// Events and lengths of steps that are kept: the first ones.
+/// Maximum numbers of events and step lengths. Only the first events are kept.
 const EVENTS_KEPT: usize = 300;
 const STEPS_KEPT: usize = 200;
-/// Parts of a summary that are kept.
+/// Parts of the summary that are kept.
 const PARTS: [&str; 7] = ["program", "stepper", "status", "simulated_s", "contacts", "steps", "energy"];
 
-/// Names and texts of the files of an excerpt.
+/// Returns the names and contents of the files of an excerpt.
 pub(super) fn of(folder: &Path) -> Result<Vec<(&'static str, String)>, GoldenError> {
     let results = Results::read(folder).map_err(GoldenError::Damaged)?;
     let read = |name: &str, source| GoldenError::File { path: folder.join(name), source };
@@ -42,7 +42,7 @@ pub(super) fn of(folder: &Path) -> Result<Vec<(&'static str, String)>, GoldenErr
         counts["events_whole_until_s"] = whole.into();
     }
     summary.insert("counts".to_owned(), counts);
-    // Of the whole tables: a run whose bytes are these is identical, whatever part of it is kept.
+    // Hashes of the complete tables. They show whether another run is byte-identical to the recorded one.
     let [rows, happened] = results.hashes();
     summary.insert("excerpt_of".to_owned(), json!({ TRACE: rows, EVENTS: happened }));
     summary.insert("scenario_sha256".to_owned(), hash(&scenario).into());
@@ -52,7 +52,9 @@ pub(super) fn of(folder: &Path) -> Result<Vec<(&'static str, String)>, GoldenErr
     Ok(vec![(TRACE, trace), (EVENTS, events), (SCENARIO, scenario), (SUMMARY, summary)])
 }
 
-/// The first row, the last, and some between, spread by the golden ratio: no period of a drive is met at one phase only.
+/// Returns the heading, the first row, the last row and some rows between them.
+///
+/// The rows are spread by the golden ratio. Therefore they sample many phases of the drive period.
 fn rows(path: &Path, count: usize) -> std::io::Result<String> {
     let mut lines = BufReader::new(File::open(path)?).lines();
     let head = lines.next().transpose()?.unwrap_or_default();
@@ -78,7 +80,7 @@ fn spread(rows: usize, between: usize) -> Vec<usize> {
     places
 }
 
-/// Time, source and kind of the first events, and the time of the last of them where there are more.
+/// Returns time, source and kind of the first events. If there are more events, it also returns the time of the last returned one.
 fn events(path: &Path) -> std::io::Result<(String, Option<f64>)> {
     let mut lines = BufReader::new(File::open(path)?).lines();
     let mut kept = Vec::new();
@@ -99,7 +101,7 @@ mod tests {
         assert_eq!(spread(1, 10), [0]);
         let places = spread(1001, 40);
         assert!(places.len() > 38 && places.first() == Some(&0) && places.last() == Some(&1000));
-        // Of a period of a tenth no phase is met more than six times.
+        // Of a period of a tenth of the run, each phase is sampled at most six times.
         for phase in 0..10 {
             assert!(places.iter().filter(|place| *place % 100 / 10 == phase).count() <= 6, "{places:?}");
         }

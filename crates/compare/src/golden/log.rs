@@ -1,4 +1,4 @@
-//! The log of goldens: when and why they changed.
+//! Log of the changes of goldens, with dates and reasons.
 
 use super::GoldenError;
 use std::fs;
@@ -10,17 +10,20 @@ use stickslip_run::program::VERSION;
 const LOG: &str = "log.md";
 const HEAD: &str =
     "# Why golden results changed\n\n| date | version | scenarios | reason |\n| --- | --- | --- | --- |\n";
-/// Letters of the shortest reason.
+/// Minimum number of letters of a reason.
 const LETTERS: usize = 8;
 
-/// A reason on one line.
+/// Returns the reason on a single line.
+///
+/// # Errors
+/// The reason has fewer than eight letters.
 pub(super) fn checked(reason: &str) -> Result<String, GoldenError> {
     let letters = reason.chars().filter(|c| c.is_alphabetic()).count();
     let reason = reason.split_whitespace().collect::<Vec<_>>().join(" ").replace('|', "/");
     if letters < LETTERS { Err(GoldenError::NoReason) } else { Ok(reason) }
 }
 
-/// Adds a line.
+/// Adds a line to the log.
 pub(super) fn append(root: &Path, names: &[String], reason: &str) -> Result<(), GoldenError> {
     let path = root.join(LOG);
     let text = match fs::read_to_string(&path) {

@@ -1,72 +1,72 @@
-//! One smooth branch of the hysteresis, frozen: what an event-aware stepper integrates between two events.
+//! Smooth branch of the hysteresis, valid from one event to the next.
 //!
-//! While the edge of the wedge drags in one sense and cuts one and the same piece of the old curve,
+//! A branch is valid while the limit line of direction σ crosses the same piece of the memory curve. The force of the branch is
 //!
-//! F_x = σG\*[S₁ + γ(M(h_c)-M₁) + κ(M(d)-M(h_c))],  h_c = h₁ + (ℓ₁-L)/(κ-σk),  L = σu - κd,
+//! F_x = σG\*[S₁ + γ(M(h_c)-M₁) + κ(M(d)-M(h_c))],  h_c = h₁ + (ℓ₁-L)/(κ-σk),  L = σu - κd.
 //!
-//! with ℓ₁ the level of the knot below the piece. The force goes on smoothly beyond both ends of its piece, so a
-//! step that oversteps an event meets no kink; the event is found afterwards, where [`Branch::margin`] or the
-//! sense of sliding changes sign.
+//! The force continues smoothly beyond both ends of the piece. A time step may therefore cross the end of a branch and locate the
+//! event afterwards. The event is a zero crossing of [`Branch::margin`] or of the sliding velocity.
 //!
-//! Symbols: σ the sense, κ the slope of the stick limit, k and γ slope and gain of the piece, S₁ and M₁ the sums of the
-//! knot below it, h₁ its height, L the level of the edge.
+//! Symbols: direction σ; slope κ of the friction limit; slip front h_c; level L of the limit line. The piece has the slope k and the
+//! gain γ (force per ΔM). The knot below the piece has the height h₁, level ℓ₁ and sums S₁, M₁.
 
 use super::{Curve, cut, knot::Knot};
 use crate::words::{Words, push};
 use crate::{Apex, Interface, Motion};
 
-/// A frozen branch: a sense and the piece of the curve that it cuts.
-// A force by it takes 4.4 ns where a trial takes 36, and has no knot to look for; 72 bytes, made once an event (10 ns).
+/// Branch of the hysteresis: a slip direction and the piece of the memory curve that the limit line crosses.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Branch {
-    /// σ.
+    /// Direction σ.
     pub(super) sense: f64,
-    /// κ.
+    /// Slope κ of the friction limit.
     pub(super) slope: f64,
-    /// G\*σ.
+    /// Factor G\*σ.
     pub(super) factor: f64,
-    /// ℓ₁, the level at which the piece ends; ∞ in gross slip.
+    /// Level ℓ₁ at which the piece ends; ∞ in gross slip.
     pub(super) level: f64,
-    /// Level at which the piece begins, above it the edge still cuts later pieces of the same path of growth; -∞ for a
-    /// piece on its own.
+    /// Level at which the piece begins; -∞ for a single piece. At lower levels the limit line still crosses later pieces of the same
+    /// growth path.
     entry: f64,
-    /// 1/(κ-σk).
+    /// Ratio -dh_c/dL = 1/(κ-σk).
     pub(super) flow: f64,
-    /// h₁, m.
+    /// Height h₁, m.
     pub(super) height: f64,
-    /// S₁ - γM₁ in the frame of the sense.
+    /// Difference S₁ - γM₁, for direction σ.
     pub(super) offset: f64,
-    /// γ - κ in the frame of the sense.
+    /// Difference γ - κ, for direction σ.
     pub(super) excess: f64,
 }
 
 impl Branch {
-    /// The lowest height of a slip front, m: m is there what a profile has of flat.
+    /// Smallest positive height of a slip front, m. At this height, m is the width of the profile's flat, if any.
     pub const CENTRE: f64 = f64::MIN_POSITIVE;
 
-    /// Whether every spring slips.
+    /// Returns whether the branch is gross slip.
     pub fn is_gross(&self) -> bool {
         self.level == f64::INFINITY
     }
 
-    /// Whether the last of the springs begin to slip where the piece ends: gross slip comes next.
+    /// Returns whether gross slip follows at the end of the branch.
     pub fn ends_in_the_centre(&self) -> bool {
         self.height == 0.0 && !self.is_gross()
     }
 
-    /// Height of the knot below the piece that it cuts, m.
+    /// Returns the height of the knot below the piece, m.
     pub fn foot(&self) -> f64 {
         self.height
     }
 
-    /// Whether this branch holds at (d, u): not yet, where the edge still cuts later pieces of the path of
-    /// growth at whose foot the branch lies. Those are for [`Curve::dragged`] to find.
+    /// Returns whether the branch is valid at (d, u).
+    ///
+    /// While the limit line still crosses later pieces of a growth path, the branch of its first piece is not valid.
+    /// [`Curve::dragged`] then gives the force.
     #[inline]
     pub fn covers(&self, d: f64, u: f64) -> bool {
         self.sense * u - self.slope * d >= self.entry
     }
 
-    /// F_x at (d, u), N, with M(d) at hand.
+    /// Returns the tangential force F_x at (d, u), N. `reduced_force` is M(d), m².
     #[inline]
     pub fn force(&self, law: &Interface, d: f64, u: f64, reduced_force: f64) -> f64 {
         let front = if self.is_gross() {
@@ -77,16 +77,15 @@ impl Branch {
         self.factor * (front + self.slope * reduced_force)
     }
 
-    /// Height h_c of the slip front at (d, u), m; beyond its piece the branch goes on straight.
+    /// Returns the height h_c of the slip front at (d, u), m. Beyond the ends of the piece the front continues linearly.
     #[inline]
     pub fn front(&self, d: f64, u: f64) -> f64 {
         self.height + self.margin(d, u) * self.flow
     }
 
-    /// ∂F_x/∂u and ∂F_x/∂d at (d, u), N/m.
+    /// Returns ∂F_x/∂u and ∂F_x/∂d at (d, u), N/m.
     ///
-    /// With the front at h_c: ∂F/∂u = G\*(κ-γ)/(κ-σk) m(h_c), which is G\*m(h_c) on a straight piece (γ = σk), and
-    /// ∂F/∂d = σκ[G\*m(d) - ∂F/∂u].
+    /// ∂F/∂u = G\*(κ-γ)/(κ-σk) m(h_c), which is G\*m(h_c) on a straight piece (γ = σk). ∂F/∂d = σκ[G\*m(d) - ∂F/∂u].
     pub fn tangents(&self, law: &Interface, d: f64, u: f64) -> [f64; 2] {
         let gain = -self.excess * self.flow;
         let stiffness =
@@ -96,15 +95,17 @@ impl Branch {
         [modulus * stiffness, modulus * coupling]
     }
 
-    /// How far beyond gross slip (d, u) lies, m: the way of the edge since the last spring stuck. Below zero while any does;
-    /// -∞ in gross slip, which has no end.
+    /// Returns the sliding distance of the limit line since the last spring began to slip, m.
+    ///
+    /// The value is negative while any spring sticks and -∞ in gross slip, which has no end.
     pub fn beyond(&self, d: f64, u: f64) -> f64 {
         if self.is_gross() { f64::NEG_INFINITY } else { -self.front(d, u) / self.flow }
     }
 
-    /// u at which the branch gives the force F_x (N) at an indentation d, with M(d) at hand; none in gross slip. Beyond
-    /// μF_N the front goes on below the centre as if the springs there had the stiffness of the whole contact, so that every
-    /// force has its place.
+    /// Returns the displacement u at which the branch has the force F_x (N) at indentation d; `None` in gross slip.
+    ///
+    /// `reduced_force` is M(d), m². For |F_x| above μF_N the branch is continued with the stiffness of the whole contact, so that
+    /// every force has a solution.
     pub fn displacement(&self, law: &Interface, d: f64, force: f64, reduced_force: f64) -> Option<f64> {
         if self.is_gross() {
             return None;
@@ -120,19 +121,19 @@ impl Branch {
         Some(self.sense * (self.level - margin + self.slope * d))
     }
 
-    /// How far the edge may still move before the piece is used up, m; ∞ in gross slip.
+    /// Returns the distance that the limit line can move until the end of the piece, m; ∞ in gross slip.
     #[inline]
     pub fn margin(&self, d: f64, u: f64) -> f64 {
         self.level - (self.sense * u - self.slope * d)
     }
 
-    /// Writes the state: what [`Self::read`] needs beside the interface.
+    /// Writes the state of the branch as words.
     pub fn write(&self, words: &mut Vec<u64>) {
         words.push(u64::from(self.sense > 0.0));
         push(words, [self.level, self.entry, self.flow, self.height, self.offset, self.excess]);
     }
 
-    /// Reads what [`Self::write`] wrote of a branch of a contact with this interface; none for words that it did not write.
+    /// Reads a branch that [`Self::write`] wrote, for a contact with this interface. Returns `None` for invalid words.
     pub fn read(law: &Interface, words: &mut Words<'_>) -> Option<Self> {
         let sense = if words.flag()? { 1.0 } else { -1.0 };
         let [level, entry, flow, height, offset, excess] = [(); 6].map(|()| words.number());
@@ -147,7 +148,7 @@ impl Branch {
         })
     }
 
-    /// The branch of a sense in gross slip.
+    /// Returns the gross slip branch of a direction.
     fn gross(law: &Interface, sense: f64) -> Self {
         Self {
             sense,
@@ -162,21 +163,22 @@ impl Branch {
         }
     }
 
-    /// Counts displacements from another origin, `by` further back.
+    /// Moves the origin of displacements: all displacements grow by `by` (m).
     pub fn shift(&mut self, by: f64) {
         self.level += self.sense * by;
         self.entry += self.sense * by;
     }
 
-    /// +1 forward, -1 backward.
+    /// Returns the slip direction: +1 forward, -1 backward.
     pub fn sense(&self) -> f64 {
         self.sense
     }
 
-    /// Force, N, friction power, W, and m at the slip front, m, of a moving apex with M(d) at hand, as [`Branch::force`] and
-    /// [`Branch::friction_power`] have them: what they need of the profile is asked for once. m is the length that sticks, none
-    /// in gross slip. A step that oversteps an event meets no kink: where the apex of a shrinking contact has crossed the old curve
-    /// the front lies above d, and where the last of the springs have begun to slip below the centre, and m goes on as the force does.
+    /// Returns force, N, friction power, W, and m at the slip front, m, of a moving apex. `reduced_force` is M(d), m².
+    ///
+    /// The values are those of [`Branch::force`] and [`Branch::friction_power`], with one evaluation of the profile for both. The
+    /// length m is that of the sticking part of the foundation; 0 in gross slip. The values continue smoothly beyond the ends of the
+    /// branch, also for a front above d or below the centre.
     #[inline(always)]
     pub fn drag(&self, law: &Interface, at: &Motion, reduced_force: f64) -> [f64; 3] {
         let Motion { d, u, dd, du } = *at;
@@ -195,8 +197,9 @@ impl Branch {
         [force, drive * (reduced_force - inner - (d - front) * stuck), stuck]
     }
 
-    /// Friction power, W: G\*κL̇∫(d-h)dm over the springs at their limit, those higher than `front`,
-    /// = G\*κL̇[M(d) - M(h_c) - (d-h_c)m(h_c)].
+    /// Returns the friction power of the slipping springs, W. `front` is the height h_c of the slip front, m.
+    ///
+    /// The power is G\*κL̇∫(d-h)dm = G\*κL̇[M(d) - M(h_c) - (d-h_c)m(h_c)].
     pub fn friction_power(&self, law: &Interface, front: f64, at: &Motion) -> f64 {
         let Motion { d, dd, du, .. } = *at;
         let profile = law.profile();
@@ -208,30 +211,31 @@ impl Branch {
     }
 }
 
-/// What an edge gives at the end of a chord.
+/// Force and slip front at the end of a straight path.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Dragged {
-    /// F_x, N.
+    /// Tangential force F_x, N.
     pub force: f64,
     /// Height of the slip front, m.
     pub front: f64,
 }
 
 impl Curve {
-    /// The branch of a sense (+1 or -1) that starts at the committed apex. Knots within `slack` (m) of the
-    /// edge count as reached: the caller has just located the end of the piece there.
-    // Without slack rounding of that place decides, and the same event is found again and again.
+    /// Returns the branch of direction `sense` (+1 or -1) that starts at the committed apex.
+    ///
+    /// Knots within `slack` (m) of the limit line count as reached, because the caller has just located the end of the piece there.
+    // Without slack, rounding could find the same event repeatedly.
     pub fn branch(&self, law: &Interface, sense: f64, slack: f64) -> Branch {
         let slope = law.stick_slope();
         let level = sense * self.apex.u - slope * self.apex.d + slack;
         let gross = Branch::gross(law, sense);
-        // A piece along the edge itself has no crossing: the edge takes it whole.
+        // A piece parallel to the limit line has no crossing and is shifted as a whole.
         let crosses = |w: &[Knot]| w[0].level(sense, slope) > level && !cut::runs_along(slope, sense, &w[1]);
         let Some(top) = self.knots.windows(2).rposition(crosses) else { return gross };
-        // The pieces of one path of growth are one: the branch ends where the path began. Its knots were put there by steps and
-        // are no events: an impact would locate one for each step of its approach.
+        // The pieces of one growth path form one branch, which ends where the path began. The knots between them come from time steps
+        // and are no events.
         let foot = (0..=top).rev().find(|i| !self.knots[*i].joined).unwrap_or(0);
-        // Of one along the edge, but for rounding of its last piece, that piece is all that is crossed.
+        // If the first piece is parallel to the limit line, only the last one is crossed.
         let foot = if cut::runs_along(slope, sense, &self.knots[foot + 1]) { top } else { foot };
         let (base, end) = (&self.knots[foot], &self.knots[foot + 1]);
         let gain = sense * end.gain;
@@ -246,10 +250,10 @@ impl Curve {
         }
     }
 
-    /// What a chord to an apex inside contact gives, dragged by the edge of a sense.
+    /// Returns force and slip front at the end of a straight path, for the limit line of direction `sense`.
     ///
-    /// As with a branch the force goes on smoothly where it no longer holds: where the apex of a shrinking contact lies on
-    /// the other side of the old curve, and where the edge has turned back.
+    /// The force continues smoothly where the direction is no longer valid: after a shrinking contact has crossed the curve, or after
+    /// a reversal.
     pub fn dragged(&self, law: &Interface, sense: f64, to: Apex) -> Dragged {
         let (shear, front) = cut::onward(law, &self.knots, sense, to);
         Dragged { force: law.tangential_modulus() * shear, front }

@@ -1,30 +1,29 @@
-//! What a contact is doing.
+//! Kind of motion of a contact: open, growing in full stick, or slipping in one of two directions.
 //!
-//! s₊ is the speed at which the lower edge of the wedge moves forward through the anchors, -s₋ that of the upper edge
-//! backward. Of the four combinations of signs one, s₊ ≤ 0 ≤ s₋ under a growing indentation, drags nothing: what a stepper
-//! has to know is which edge drags, or that none does.
+//! The forward limit line slips with the velocity s₊ = u̇-κḋ and the backward one with s₋ = u̇+κḋ. If s₊ ≤ 0 ≤ s₋ and the indentation
+//! grows, no spring slips.
 
 use super::Curve;
 use crate::Interface;
 
-/// What a contact is doing, from the signs of s₊ = u̇-κḋ and s₋ = u̇+κḋ.
+/// Kind of motion of a contact, from the signs of s₊ = u̇-κḋ and s₋ = u̇+κḋ.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
 pub enum Course {
-    /// No contact.
+    /// The contact is open.
     #[default]
     Open,
-    /// The contact grows in full stick: s₊ ≤ 0 ≤ s₋; its force depends on the path and is a state.
-    // The other three need no such state: chords are exact for them. Here a chord is of second order, and an embedded error
-    // estimate does not see it: Dopri5 at a tolerance of 1e-11 still ends 2e-5 off.
+    /// The contact grows in full stick: s₊ ≤ 0 ≤ s₋. The force then depends on the path and is integrated as a state.
+    // For the other kinds straight paths are exact. Here a straight path is of second order, and error estimates do not see the
+    // error.
     Grow,
-    /// The lower edge of the wedge drags: s₊ > 0.
+    /// Forward slip: s₊ > 0.
     Forward,
-    /// The upper edge of the wedge drags: s₋ < 0.
+    /// Backward slip: s₋ < 0.
     Backward,
 }
 
 impl Course {
-    /// +1 forward, -1 backward, 0 otherwise.
+    /// Returns the slip direction: +1 forward, -1 backward, 0 otherwise.
     pub fn sense(self) -> f64 {
         match self {
             Self::Forward => 1.0,
@@ -35,8 +34,9 @@ impl Course {
 }
 
 impl Curve {
-    /// The course of a contact in motion, from the signs of s₊ = u̇-κḋ and s₋ = u̇+κḋ. Where both edges close in
-    /// on a shrinking contact, the side decides on which the path leaves the curve.
+    /// Returns the kind of motion of a contact, from the signs of s₊ = u̇-κḋ and s₋ = u̇+κḋ.
+    ///
+    /// If both limit lines would slip while the contact shrinks, the direction is the side of the curve on which the path leaves it.
     pub fn course(&self, law: &Interface, dd: f64, du: f64) -> Course {
         let limit = law.stick_slope() * dd;
         if self.apex.d < 0.0 || self.apex.d == 0.0 && dd <= 0.0 {
@@ -46,7 +46,7 @@ impl Curve {
         } else if du.abs() > -limit {
             if du > 0.0 { Course::Forward } else { Course::Backward }
         } else {
-            // Read off the curve and not off its last chord: a path of growth may lie there in several pieces.
+            // The slope of the curve, because a growth path may consist of several pieces.
             let slope = self.knots.last().map_or(0.0, |k| k.slope);
             if du > slope * dd { Course::Forward } else { Course::Backward }
         }

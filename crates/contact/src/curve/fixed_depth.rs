@@ -1,57 +1,55 @@
-//! A branch at constant indentation: what most contacts of most scenes are between two events.
+//! Branch of the hysteresis at constant indentation.
 
 use super::Branch;
 use crate::Profile;
 
-/// A branch at constant indentation: F_x = F₀ + G\*σ(γ-κ) M(h_c), a function of u alone.
-// 3.6 ns for a force instead of 4.4 by the branch itself, and the same for its guards; more than the time counts that F is a
-// function of u alone, which a swing in closed form lives on.
+/// Branch at constant indentation: F_x = F₀ + G\*σ(γ-κ) M(h_c), a function of u alone.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FixedDepthBranch {
-    /// σ.
+    /// Direction σ.
     sense: f64,
-    /// Level of the knot below the piece, over that of the apex at u = 0, m.
+    /// Level of the knot below the piece, minus that of the apex at u = 0, m.
     level: f64,
-    /// 1/(κ-σk); 0 in gross slip.
+    /// Factor 1/(κ-σk); 0 in gross slip.
     flow: f64,
-    /// Height of that knot, m.
+    /// Height of the knot below the piece, m.
     height: f64,
-    /// Force with the slip front in the centre, N.
+    /// Force F₀ with the slip front in the centre, N.
     base: f64,
-    /// G\*σ(γ-κ); 0 in gross slip.
+    /// Factor G\*σ(γ-κ); 0 in gross slip.
     gain: f64,
 }
 
 impl FixedDepthBranch {
-    /// The slip front as a straight function of u, h_c = h₀ + su: (h₀ in m, s).
+    /// Returns h₀ (m) and s of the slip front as a linear function of u: h_c = h₀ + su.
     pub fn front(&self) -> (f64, f64) {
         (self.height + self.level * self.flow, -self.sense * self.flow)
     }
 
-    /// The force as a straight function of M at the slip front, F = F₀ + gM: (F₀ in N, g in N/m²), g = 0 in gross slip.
+    /// Returns F₀ (N) and g (N/m²) of the force as a linear function of M at the slip front: F = F₀ + gM. In gross slip g = 0.
     pub fn forces(&self) -> (f64, f64) {
         (self.base, self.gain)
     }
 
-    /// +1 forward, -1 backward.
+    /// Returns the slip direction: +1 forward, -1 backward.
     #[inline(always)]
     pub fn sense(&self) -> f64 {
         self.sense
     }
 
-    /// Whether every spring slips.
+    /// Returns whether the branch is gross slip.
     #[inline(always)]
     pub fn is_gross(&self) -> bool {
         self.gain == 0.0
     }
 
-    /// How far the edge may still move at u before the piece is used up, m; 0 - σu in gross slip, where no piece ends.
+    /// Returns the distance that the limit line can move at u until the end of the piece, m; in gross slip the value is -σu.
     #[inline(always)]
     pub fn margin(&self, u: f64) -> f64 {
         self.level - self.sense * u
     }
 
-    /// F_x at u, N.
+    /// Returns the tangential force F_x at u, N.
     #[inline(always)]
     pub fn force(&self, profile: &Profile, u: f64) -> f64 {
         let front = self.height + self.margin(u) * self.flow;
@@ -60,7 +58,7 @@ impl FixedDepthBranch {
 }
 
 impl Branch {
-    /// The branch at a constant indentation d (m), with M(d) at hand.
+    /// Returns the branch at a constant indentation d (m). `reduced_force` is M(d), m².
     pub fn at_depth(&self, d: f64, reduced_force: f64) -> FixedDepthBranch {
         let limit = self.slope * reduced_force;
         if self.is_gross() {

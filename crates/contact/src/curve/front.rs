@@ -1,25 +1,24 @@
-//! The slip front: where the springs at their limit begin.
+//! Slip front: the height that separates sticking from slipping springs.
 //!
-//! Springs stick up to the front and slip beyond it, out to the edge of the contact: limits fall with height, and the wedge
-//! has one edge that drags at a time.
+//! Springs below the front stick and springs above it slip, because the friction limit decreases with height.
 
 use crate::{ContactState, Interface};
 
-/// Where the springs at their limit begin after the last move that was not zero.
+/// Slip front after the last move of non-zero length.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Front {
-    /// +1 forward, -1 backward, 0 none at its limit.
+    /// Slip direction: +1 forward, -1 backward, 0 for no slip.
     pub(super) sense: f64,
-    /// Springs higher than this are at their limit; -∞ in gross slip.
+    /// Height of the front, m: higher springs slip; -∞ in gross slip.
     pub(super) height: f64,
 }
 
 impl Front {
-    /// No spring at its limit.
+    /// Full stick.
     pub(super) const STICK: Self = Self { sense: 0.0, height: f64::INFINITY };
 
-    /// State and stick radius (m) of a contact of indentation d.
-    // Lengths decide and not heights: between two springs of a list a front may lie anywhere, and all that touch still stick.
+    /// Returns state and stick radius (m) of a contact at indentation d.
+    // The comparison uses lengths, not heights: a front between two springs of a list may be above all springs in contact.
     pub(super) fn zone(&self, law: &Interface, d: f64) -> (ContactState, f64) {
         let profile = law.profile();
         if d <= 0.0 {

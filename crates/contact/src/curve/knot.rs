@@ -1,37 +1,36 @@
-//! A turning point of the memory curve, with the sums of everything below it.
+//! Knot of the memory curve, with integrals over the curve below it.
 //!
-//! A drag gives up knots from the top only, so the sums below stay: forces and energies of a new apex follow from those of
-//! the knot on which it stands, whatever lies below.
+//! Knots are removed from the top only, so the integrals of the remaining knots stay valid. Force and energy of a new apex follow
+//! from the knot below it.
 
 use crate::{Apex, Interface};
 
-/// A knot (h, p) and the integrals over the curve below it.
+/// Knot (h, p) and the integrals over the curve below it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Knot {
-    /// Height, m.
+    /// Height h, m.
     pub(super) h: f64,
-    /// Anchor p(h), m.
+    /// Rest position p(h), m.
     pub(super) p: f64,
     /// Slope dp/dh of the piece that ends here.
-    // Kept, though two anchors would give it: of a contact that has travelled 10⁶ u_c their difference has lost six digits.
-    // What is left of forces then, 1e-9 of the limit, is lost in u itself; 1e-12 at 10³ u_c.
+    // Stored, because the difference of two rest positions loses digits after a long displacement.
     pub(super) slope: f64,
-    /// Force per ΔM of the piece that ends here: its slope, or the mean of a curved path of growth.
+    /// Force per ΔM of the piece that ends here, over G\*: its slope, or the mean over a curved growth path.
     pub(super) gain: f64,
-    /// M(h), m².
+    /// Reduced force M(h), m².
     pub(super) reduced_force: f64,
-    /// N(h), m³.
+    /// Reduced energy N(h), m³.
     pub(super) reduced_energy: f64,
-    /// ∫₀ʰ p' m dh, m²; G\* times this is F_x of a contact that ends here.
+    /// Integral ∫₀ʰ p' m dh, m². G\* times this is F_x of a contact that ends here.
     pub(super) shear: f64,
-    /// ∫₀ʰ (p(h)-p)² dm, m³; ½G\* times this is the elastic energy of a contact that ends here.
+    /// Integral ∫₀ʰ (p(h)-p)² dm, m³. ½G\* times this is the tangential elastic energy of a contact that ends here.
     pub(super) square: f64,
-    /// Whether the piece above goes on smoothly from the piece below: one path of growth in several pieces.
+    /// Whether the pieces below and above belong to one smooth growth path.
     pub(super) joined: bool,
 }
 
 impl Knot {
-    /// The knot of a contact that just touches at displacement u.
+    /// Returns the knot of a contact that touches at displacement u.
     pub(super) fn touch(u: f64) -> Self {
         Self {
             h: 0.0,
@@ -46,41 +45,40 @@ impl Knot {
         }
     }
 
-    /// Whether the piece that ends here is the chord of a bent path of growth.
+    /// Returns whether the piece that ends here is the chord of a curved growth path.
     #[inline]
     pub(super) fn is_uneven(&self) -> bool {
         self.gain != self.slope
     }
 
-    /// σp - κh in the frame of a sense σ, m: what the edge of that sense compares.
+    /// Returns the level σp - κh of the knot, m, for a direction σ and slope κ.
     #[inline]
     pub(super) fn level(&self, sense: f64, slope: f64) -> f64 {
         sense * self.p - slope * self.h
     }
 
-    /// The apex that stands on this knot.
+    /// Returns the apex at this knot.
     pub(super) fn apex(&self) -> Apex {
         Apex { d: self.h, u: self.p }
     }
 
-    /// The end of a straight piece from here to (h, p). The slope is given, not taken from the difference of
-    /// two rounded anchors.
+    /// Returns the knot at the end of a straight piece from here to (h, p). The slope is given separately to avoid cancellation.
     #[inline]
     pub(super) fn grow(&self, law: &Interface, h: f64, slope: f64, p: f64) -> Self {
         let [reduced_force, reduced_energy] = law.profile().reduced_sums(h);
         self.extend(h, p, slope, slope, reduced_force, reduced_energy)
     }
 
-    /// The end of a straight piece of growth in full stick.
+    /// Returns the knot at the end of a straight growth piece in full stick.
     #[inline]
     pub(super) fn stick(&self, law: &Interface, to: Apex) -> Self {
         self.grow(law, to.d, (to.u - self.p) / (to.d - self.h), to.u)
     }
 
-    /// The same with M(h) and N(h) at hand, and a gain of its own.
+    /// Returns the knot at the end of a piece with given slope, gain, M(h) and N(h).
     ///
-    /// ∫(p₂-p)²dm grows by 2S₁Δp + 2kγ(ΔN - ΔhM₁) over a piece of slope k and gain γ, where S₁ is the shear
-    /// below: dB = 2S dp, S = S₁ + γ(M-M₁).
+    /// Over a piece of slope k and gain γ, ∫(p₂-p)²dm grows by 2S₁Δp + 2kγ(ΔN - ΔhM₁), where S₁ is the shear integral below. The
+    /// derivation uses dB = 2S dp with S = S₁ + γ(M-M₁).
     #[inline]
     pub(super) fn extend(
         &self,
@@ -109,11 +107,11 @@ impl Knot {
         }
     }
 
-    /// The end of a curved path of growth, with the sums integrated along it.
+    /// Returns the knot at the end of a curved growth path, with integrals that were computed along the path.
     ///
-    /// Between its ends the path is not kept: anchors inside lie on the chord, and the force grows with M(h) in proportion,
-    /// so that a later cut meets the sum that was integrated and not the chord's.
-    // The chord's own sums would lose the order again that the integration has kept.
+    /// The path between the ends is not stored. Rest positions lie on the chord, and the force is proportional to ΔM, so that its
+    /// total is that of the path.
+    // The integrals of the chord would be less accurate.
     pub(super) fn grow_by(&self, law: &Interface, to: Apex, shear: f64, square: f64) -> Self {
         let [reduced_force, reduced_energy] = law.profile().reduced_sums(to.d);
         let (rise, swell) = (to.d - self.h, reduced_force - self.reduced_force);
@@ -130,10 +128,9 @@ impl Knot {
         }
     }
 
-    /// The point at height h of the piece that starts here and ends at `end`.
+    /// Returns the point at height h of the piece from here to `end`.
     ///
-    /// Where the end's energy came from an integration along a curved path, the difference to the straight
-    /// piece is shared out by height.
+    /// For a curved growth path, the energy difference between path and chord is distributed in proportion to the height.
     pub(super) fn point(&self, law: &Interface, end: &Self, h: f64) -> Self {
         let [reduced_force, reduced_energy] = law.profile().reduced_sums(h);
         let p = self.p + end.slope * (h - self.h);

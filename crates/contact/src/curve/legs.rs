@@ -1,47 +1,46 @@
-//! The memory curve as numbers: how high its knots stand and how steep the pieces between them are, seen from the apex.
+//! Memory curve in a form that does not depend on the displacement: knot heights and slopes.
 //!
-//! Where the contact has travelled to does not matter, and of a contact that slips grossly nothing is left but one piece of
-//! slope ±κ: what a curve has beside that is what the contact will still answer to.
+//! After gross slip this form has a single piece of slope ±κ.
 
 use super::Curve;
 use super::knot::Knot;
 use super::stack::SlopeRange;
 use crate::{Apex, Interface};
 
-/// A piece this near to ±κ, as a part of it, was made by an edge: its slope is no number of its own.
+/// Relative tolerance at which a slope counts as ±κ, so that the piece was made by slip.
 const EDGE: f64 = 1e-9;
 
-/// Form of a memory curve.
+/// Form of a memory curve: knot heights and slopes of its pieces.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Legs {
-    /// Heights of the knots between the centre and the apex, m, ascending.
+    /// Heights of the knots between centre and apex, m, ascending.
     pub heights: Vec<f64>,
-    /// Slope dp/dh of every piece, from the centre outwards: one more than heights; none of an open contact.
+    /// Slopes dp/dh of all pieces from the centre outwards, one more than heights; empty for an open contact.
     pub slopes: Vec<f64>,
-    /// By how much a path of growth that bends pulls more than its chord: force per ΔM over G\* less the slope.
+    /// Gain minus slope of each piece, where the gain is the force per ΔM over G\*; not 0 only for curved growth paths.
     pub bends: Vec<f64>,
 }
 
 impl Legs {
-    /// Sense of a piece that an edge made, ±1; none of one that grew in full stick.
+    /// Returns the slip direction ±1 of a piece made by slip, and `None` for a piece that grew in full stick.
     pub fn sense(&self, law: &Interface, piece: usize) -> Option<f64> {
         sense(*self.slopes.get(piece)?, law)
     }
 }
 
-/// Sense of an edge that is so steep; none where it is no edge.
+/// Returns the slip direction that belongs to a slope, or `None` for a slope below κ.
 fn sense(slope: f64, law: &Interface) -> Option<f64> {
     (slope.abs() >= law.stick_slope() * (1.0 - EDGE)).then(|| slope.signum())
 }
 
 impl Curve {
-    /// Slope of its last piece, and the sense of that as [`Legs::sense`] has it; none of an open contact.
+    /// Returns slope and slip direction (see [`Legs::sense`]) of the last piece; `None` for an open contact.
     pub fn last_piece(&self, law: &Interface) -> Option<(f64, Option<f64>)> {
         let [.., _, last] = self.knots.as_slice() else { return None };
         Some((last.slope, sense(last.slope, law)))
     }
 
-    /// Its form.
+    /// Returns the form of the curve.
     pub fn legs(&self) -> Legs {
         let Some(pieces) = self.knots.get(1..) else { return Legs::default() };
         Legs {
@@ -51,7 +50,7 @@ impl Curve {
         }
     }
 
-    /// The curve of a form that ends at an apex; none where heights do not ascend from the centre to there.
+    /// Creates the curve of a given form that ends at an apex. Returns `None` if the heights do not ascend from 0 to d.
     #[must_use]
     pub fn standing(&self, law: &Interface, at: Apex, legs: &Legs) -> Option<Self> {
         let mut curve = Self { knots: Vec::new(), apex: at, range: SlopeRange::NONE, ..*self };

@@ -1,7 +1,7 @@
-//! The stack of knots: how it grows, is cut, and stays bounded.
+//! Changes of the knot stack: growth of the contact, slip, and the limit of the number of knots.
 //!
-//! A growing contact pushes knots, a dragging edge gives up those it passes and puts itself in their place, and where the
-//! stack is full the knots that matter least go ([`super::thinning`]).
+//! A growing contact adds knots. Slip removes knots and adds a straight piece. A full stack removes the knots with the smallest
+//! effect ([`super::thinning`]).
 
 use super::Curve;
 use super::cut::Edge;
@@ -9,36 +9,34 @@ use super::front::Front;
 use super::sweep::{self, Told};
 use crate::{Apex, Interface};
 
-/// Slopes of the top piece that keep every knot merged into it within round-off of where it was: without this
-/// bound a slightly curved growth in many tiny steps would be straightened without limit.
+/// Range of slopes of the top piece at which all knots merged into it stay on it within rounding.
+///
+/// Without this range, growth along a slightly curved path in many small steps would be straightened without limit.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct SlopeRange {
     pub(super) low: f64,
     pub(super) high: f64,
 }
 
-// Growth along a straight line in 100 000 steps leaves two knots; without merging the stack is full after a sixth of them.
-// Along a path that bends by 1e-9 of its length 866 are left, their force 6e-7 of what the bend adds beside it, and 28 080 at
-// a bend of 1e-6.
+// Merging keeps the number of knots small when a contact grows along a straight line in many steps.
 
 impl SlopeRange {
-    /// Nothing merged yet: any slope will do.
+    /// Nothing has been merged yet: any slope is possible.
     pub(super) const ALL: Self = Self { low: f64::NEG_INFINITY, high: f64::INFINITY };
-    /// Nothing may be merged: the top piece is no growth, or a curved one.
+    /// Merging is not allowed: the top piece is a curved growth path or no growth.
     pub(super) const NONE: Self = Self { low: f64::INFINITY, high: f64::NEG_INFINITY };
 }
 
-/// Deviation of a merged knot, in units of the last place of the largest of |u| and κd.
-// 0 merges nothing but by chance (16 383 knots of the straight path, 89 506 of that with a bend of 1e-9); 16 leave 294 of the
-// latter and err by 2e-6 of what the bend adds, 256 leave 74 and err by 4e-5.
+/// Largest deviation of a merged knot, in units of the last place of the larger of |u| and κd.
 const COLLINEAR_ULPS: f64 = 2.0;
 
-/// Knots that one move adds at most: the knot where it cuts, or touches, and the apex.
+/// Largest number of knots that a move adds: the point of intersection or first touch, and the apex.
 pub(super) const KNOTS_PER_MOVE: usize = 2;
 
 impl Curve {
-    /// Growth in full stick along a curved path, its force and energy integrated elsewhere. `joins`: it goes on smoothly from
-    /// the growth before.
+    /// Adds growth in full stick along a curved path, with force and energy integrated along it.
+    ///
+    /// `joins` states that the path continues the previous growth smoothly.
     pub(super) fn grow(&mut self, law: &Interface, to: Apex, (force, energy): (f64, f64), joins: bool) {
         if self.knots.is_empty() {
             let touch = self.touching(to);
@@ -55,7 +53,7 @@ impl Curve {
         self.apex = to;
     }
 
-    /// Pushes a straight piece of growth, merging it with the piece below where the two are collinear.
+    /// Adds a straight growth piece, or merges it with the piece below if both are collinear.
     pub(super) fn push_grown(&mut self, law: &Interface, to: Apex) {
         let count = self.knots.len();
         let top = self.knots[count - 1];
@@ -81,7 +79,7 @@ impl Curve {
         self.range = SlopeRange::ALL;
     }
 
-    /// Replaces what was cut by the straight edge of the wedge; gives the friction work, J.
+    /// Replaces the part of the curve that slips by the limit line. Returns the friction work, J.
     pub(super) fn push_cut(&mut self, law: &Interface, (edge, to): (Edge, Apex), told: Told) -> f64 {
         let foot = edge.foot(law, &self.knots, to);
         let end = edge.end(law, &foot, self.knots.last(), to);
@@ -93,7 +91,7 @@ impl Curve {
         if end.h > foot.h {
             self.knots.push(end);
         } else if let Some(top) = self.knots.last_mut() {
-            // A move below the last place of the level cuts nothing; the apex still takes it.
+            // A move below the last place of the level removes nothing, but changes the apex.
             top.p = to.u;
         }
         self.front = edge.front();

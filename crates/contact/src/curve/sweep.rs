@@ -1,44 +1,41 @@
-//! Friction work from the swept pieces: what lies between the old curve and the new one.
+//! Friction work of a straight path, integrated over the shifted part of the memory curve.
 //!
-//! Along a chord a spring at height h, once at its limit, is dragged by Δ(h) under a limit κ(d-h) that moves
-//! linearly with it, so its work is G\*κ q dm with
+//! A spring at height h, once at its friction limit, slips by Δ(h) under a limit κ(d-h) that changes linearly along the path. The
+//! work per length dm is G\*κ q with
 //!
-//! q = e Δ - ½ r Δ²,  e = max(d₁-h, 0),  r = dd/dL,  L = ±u - κd the level of the dragging edge,
+//! q = e Δ - ½ r Δ²,  e = max(d₁-h, 0),  r = dd/dL.
 //!
-//! a parabola in h on every piece of the old curve. A spring that leaves the contact is dragged until it
-//! leaves. Since q is continuous and vanishes at both ends, or at h = 0 where m does, ∫q dm = -∫q' m dh, and a
-//! piece gives -[q'M] + q''ΔN: exact for every profile, a list of heights included.
-//!
-//! Booking limit force × slip instead would miss most of the loss where the limit falls inside the step: 64 % where half of
-//! the indentation is taken back, and all of it where the contact opens.
+//! Here L = ±u - κd is the level of the limit line. A spring that leaves the contact slips until it leaves. q is a parabola in h on
+//! every piece of the old curve. q is continuous and 0 at both ends, or at h = 0, where m = 0. Hence ∫q dm = -∫q' m dh. A piece
+//! contributes -[q'M] + q''ΔN, which is exact for every profile, including lists of springs.
 
 use super::cut::{Edge, anchor};
 use super::knot::Knot;
 use crate::{Apex, Interface, Profile};
 
-/// Which friction work is told.
+/// Part of the friction work to compute.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Told {
-    /// All.
+    /// Total friction work.
     All,
-    /// What is beside that which the power of a branch adds up to.
+    /// Only the part that [`super::Branch::friction_power`] does not contain.
     BesidePower,
 }
 
-/// Friction work of a chord, J. `knots` is the old curve (at least one knot) and ends at `from`.
+/// Returns the friction work of a straight path, J. `knots` is the old curve with at least one knot; it ends at `from`.
 pub(super) fn work(law: &Interface, knots: &[Knot], from: Apex, to: Apex) -> f64 {
     let Some((sweep, edge, top)) = Sweep::of(law, knots, from, to) else { return 0.0 };
     let foot = edge.foot(law, knots, sweep.to);
     sweep.swept(knots, top, &edge, &foot) + sweep.beside(knots, &edge)
 }
 
-/// The part of [`work`] by which a path of growth differs from its chords, J.
+/// Returns the part of [`work`] that is due to the difference between growth paths and their chords, J.
 pub(super) fn beside(law: &Interface, knots: &[Knot], from: Apex, to: Apex) -> f64 {
     let Some((sweep, edge, _)) = Sweep::of(law, knots, from, to) else { return 0.0 };
     sweep.beside(knots, &edge)
 }
 
-/// Friction work of a chord that stays inside contact, J, its edge and foot known.
+/// Returns the friction work of a straight path within contact, J, for a known limit line and its first knot.
 pub(super) fn slipped(
     law: &Interface,
     knots: &[Knot],
@@ -56,25 +53,25 @@ pub(super) fn slipped(
     if told == Told::BesidePower { beside } else { sweep.swept(knots, top, edge, foot) + beside }
 }
 
-/// One chord of the apex and the edge that drags at its end.
+/// Straight path of the apex and the limit line at its end.
 struct Sweep<'a> {
     law: &'a Interface,
     from: Apex,
     to: Apex,
-    /// Δd, m.
+    /// Change Δd, m.
     rise: f64,
-    /// Δu, m.
+    /// Change Δu, m.
     travel: f64,
-    /// Of the edge that drags at the end.
+    /// Direction of the limit line.
     sense: f64,
-    /// Its level at the end, m.
+    /// Level of the limit line at the end, m.
     level: f64,
-    /// How much deeper the contact gets per way of that edge.
+    /// Ratio r = dd/dL of indentation change to slip distance.
     curl: f64,
 }
 
 impl<'a> Sweep<'a> {
-    /// Of a chord up to where the contact opens, with the edge that drags and the last of the knots; none where nothing slips.
+    /// Returns the path up to the opening of the contact, the limit line and the last knot; `None` if nothing slips.
     fn of<'k>(law: &'a Interface, knots: &'k [Knot], from: Apex, to: Apex) -> Option<(Self, Edge, &'k Knot)> {
         let (rise, travel) = (to.d - from.d, to.u - from.u);
         let slope = law.stick_slope();
@@ -96,13 +93,11 @@ impl<'a> Sweep<'a> {
         Self { law, from, to, rise, travel, sense, level, curl: curl(law, [rise, travel], sense) }
     }
 
-    /// Work of everything that is swept, J. `top` is the last of the knots.
-    // From the pieces swept and not from the change of energies: work done less energy gained is the same sum, but of a small
-    // loop it is the difference of numbers a million times larger. One chord to 0.9 u_c has the work of a hundred thousand
-    // short ones to 1e-14.
+    /// Returns the work of the shifted part, J. `top` is the last knot.
+    // The direct integral avoids the cancellation of work and energy change in small loops.
     fn swept(&self, knots: &[Knot], top: &Knot, edge: &Edge, foot: &Knot) -> f64 {
         let mut lower = if edge.is_gross() { &knots[0] } else { foot };
-        // The dragging begins with 0 at the cut; in gross slip the centre is dragged as well.
+        // The slip distance is 0 at the intersection. In gross slip the centre slips, too.
         let slope = self.law.stick_slope();
         let mut drag =
             if edge.is_gross() { self.level + slope * lower.h - self.sense * lower.p } else { 0.0 };
@@ -119,13 +114,11 @@ impl<'a> Sweep<'a> {
         self.law.tangential_modulus() * slope * total
     }
 
-    /// What is lost besides, J, where the edge gives up a path of growth: the curve keeps its chords, with the sums of the path.
+    /// Returns the friction work, J, due to the difference between erased growth paths and their chords.
     ///
-    /// A piece of slope k and gain γ, with the energy ½G\*c(h-h₁) beside that of its gain, holds force and energy in balance if an edge
-    /// of slope s = σκ whose front passes the height h loses G\*[c/2 + s(γ-k)(d-h)m(h)] per height besides.
-    // Derived from F_x du = dE + dW along u = p(h) + s(d-h). Small, of third order in the length of a piece; without it what a cone lost
-    // that was pressed and slid at once was 1e-6 of it off at a tolerance of 1e-9.
-    // Apart from what every cut asks for: most give up no path of growth.
+    /// Consider a piece of slope k and gain γ with the additional energy ½G\*c(h-h₁). A limit line has the slope s = σκ. When its
+    /// front passes the height h, it dissipates the additional work G\*[c/2 + s(γ-k)(d-h)m(h)] per height.
+    // Follows from F_x du = dE + dW along u = p(h) + s(d-h). The work is of third order in the length of a piece.
     #[inline(never)]
     fn beside(&self, knots: &[Knot], edge: &Edge) -> f64 {
         let first = edge.kept.max(1);
@@ -133,14 +126,14 @@ impl<'a> Sweep<'a> {
         let Some(last) = (first..knots.len()).rev().find(is_uneven) else { return 0.0 };
         let (slope, end) = (self.law.stick_slope(), edge.height.max(knots[0].h));
         let begin = self.sense * self.from.u - slope * self.from.d;
-        // The front is at a height when the level of the edge is that of the old curve there.
+        // The front reaches a height when the limit line has the level of the old curve there.
         let depth =
             |level: f64| self.from.d + self.rise * ((level - begin) / (self.level - begin)).clamp(0.0, 1.0);
         let piece = |k: usize| {
             let (lower, upper) = (&knots[k - 1], &knots[k]);
             let energy = lower.beside(upper)[1] / (upper.h - lower.h);
             let lean = self.sense * slope * (upper.gain - upper.slope);
-            // Pieces are short: one place stands for each.
+            // Pieces are short, so the midpoint is sufficient.
             let low = lower.h.max(end);
             let middle = 0.5 * (low + upper.h);
             let level = upper.level(self.sense, slope) + self.rate(upper) * (upper.h - middle);
@@ -153,7 +146,7 @@ impl<'a> Sweep<'a> {
         self.law.tangential_modulus() * (first..=last).filter(is_uneven).map(piece).sum::<f64>()
     }
 
-    /// ∫q dm over one piece of the old curve, split where the edge of the contact ends up.
+    /// Returns ∫q dm over one piece of the old curve, split at the new edge of the contact.
     fn piece(&self, lower: &Knot, upper: &Knot, drag: f64) -> f64 {
         if upper.h <= lower.h {
             return 0.0;
@@ -169,14 +162,14 @@ impl<'a> Sweep<'a> {
         self.staying(lower, &middle, drag) + self.leaving(&middle, upper)
     }
 
-    /// How the dragging grows with height on the piece that ends in a knot.
+    /// Returns the derivative of the slip distance with respect to height, on the piece that ends in a knot.
     fn rate(&self, upper: &Knot) -> f64 {
         self.law.stick_slope() - self.sense * upper.slope
     }
 
-    /// Springs that end on the edge of the wedge, dragged by `drag` at the lower end of the piece. The drag is
-    /// carried upwards from the cut: taken from level and anchors it would not fit the heights to the last
-    /// place of κd, and q would not close.
+    /// Returns the work of springs that stay in contact. `drag` is the slip distance at the lower end of the piece.
+    ///
+    /// The slip distance is accumulated from the intersection upwards, to avoid the rounding of levels and rest positions.
     fn staying(&self, lower: &Knot, upper: &Knot, drag: f64) -> f64 {
         let rate = self.rate(upper);
         let tilt = |h: f64, drag: f64| -drag + (self.to.d - h) * rate - self.curl * drag * rate;
@@ -184,8 +177,7 @@ impl<'a> Sweep<'a> {
         strip(self.law.profile(), lower, upper, tilt(lower.h, drag), tilt(upper.h, beyond))
     }
 
-    /// Springs that leave the contact where the path crosses their height; on both sides of the old curve if
-    /// the path of a shrinking contact crosses it.
+    /// Returns the work of springs that leave the contact. The path of a shrinking contact may cross the old curve.
     fn leaving(&self, lower: &Knot, upper: &Knot) -> f64 {
         let path = self.travel / self.rise;
         let drag = |k: &Knot| self.from.u + (k.h - self.from.d) * path - k.p;
@@ -202,7 +194,8 @@ impl<'a> Sweep<'a> {
         self.leaving_one_way(lower, upper, below, beyond, rate)
     }
 
-    /// Springs that leave, all dragged in one sense: by `below` at the lower end of the piece, `beyond` at the upper one.
+    /// Returns the work of leaving springs that slip in one direction, by `below` at the lower and `beyond` at the upper end of the
+    /// piece.
     fn leaving_one_way(&self, lower: &Knot, upper: &Knot, below: f64, beyond: f64, rate: f64) -> f64 {
         let sense = if below + beyond >= 0.0 { 1.0 } else { -1.0 };
         let curl = curl(self.law, [self.rise, self.travel], sense);
@@ -210,22 +203,18 @@ impl<'a> Sweep<'a> {
     }
 }
 
-/// r = dd/dL for the edge of a sense, along a chord.
+/// Returns r = dd/dL for the limit line of a direction, along a straight path.
 fn curl(law: &Interface, [rise, travel]: [f64; 2], sense: f64) -> f64 {
     let climb = sense * travel - law.stick_slope() * rise;
     if rise == 0.0 || climb <= 0.0 { 0.0 } else { rise / climb }
 }
 
-/// Strips thinner than this share of their height are summed over m itself.
+/// Width relative to height below which a strip is integrated over m instead of differences of M and N.
 const THIN: f64 = 1.0 / 16.0;
 
-/// -∫q' m dh over a piece with q' linear between its values at the ends.
+/// Returns -∫q' m dh over a piece, with q' linear between its values at the ends.
 ///
-/// M and N are known to the last place of their value at the edge, which a thin strip does not forgive: a loop of
-/// amplitude U would have a relative error of ε(u_c/U)³, an edge that leaves by a last place of d all of its work.
-// Measured of a loop in a Hertzian contact, by differences alone: 1e-9 at U = 1e-2 u_c, 1e-6 at 1e-3, 6e-4 at 1e-4, 1.1 at 1e-5;
-// as it stands 8e-14, 5e-13, 6e-12, 3e-11. Quadrature everywhere would end its exactness: below 1/2 in place of 1/16 the loop
-// at 0.3 u_c is 1e-10 off instead of 1e-14.
+/// Differences of M and N lose accuracy on a thin strip: a loop of amplitude U would have a relative error of ε(u_c/U)³.
 fn strip(profile: &Profile, lower: &Knot, upper: &Knot, low: f64, high: f64) -> f64 {
     let width = upper.h - lower.h;
     if width < THIN * lower.h {

@@ -1,37 +1,36 @@
-//! A full stack: the knots that matter least go, a sixteenth of the stack at a time.
+//! Reduction of a full stack: a sixteenth of the knots is removed at once, those with the smallest effect.
 //!
-//! Without a knot two pieces are one, and anchors change by a triangle between the knot and the chord of its neighbours. With
-//! rises r₁, r₂ and swells ΔM₁, ΔM₂ of pieces of slopes k₁, k₂ the shear below a height changes by no more than
+//! Removing a knot merges two pieces. The rest positions change by the triangle between the knot and the chord of its neighbours. Let
+//! the pieces have the rises r₁, r₂, increments ΔM₁, ΔM₂ and slopes k₁, k₂. The shear integral changes by at most
 //!
-//! T = ∫|δp| dm = |k₂-k₁| |r₂ΔM₁ - r₁ΔM₂| / (r₁+r₂),
+//! T = ∫|δp| dm = |k₂-k₁| |r₂ΔM₁ - r₁ΔM₂| / (r₁+r₂), in m².
 //!
-//! in m², now and after any later move: an anchor is clamped by every move, which never widens a difference. Sums of the knots
-//! above follow, but where both pieces are of one path of growth: there they were integrated, and stay. Pieces of growth carry,
-//! beside what their slopes give, what the path between their ends has added; what of that is shared out anew is booked, too.
+//! The bound holds after any later move, because a move never enlarges a difference of rest positions. The integrals of the knots
+//! above change accordingly. If both pieces belong to one growth path, the integrals were computed along the path and remain. The
+//! redistributed difference between path and chord is recorded as an error, too.
 
 use super::knot::Knot;
 use super::stack::SlopeRange;
 use super::{Curve, Merged};
 use crate::{Apex, Interface};
 
-/// Part of the stack that goes at once.
-// One at a time looks through the whole stack for every knot that is laid down. With a sixteenth, of which at least half go
-// where the least are all neighbours, a knot laid down costs two looks at no more than 32 others, however deep the stack.
+/// Fraction of the stack that is removed at once: one in 16 knots.
+// Removing several knots at once keeps the cost per added knot constant for any size of the stack.
 const SHARE: usize = 16;
-/// So many knots are found by looking for the least of all, more by counting classes.
+/// Largest number of knots that is selected by insertion; a larger number is selected by a histogram of classes.
 const FEW: usize = 8;
-/// Classes of triangles by their power of two: as many as a double has exponents.
-// An order of all triangles would ask for room beside the stack, at a moment when nothing may be allocated.
+/// Number of classes of triangles: one per exponent of a double.
+// A sort would have to allocate memory.
 const CLASSES: usize = 2048;
 
-/// Which knots may still go: all of lower classes than one, and some of that.
+/// Knots that may be removed: all of lower classes than `class`, and `of_class` of that class.
 struct Quota {
     class: usize,
     of_class: usize,
     left: usize,
 }
 
-/// Two pieces in a row, each knot on the one before.
+/// Two consecutive pieces.
 struct Joint {
     base: Knot,
     middle: Knot,
@@ -39,16 +38,16 @@ struct Joint {
 }
 
 impl Curve {
-    /// Gives up a sixteenth of the knots, those whose triangles are least to within a factor of two, and books what each
-    /// changes. Of two neighbours one stays until the next time.
-    // Giving up the oldest instead books 0.32 of the limit force over a decay of 40 000 swings by a stack of 64, and this
-    // 2.5e-5: the first swings are the largest, and the centre remembers them longest.
+    /// Removes a sixteenth of the knots, those with the smallest triangles to within a factor of two, and records the error.
+    ///
+    /// Of two neighbouring knots only one is removed at a time.
+    // Removing the oldest knots instead would cause a much larger error, because they belong to the largest amplitudes.
     pub(super) fn thin(&mut self, law: &Interface) {
         let mut quota = self.quota();
         let (count, apex) = (self.knots.len(), self.apex);
         let Some(&first) = self.knots.first() else { return };
         let mut merged = self.merged;
-        // What a knot stood on, and how many have been kept: no more than have been looked at.
+        // `below` is the old knot below knot `i`, and `kept` the number of knots kept so far.
         let (mut below, mut kept, mut i) = (first, 1, 1);
         while i < count {
             let (base, old) = (self.knots[kept - 1], self.knots[i]);
@@ -72,7 +71,7 @@ impl Curve {
         self.merged = merged;
     }
 
-    /// What to give up.
+    /// Determines which knots to remove.
     fn quota(&self) -> Quota {
         let left = (self.capacity / SHARE).max(1);
         if left <= FEW {
@@ -94,8 +93,8 @@ impl Curve {
 }
 
 impl Curve {
-    /// The same for a small stack, of which no more than [`FEW`] go.
-    // Eight least of sixty by insertion take 700 instructions, the count of all classes 12 000: too long for a frame of real time.
+    /// Determines which knots to remove from a small stack, at most [`FEW`].
+    // Insertion is faster than the histogram here.
     fn quota_of_few(&self, left: usize) -> Quota {
         let mut least = [CLASSES; FEW];
         let least = &mut least[..left];
@@ -114,7 +113,7 @@ impl Curve {
 }
 
 impl Quota {
-    /// Whether a knot of a triangle goes; it then counts.
+    /// Returns whether a knot with this triangle is removed, and counts it.
     fn takes(&mut self, triangle: f64) -> bool {
         let class = class(triangle);
         let goes = self.left > 0 && (class < self.class || class == self.class && self.of_class > 0);
@@ -127,9 +126,9 @@ impl Quota {
 }
 
 impl Knot {
-    /// The same knot on another base than the one it stood on: at its height, of other sums.
+    /// Returns the knot on a changed base: at the same height, with updated integrals.
     fn moved(&self, from: &Self, to: &Self) -> Self {
-        // To the last bit as it was, where nothing has changed below.
+        // If nothing has changed below, the knot stays identical to the last bit.
         if from.shear == to.shear && from.square == to.square {
             return *self;
         }
@@ -137,7 +136,7 @@ impl Knot {
         Self { square: moved.square + from.beside(self)[1], joined: self.joined, ..moved }
     }
 
-    /// What a piece of growth that starts here has beside what its slope gives: in shear, and in square beside its gain.
+    /// Returns the difference between a growth path and its chord: in the shear integral and in the energy integral.
     pub(super) fn beside(&self, end: &Self) -> [f64; 2] {
         if !end.is_uneven() {
             return [0.0; 2];
@@ -148,14 +147,14 @@ impl Knot {
 }
 
 impl Joint {
-    /// Both pieces as one, and what that changes booked.
+    /// Merges both pieces and records the error.
     fn merge(&self, law: &Interface, apex: Apex, merged: &mut Merged) -> Knot {
         let Self { base, middle, end } = self;
         let (lower, upper) = (middle.h - base.h, end.h - middle.h);
         let inner = middle.reduced_force - base.reduced_force;
         let (outer, swell) =
             (end.reduced_force - middle.reduced_force, end.reduced_force - base.reduced_force);
-        // From slopes and not from anchors: of a contact that has travelled far those have lost digits.
+        // Slopes are used because rest positions lose digits after a long displacement.
         let slope = (middle.slope * lower + end.slope * upper) / (lower + upper);
         let triangle = (end.slope - middle.slope) * (upper * inner - lower * outer) / (lower + upper);
         let ([first, energy], [second, more]) = (base.beside(middle), middle.beside(end));
@@ -165,7 +164,7 @@ impl Joint {
         let (shear, square) =
             if middle.joined { (end.shear, end.square) } else { (whole.shear, whole.square + energy + more) };
 
-        // What the path has added goes with M now, over the whole of it.
+        // The difference between path and chord is now distributed in proportion to M over both pieces.
         let shared = (gain - slope) * inner - first;
         let step = law.tangential_modulus() * (triangle.abs() + shared.abs());
         let stretch = [base, middle, end].map(|knot| (apex.u - knot.p).abs()).into_iter().fold(0.0, f64::max);
@@ -176,12 +175,12 @@ impl Joint {
     }
 }
 
-/// Twice the area, m², by which the anchors change without the middle one of three knots.
+/// Returns twice the area, m², by which the rest positions change if the middle one of three knots is removed.
 fn triangle(a: &Knot, b: &Knot, c: &Knot) -> f64 {
     ((c.slope - b.slope) * (b.h - a.h) * (c.h - b.h)).abs()
 }
 
-/// Class of a triangle: the exponent of the double. Not negative, so that no sign stands above it.
+/// Returns the class of a triangle: the exponent of the double, which is not negative.
 fn class(triangle: f64) -> usize {
     ((triangle.to_bits() >> 52) as usize).min(CLASSES - 1)
 }

@@ -1,7 +1,6 @@
-//! What a move would give; nothing moves.
+//! Trial evaluations of a move, which leave the memory unchanged.
 //!
-//! A trial asks for force and tangents and makes no knot; a preview asks for everything and makes those that a commit would.
-//! Both read the committed curve alone: any number of them, in any order, leave the next one the same to the last bit.
+//! A trial returns force and derivatives. A preview also returns energies and state. Both functions read only the committed curve.
 
 use super::cut::Drag;
 use super::front::Front;
@@ -10,15 +9,15 @@ use super::{Curve, sweep};
 use crate::{Apex, Interface, Move, Outcome, Response};
 
 impl Curve {
-    /// Force and tangents that a move would give. Costs the pieces that the move would cut, usually one.
-    // 36 to 39 ns with 5 knots as with 3 002 (a preview 74 to 89): stacks are read from the top, and nobody searches them.
+    /// Returns force and derivatives at the end of a move. The cost is proportional to the number of pieces that the move would
+    /// remove, usually one.
     pub fn trial(&self, law: &Interface, to: Move) -> Response {
         match to {
             Move::Grown { to, force } => {
                 Response { force, stiffness: law.stick_stiffness(to.d), coupling: 0.0 }
             }
             Move::Chord(to) => {
-                // An open contact touches on the way: its curve is the point where it does.
+                // The curve of an open contact is the point at which the path touches.
                 let touch;
                 let knots = match &self.knots[..] {
                     [] => {
@@ -32,7 +31,7 @@ impl Curve {
         }
     }
 
-    /// F_x that a chord would give, N: [`Self::trial`] without its tangents.
+    /// Returns the tangential force F_x at the end of a straight path, N: [`Self::trial`] without derivatives.
     #[inline]
     pub fn force_at(&self, law: &Interface, to: Apex) -> f64 {
         let Some(top) = self.knots.last() else { return self.trial(law, Move::Chord(to)).force };
@@ -45,8 +44,7 @@ impl Curve {
         law.tangential_modulus() * shear
     }
 
-    /// Everything that a chord would give, its friction work included.
-    // By reading, without a copy of the memory: 92 ns where a clone that commits takes 197, and allocates.
+    /// Returns force, energies and state at the end of a straight path, including the friction work.
     pub fn preview(&self, law: &Interface, to: Apex) -> Outcome {
         let touch = [self.touching(to)];
         let knots = if self.knots.is_empty() { &touch[..] } else { &self.knots[..] };
@@ -71,7 +69,7 @@ impl Curve {
     }
 }
 
-/// Force and tangents at the end of a chord from a curve of at least one knot.
+/// Returns force and derivatives at the end of a straight path, for a curve of at least one knot.
 #[inline]
 fn respond(law: &Interface, knots: &[Knot], to: Apex) -> Response {
     let top = &knots[knots.len() - 1];

@@ -1,4 +1,4 @@
-//! The memory curve as plain words.
+//! Serialization of the memory curve.
 
 use super::front::Front;
 use super::knot::Knot;
@@ -7,12 +7,12 @@ use super::{Curve, Merged};
 use crate::words::{Words, push};
 use crate::{Apex, Interface};
 
-/// Words of a knot.
+/// Number of words of a knot.
 const KNOT: usize = 7;
 
 impl Curve {
-    /// Writes the state.
-    // The capacity is the curve's own and no constant of the model: a curve goes on merging as it did.
+    /// Writes the state of the curve.
+    // The capacity belongs to the state, because it determines later merges.
     pub(crate) fn write(&self, words: &mut Vec<u64>) {
         words.reserve(10 + KNOT * self.knots.len());
         words.push(self.capacity as u64);
@@ -24,7 +24,7 @@ impl Curve {
         self.knots.iter().for_each(|knot| knot.write(words));
     }
 
-    /// Reads what [`Self::write`] wrote.
+    /// Reads a state that [`Self::write`] wrote.
     pub(crate) fn read(law: &Interface, words: &mut Words<'_>) -> Option<Self> {
         let capacity = usize::try_from(words.word()?).ok()?;
         let apex = words.apex()?;
@@ -33,7 +33,7 @@ impl Curve {
         let merged = Merged { knots: words.tally()?, force: words.finite()?, energy: words.finite()? };
         let count = words.count(capacity)?;
         let knots = (0..count).map(|_| Knot::read(law, words)).collect::<Option<Vec<_>>>()?;
-        // Less would not leave a merge three knots to choose from.
+        // A smaller capacity would leave too few knots for a merge.
         let roomy = capacity >= Self::LEAST_CAPACITY;
         let sense = [-1.0, 0.0, 1.0].contains(&front.sense);
         (roomy && sense && is_curve(&knots, apex)).then_some(Self {
@@ -47,8 +47,9 @@ impl Curve {
     }
 }
 
-/// Whether knots are those of a contact that stands at an apex: none while it is open; else from the centre outwards, the
-/// apex the last of them. Edges are sought, cut and dragged in the trust that it is so.
+/// Returns whether the knots form a valid curve at an apex.
+///
+/// An open contact has no knots. Otherwise the heights ascend from 0, and the last knot is the apex.
 fn is_curve(knots: &[Knot], apex: Apex) -> bool {
     let [first, .., last] = knots else { return knots.is_empty() && apex.d <= 0.0 };
     apex.d > 0.0
@@ -63,7 +64,7 @@ impl Knot {
         words.push(u64::from(self.joined));
     }
 
-    /// M and N are those of the profile at the height, as they were when the knot was made.
+    /// Reads a knot. M and N are recomputed from the profile.
     fn read(law: &Interface, words: &mut Words<'_>) -> Option<Self> {
         let [h, p, slope, gain, shear, square] = [(); 6].map(|()| words.finite());
         let h = h?;

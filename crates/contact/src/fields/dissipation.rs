@@ -1,13 +1,13 @@
-//! Where friction does its work: the local form of (4.40)–(4.42).
+//! Local friction work per area, the local form of (4.40)–(4.42).
 //!
-//! While an edge of the wedge of sense σ drags the curve, its level L = σu - κd rises and the front at which it leaves the old
-//! curve moves inwards, to the radius c. In the ring c < r < a the surfaces then slide over each other by
+//! While the contact slips in direction σ, the level L = σu - κd increases and the slip front moves inwards to the radius c. In the
+//! ring c < r < a the surfaces slide over each other by
 //!
 //! σ ds = (2/π) arccos(c/r) dL,
 //!
-//! whatever the old curve is: d(u - u(r)) with u(r) by superposition (4.35), in which the front's own motion drops out. Under
-//! p(r; d) that is work μ p ds per area. At constant d the sum over a piece of the old curve is a difference of normal
-//! deflections, exact; where d moves meanwhile, it is an integral over the angle arccos(c/r), in which it is smooth.
+//! for any slip memory. The formula follows from the superposition (4.35), in which the motion of the front cancels. The work per
+//! area is μ p ds with the pressure p(r; d). At constant d the sum over a piece of the memory is an exact difference of normal
+//! deflections. For a changing d it is an integral over the angle arccos(c/r), whose integrand is smooth.
 
 use super::Kernel;
 use super::kernel::Rim;
@@ -16,15 +16,15 @@ use crate::quadrature::kronrod;
 use crate::{Apex, Interface, Memory, Profile, Segment};
 use std::f64::consts::FRAC_2_PI;
 
-/// Error of the work at a place where the indentation changes, of that of the mean pressure along the whole way.
-// The estimate compares rules of 7 and of 15 points: what is left is far below.
+/// Error tolerance of the work at changing indentation, relative to that of the mean pressure over the full slip distance.
+// The error estimate compares rules of 7 and 15 points and is larger than the true error.
 const ACCURACY: f64 = 1e-7;
-/// The same where each pressure is a quadrature itself.
+/// Error tolerance if each pressure is itself a quadrature.
 const ACCURACY_BY_QUADRATURE: f64 = 1e-5;
-/// Most halvings of the integral.
+/// Largest number of bisections of the integral.
 const DEEPEST: u32 = 24;
 
-/// Friction work per area at some distances from the axis, summed over a history.
+/// Friction work per area at given radii, accumulated over a history.
 #[derive(Debug, Clone, PartialEq)]
 pub struct FrictionMap {
     radii: Vec<f64>,
@@ -32,39 +32,39 @@ pub struct FrictionMap {
     way: Vec<f64>,
 }
 
-/// A part of a chord in which the edge leaves one piece of the old curve, or all slips.
+/// Part of a straight path in which the limit line removes one piece of the old curve, or with gross slip.
 struct Drag {
-    /// Level of the edge at its beginning and its end, m.
+    /// Levels of the limit line at start and end, m.
     level: [f64; 2],
-    /// Indentation there, m.
+    /// Indentations at start and end, m.
     depth: [f64; 2],
-    /// Height of the front there, m; none in gross slip.
+    /// Heights of the slip front at start and end, m; `None` in gross slip.
     front: Option<[f64; 2]>,
 }
 
 impl FrictionMap {
-    /// At these radii, m, before anything has slipped.
+    /// Creates the map at given radii, m, with zero work.
     pub fn new(radii: Vec<f64>) -> Self {
         let zeros = vec![0.0; radii.len()];
         Self { work: zeros.clone(), way: zeros, radii }
     }
 
-    /// The radii, m.
+    /// Returns the radii, m.
     pub fn radii(&self) -> &[f64] {
         &self.radii
     }
 
-    /// Friction work per area so far, J/m².
+    /// Returns the accumulated friction work per area, J/m².
     pub fn work(&self) -> &[f64] {
         &self.work
     }
 
-    /// Way that the surfaces have slid over each other so far, to and fro, m.
+    /// Returns the accumulated sliding distance of the surfaces in both directions, m.
     pub fn way(&self) -> &[f64] {
         &self.way
     }
 
-    /// Adds what a segment will do that the memory is about to commit. Nothing for a list of springs, which has no radii.
+    /// Adds the work of a segment that will be committed to `memory`. A list of springs has no radii, so nothing is added.
     pub fn follow(&mut self, law: &Interface, memory: &Memory, segment: Segment) {
         let (to, from) = (segment.end(), memory.apex());
         let Some(kernel) = Kernel::of(law.profile()) else { return };
@@ -72,7 +72,7 @@ impl FrictionMap {
             return;
         }
         let (pieces, centre) = pieces::of(law, memory);
-        // What is open touches on the way, with the displacement that it has there; what opens ends there.
+        // The path begins at first touch for an open contact, and ends where the contact opens.
         let crossing = |d: f64| Apex { d, u: from.u + (to.u - from.u) * (d - from.d) / (to.d - from.d) };
         let start = if from.d < 0.0 { crossing(0.0) } else { from };
         let end = if to.d < 0.0 { crossing(0.0) } else { to };
@@ -87,15 +87,15 @@ impl FrictionMap {
     }
 }
 
-/// The curve before a chord.
+/// Memory curve before a straight path.
 struct Old<'a> {
     pieces: &'a [Piece],
-    /// Anchor in the centre, m.
+    /// Rest position in the centre, m.
     centre: f64,
 }
 
 impl Old<'_> {
-    /// Corners (h, p), m, from the centre to the edge.
+    /// Returns the knots (h, p), m, from the centre to the edge.
     fn corners(&self) -> Vec<(f64, f64)> {
         let mut p = self.centre;
         let next = self.pieces.iter().map(|piece| {
@@ -105,14 +105,14 @@ impl Old<'_> {
         std::iter::once((0.0, self.centre)).chain(next).collect()
     }
 
-    /// The parts of a chord in which something slips.
+    /// Returns the parts of a straight path in which the contact slips.
     fn drags(&self, limit: f64, from: Apex, to: Apex) -> Vec<Drag> {
         let (rise, travel) = (to.d - from.d, to.u - from.u);
         let mut drags = Vec::new();
         if travel.abs() > -limit * rise.min(-rise) && travel != 0.0 {
             self.drag(limit, travel.signum(), [from, to], &mut drags);
         } else if rise < 0.0 {
-            // Both edges close in: the side of the old curve on which the path runs drags, and the path may cross the curve.
+            // If both limit lines would slip, the side of the old curve decides, and the path may cross the curve.
             let corners = self.corners();
             let mut apex = from;
             let path = |d: f64| from.u + travel * (d - from.d) / rise;
@@ -136,14 +136,14 @@ impl Old<'_> {
                 (Some((low, p)), Some((high, q))) => to.u - (p + (q - p) * (to.d - low) / (high - low)),
                 _ => travel,
             };
-            // A path along the curve itself drags by rounding alone.
+            // A path along the curve itself slips by rounding only.
             let sense = if beside == 0.0 { 1.0 } else { beside.signum() };
             self.drag(limit, sense, [apex, to], &mut drags);
         }
         drags
     }
 
-    /// The parts of a chord along which one edge drags.
+    /// Adds the parts of a straight path with slip in one direction.
     fn drag(&self, limit: f64, sense: f64, [from, to]: [Apex; 2], drags: &mut Vec<Drag>) {
         let level = |h: f64, p: f64| sense * p - limit * h;
         let ends = [level(from.d, from.u), level(to.d, to.u)];
@@ -171,7 +171,7 @@ impl Old<'_> {
 }
 
 impl Drag {
-    /// Work per area (J/m²) and way (m) at a radius.
+    /// Returns the work per area, J/m², and the sliding distance, m, at a radius.
     fn at(&self, law: &Interface, kernel: &Kernel<'_>, r: f64) -> (f64, f64) {
         let (profile, limit) = (law.profile(), law.friction() * law.normal_modulus());
         let here = Rim { h: profile.depth(r), x: r };
@@ -180,12 +180,12 @@ impl Drag {
         let steady = part.depth[0] == part.depth[1];
         let rise = part.level[1] - part.level[0];
         let depth_at = |share: f64| part.depth[0] + (part.depth[1] - part.depth[0]) * share;
-        // Work is wanted to a share of what the deepest contact would do by the whole way.
+        // The tolerance is relative to the work at the largest indentation over the full distance.
         let deepest = part.depth[0].max(part.depth[1]);
         let accuracy = if matches!(kernel, Kernel::Any(_)) { ACCURACY_BY_QUADRATURE } else { ACCURACY };
         let wanted = accuracy * deepest / profile.radius(deepest) * rise;
         let Some(front) = part.front else {
-            // d = g(r) + τ²: a place that begins to touch is pressed like a root.
+            // Substitution d = g(r) + τ², because the pressure rises like a root at first touch.
             let roots = part.depth.map(|d| (d - here.h).max(0.0).sqrt());
             let (low, high) = (roots[0].min(roots[1]), roots[0].max(roots[1]));
             let mean = if steady || pressure(deepest) == f64::INFINITY {
@@ -196,7 +196,7 @@ impl Drag {
                 adaptive([low, high], wanted * (deepest - here.h) / rise, DEEPEST, &by_root)
                     / (part.depth[0] - part.depth[1]).abs()
             };
-            // Nothing times an infinite pressure is nothing.
+            // Without friction the work is 0, even at an infinite pressure.
             return (if limit * rise > 0.0 { limit * mean * rise } else { 0.0 }, rise);
         };
         let [outer, inner] = front.map(|h| Rim { h, x: profile.radius(h) });
@@ -220,10 +220,10 @@ impl Drag {
         (limit * work, way)
     }
 
-    /// What of it happens while a place touches; none if it never does.
+    /// Returns the part in which the radius is in contact; `None` if it never is.
     fn touching(&self, profile: &Profile, here: Rim) -> Option<Self> {
         let [from, to] = self.depth;
-        // The share at which the indentation passes the gap there.
+        // The fraction of the path at which the indentation equals the height g(r).
         let touches = |d: f64| profile.radius(d) > here.x;
         let cross = ((here.h - from) / (to - from)).clamp(0.0, 1.0);
         let shares = match [from, to].map(touches) {
@@ -238,12 +238,12 @@ impl Drag {
     }
 }
 
-/// ∫f over a range, halved until what each half is off is below its share of `wanted`.
+/// Integrates f over a range by bisection until the error estimate is below `wanted`.
 fn adaptive(range: [f64; 2], wanted: f64, halvings: u32, f: &impl Fn(f64) -> f64) -> f64 {
     let (value, error) = kronrod(range, f);
-    // Where both rules nearly agree the finer one is far better than their difference: QUADPACK's rule for that.
+    // QUADPACK's error estimate: if both rules nearly agree, the finer one is much better than their difference.
     let error = error * (200.0 * error / value.abs()).sqrt().min(1.0);
-    // Under a tip the pressure has no bound, and no halving makes it one.
+    // The pressure below a sharp tip is unbounded.
     if error <= wanted || halvings == 0 || !value.is_finite() {
         return value;
     }

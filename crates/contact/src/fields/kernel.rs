@@ -1,32 +1,32 @@
-//! What a frictionless contact does to the surface, per indentation: of it every field of a contact with friction is a sum.
+//! Pressure and surface displacement of a frictionless contact; the fields with friction are superpositions of these.
 
 use super::power::PowerField;
 use super::smooth::{self, Estimate};
 use crate::Profile;
 use std::f64::consts::{FRAC_1_PI, FRAC_2_PI};
 
-/// A height h of the foundation and the radius x that is reached there.
+/// Height h of the foundation and the contact radius x at this height.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Rim {
-    /// h, m.
+    /// Height h, m.
     pub(super) h: f64,
-    /// x with g(x) = h, m.
+    /// Radius x with g(x) = h, m.
     pub(super) x: f64,
 }
 
-/// How the integrals over a profile are taken.
+/// Method for the integrals over a profile.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) enum Kernel<'a> {
-    /// A flat punch: every height has its radius, m.
+    /// Flat punch of a radius, m: closed forms.
     Flat(f64),
-    /// A power law: closed forms.
+    /// Power law: closed forms.
     Power(Box<PowerField>),
-    /// Any other: quadrature.
+    /// Other profile: quadrature.
     Any(&'a Profile),
 }
 
 impl<'a> Kernel<'a> {
-    /// Of a profile; none for a list of springs and a normal law, which have no shape in three dimensions.
+    /// Returns the method for a profile; `None` for a list of springs and a normal law, which define no shape in three dimensions.
     pub(super) fn of(profile: &'a Profile) -> Option<Self> {
         if !profile.has_shape() {
             return None;
@@ -38,7 +38,7 @@ impl<'a> Kernel<'a> {
         })
     }
 
-    /// Pressure over E\* at r of a contact pressed to a rim: (1/π) ∫ᵣˣ g'/√(ξ²-r²) dξ (4.34); 0 beyond the rim.
+    /// Returns the pressure over E\* at r of a contact pressed to a rim: (1/π) ∫ᵣˣ g'/√(ξ²-r²) dξ (4.34); 0 beyond the rim.
     pub(super) fn pressure(&self, rim: Rim, r: f64) -> Estimate {
         if r >= rim.x || rim.h <= 0.0 {
             return (0.0, 0.0);
@@ -51,7 +51,7 @@ impl<'a> Kernel<'a> {
         (FRAC_1_PI * value, FRAC_1_PI * error)
     }
 
-    /// The same of one rim less that of a lower one, both above r, where each for itself may be infinite.
+    /// Returns the difference of [`Self::pressure`] of two rims, also where each of the two pressures is infinite.
     pub(super) fn pressure_between(&self, low: Rim, high: Rim, r: f64) -> Estimate {
         if low.h > 0.0 && low.x > r {
             let between = match self {
@@ -67,8 +67,9 @@ impl<'a> Kernel<'a> {
         (upper.0 - lower.0, upper.1 + lower.1)
     }
 
-    /// w(r), m: displacement of the surface by a contact pressed to a rim: h - f(r) inside,
-    /// (2/π) ∫₀ˣ arcsin(ξ/r) dg outside (4.36).
+    /// Returns the surface displacement w(r), m, of a contact pressed to a rim.
+    ///
+    /// Inside the rim w = h - f(r); outside w = (2/π) ∫₀ˣ arcsin(ξ/r) dg (4.36).
     pub(super) fn deflection(&self, profile: &Profile, rim: Rim, r: f64) -> Estimate {
         if rim.h <= 0.0 {
             return (0.0, 0.0);

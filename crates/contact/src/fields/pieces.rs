@@ -1,25 +1,24 @@
-//! The straight pieces of the memory curve, by radius.
+//! Linear pieces of the memory curve as functions of the radius.
 
 use super::kernel::Rim;
 use crate::{Interface, Memory};
 
-/// A straight piece of the curve p(h).
+/// Linear piece of the curve p(h).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Piece {
     pub(super) from: Rim,
     pub(super) to: Rim,
-    /// dp/dh.
+    /// Slope dp/dh.
     pub(super) slope: f64,
-    /// Force per ΔM as a share of the limit's, G\*γ/(μE\*), in [-1, 1]: the slope over κ, or the mean of a curved path of
-    /// growth.
+    /// Force per ΔM relative to the friction limit, G\*γ/(μE\*), in [-1, 1]: the slope over κ, or the mean over a curved growth path.
     pub(super) share: f64,
 }
 
-/// How near to the slope of the limit a piece was laid by slip.
-// As for the curve's own edge: far above rounding, far below what any growth leaves.
+/// Relative tolerance at which a slope counts as the friction limit, so that the piece was made by slip.
+// Far above rounding, and far below the slopes that growth leaves.
 pub(super) const LAID_BY_SLIP: f64 = 1e-9;
 
-/// The pieces from the centre to the edge, neighbours of one slope as one, and the anchor in the centre, m.
+/// Returns the pieces from the centre to the edge, with neighbours of equal slope merged, and the rest position in the centre, m.
 pub(super) fn of(law: &Interface, memory: &Memory) -> (Vec<Piece>, f64) {
     let limit = law.stick_slope();
     let share = |slope: f64| if limit > 0.0 { (slope / limit).clamp(-1.0, 1.0) } else { 0.0 };
@@ -46,7 +45,7 @@ pub(super) fn of(law: &Interface, memory: &Memory) -> (Vec<Piece>, f64) {
             for (h, p) in corners {
                 if h > last.0 {
                     let slope = (p - last.1) / (h - last.0);
-                    // Each is clamped for itself, so that slopes at the limit are so but for rounding.
+                    // Each spring of a row is limited individually, so slopes at the limit have rounding errors.
                     let at_limit = slope.abs() >= limit * (1.0 - LAID_BY_SLIP);
                     let slope = if at_limit { limit.copysign(slope) } else { slope };
                     push(last.0, h, slope, slope);

@@ -1,47 +1,46 @@
-//! Power laws in three dimensions: closed forms for whole exponents, series that never cancel for the others.
+//! Fields of power-law profiles: closed forms for integer exponents, series without cancellation for others.
 //!
-//! Of g = B|x|ⁿ pressed to the radius a, h = Baⁿ:
+//! For g = B|x|ⁿ pressed to the radius a, h = Baⁿ:
 //!
-//! * ∫ᵣᵃ g'/√(x²-r²) dx = (nh/a) jₙ(r/a), jₙ(ρ) = ∫_ρ¹ xⁿ⁻¹/√(x²-ρ²) dx (4.34), with
-//!   (n-1) jₙ = √(1-ρ²) + (n-2)ρ² jₙ₋₂, j₁ = artanh √(1-ρ²), j₂ = √(1-ρ²);
-//! * w = h ωₙ(a/r) beyond the contact, ωₙ(s) = (2/π) ∫₀ˢ (1-(x/s)ⁿ)/√(1-x²) dx (4.36).
+//! * ∫ᵣᵃ g'/√(x²-r²) dx = (nh/a) jₙ(r/a), jₙ(ρ) = ∫_ρ¹ xⁿ⁻¹/√(x²-ρ²) dx (4.34), with (n-1) jₙ = √(1-ρ²) + (n-2)ρ² jₙ₋₂, j₁ = artanh
+//!   √(1-ρ²), j₂ = √(1-ρ²);
+//! * w = h ωₙ(a/r) outside the contact, ωₙ(s) = (2/π) ∫₀ˢ (1-(x/s)ⁿ)/√(1-x²) dx (4.36).
 
 use crate::profile::kappa;
 use crate::quadrature::kronrod;
 use std::f64::consts::FRAC_2_PI;
 
-/// Largest whole exponent that is reached by the recurrence.
-// A step takes 1 ns; beyond, the series is as fast.
+/// Largest integer exponent for which the recurrence is used.
 const WHOLE: f64 = 64.0;
-/// The middle of the range of ρ = r/a: quadrature over the outer part, a series over the inner one.
-// At 1/2 fifteen nodes err by less than 1e-16, and terms of the series fall by a factor of four.
+/// Limit of ρ = r/a between quadrature (above) and series (below).
+// At 1/2 the 15-point rule has an error below 1e-16, and the terms of the series decrease by a factor of four.
 const MIDDLE: f64 = 0.5;
-/// Exponent that one panel of the quadrature is good for, to 1e-14.
+/// Largest exponent for which one quadrature panel is accurate to 1e-14.
 const STEEP: f64 = 10.0;
-/// The recurrence for ωₙ loses 1/sⁿ in digits: the least sⁿ for it.
+/// Smallest sⁿ for the recurrence of ωₙ, which loses accuracy as 1/sⁿ.
 const LEAST: f64 = 1e-2;
-/// Most panels.
+/// Largest number of panels.
 const MOST: f64 = 100.0;
-/// Terms of the series at [`MIDDLE`]: 4⁻²⁶ = 2e-16.
+/// Number of terms of the series at [`MIDDLE`]: 4⁻²⁶ = 2e-16.
 const TERMS: usize = 26;
 
-/// One power law g = B|x|ⁿ, with what its integrals have in common.
+/// Power law g = B|x|ⁿ with precomputed constants.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct PowerField {
-    /// n.
+    /// Exponent n.
     exponent: f64,
-    /// jₙ(1/2), of exponents that are not whole.
+    /// Value jₙ(1/2) for non-integer exponents.
     inner: f64,
-    /// The exponent, where it is whole and not too large.
+    /// Exponent, if it is an integer of at most [`WHOLE`].
     whole: Option<u32>,
-    /// κₙ of f = g/κₙ (4.20).
+    /// Factor κₙ of f = g/κₙ (4.20).
     kappa: f64,
     /// Coefficients of (π/2) ωₙ(s)/s in s².
     far: [f64; TERMS],
 }
 
 impl PowerField {
-    /// Of the exponent n > 0.
+    /// Creates the field of an exponent n > 0.
     pub(super) fn new(exponent: f64) -> Self {
         let whole = (exponent.fract() == 0.0 && exponent <= WHOLE).then_some(exponent as u32);
         let (mut far, mut term) = ([0.0; TERMS], 1.0);
@@ -57,36 +56,35 @@ impl PowerField {
         field
     }
 
-    /// f = g/κₙ, m.
+    /// Returns the gap f = g/κₙ, m.
     pub(super) fn gap(&self, depth: f64) -> f64 {
         depth / self.kappa
     }
 
-    /// ∫ g'/√(x²-r²) dx from r to x > r ≥ 0, dimensionless; `h` = g(x), m. At r = 0 infinite for n ≤ 1.
+    /// Returns ∫ g'/√(x²-r²) dx from r to x > r ≥ 0, dimensionless, with `h` = g(x), m. At r = 0 it is infinite for n ≤ 1.
     #[inline]
     pub(super) fn slope_integral(&self, h: f64, x: f64, r: f64) -> f64 {
         self.exponent * h / x * self.moment(r, x)
     }
 
-    /// The same between two radii above r, of heights (`low`, `high`): where the lower one is not below r no singularity is
-    /// between them.
+    /// Returns the same integral between two radii above r, given as pairs (h, x). The result is finite for every r.
     #[inline]
     pub(super) fn slope_between(&self, low: (f64, f64), high: (f64, f64), r: f64) -> f64 {
         if r > 0.0 || self.exponent > 1.0 {
             return self.slope_integral(high.0, high.1, r) - self.slope_integral(low.0, low.1, r);
         }
-        // n ∫ Bxⁿ⁻² dx where each of the two is infinite.
+        // n ∫ Bxⁿ⁻² dx, for r = 0 and n ≤ 1.
         let (n, ratio) = (self.exponent, math::ln(high.1 / low.1));
         let e = n - 1.0;
         let steps = if e == 0.0 { ratio } else { -math::exp_m1(-e * ratio) / e };
         n * high.0 / high.1 * steps
     }
 
-    /// jₙ(r/x).
+    /// Returns jₙ(r/x).
     #[inline]
     fn moment(&self, r: f64, x: f64) -> f64 {
         let rho = r / x;
-        // From the difference of the radii: 1 - ρ² would lose half of its digits at the edge.
+        // The product of sum and difference avoids cancellation at the edge.
         let root = ((x - r) * (x + r)).sqrt() / x;
         match self.whole {
             Some(2) => root,
@@ -96,13 +94,13 @@ impl PowerField {
         }
     }
 
-    /// jₙ(ρ) = ∫₀^Y (ρ²+y²)^{(n-2)/2} dy, Y = √(1-ρ²): smooth as long as Y is no more than √3 ρ.
+    /// Returns jₙ(ρ) = ∫₀^Y (ρ²+y²)^{(n-2)/2} dy with Y = √(1-ρ²), by quadrature. The integrand is smooth for Y ≤ √3 ρ.
     fn outer(&self, rho: f64) -> f64 {
         let (root, half) = (((1.0 - rho) * (1.0 + rho)).sqrt(), 0.5 * self.exponent - 1.0);
         self.panels([0.0, root], |y| math::powf(rho * rho + y * y, half))
     }
 
-    /// ∫f over a range in as many panels as a steep power needs.
+    /// Integrates f over a range in a number of panels that depends on the exponent.
     fn panels(&self, [from, to]: [f64; 2], f: impl Fn(f64) -> f64) -> f64 {
         let panels = (self.exponent / STEEP).ceil().clamp(1.0, MOST);
         let step = (to - from) / panels;
@@ -110,8 +108,9 @@ impl PowerField {
         (0..panels as u32).map(panel).sum()
     }
 
-    /// jₙ(ρ) = ∫_{2ρ}¹ + ∫_ρ^{2ρ}: the second is (2ρ)ⁿ⁻¹ jₙ(1/2), the first Σ cₖ ρ²ᵏ (1-(2ρ)ᵉ)/e with e = n-1-2k,
-    /// 1/√(1-t) = Σ cₖ tᵏ.
+    /// Returns jₙ(ρ) = ∫_{2ρ}¹ + ∫_ρ^{2ρ} by a series.
+    ///
+    /// The second integral is (2ρ)ⁿ⁻¹ jₙ(1/2). The first is Σ cₖ ρ²ᵏ (1-(2ρ)ᵉ)/e with e = n-1-2k and 1/√(1-t) = Σ cₖ tᵏ.
     fn series(&self, rho: f64) -> f64 {
         let n = self.exponent;
         if rho == 0.0 {
@@ -120,12 +119,12 @@ impl PowerField {
         let (double, square) = (rho / MIDDLE, rho * rho);
         let (fade, log) = (math::powf(double, n - 1.0), math::ln(double));
         let mut sum = fade * self.inner;
-        // cₖρ²ᵏ, and cₖρ²ᵏ(2ρ)ᵉ: the latter falls by 1/4 from term to term.
+        // Terms cₖρ²ᵏ, and cₖρ²ᵏ(2ρ)ᵉ, which decrease by a factor of 4.
         let (mut term, mut lower) = (1.0, fade);
         for k in (0..TERMS).map(|k| k as f64) {
             let e = n - 1.0 - 2.0 * k;
             sum += match e.abs() {
-                // Where e is next to nothing both ends are nearly the same.
+                // For small e both ends are nearly equal.
                 0.0 => -term * log,
                 tiny if tiny < 0.1 => -term * math::exp_m1(e * log) / e,
                 _ => (term - lower) / e,
@@ -136,7 +135,7 @@ impl PowerField {
         sum
     }
 
-    /// ωₙ(s), s = a/r ≤ 1.
+    /// Returns ωₙ(s), s = a/r ≤ 1.
     pub(super) fn outside(&self, s: f64) -> f64 {
         let n = self.exponent;
         if s <= MIDDLE {
@@ -148,7 +147,7 @@ impl PowerField {
         {
             return FRAC_2_PI * whole_outside(whole, s);
         }
-        // ∫(1-(sin φ/s)ⁿ)dφ up to sin φ = s: from the middle on all is smooth, what is below is the series'.
+        // ∫(1-(sin φ/s)ⁿ)dφ up to sin φ = s: quadrature above [`MIDDLE`], series below.
         let (from, to) = (math::asin(MIDDLE), math::asin(s));
         let inside = MIDDLE / s;
         let share = |phi: f64| 1.0 - math::powf(math::sin(phi) / s, n);
@@ -159,7 +158,7 @@ impl PowerField {
     }
 }
 
-/// arcsin s - Kₙ/sⁿ with Kₙ = ∫₀^{arcsin s} sinⁿ, n Kₙ = (n-1) Kₙ₋₂ - sⁿ⁻¹√(1-s²), of a whole exponent.
+/// Returns (π/2) ωₙ(s) for an integer n: arcsin s - Kₙ/sⁿ with Kₙ = ∫₀^{arcsin s} sinⁿ, n Kₙ = (n-1) Kₙ₋₂ - sⁿ⁻¹√(1-s²).
 fn whole_outside(n: u32, s: f64) -> f64 {
     let (angle, cosine) = (math::asin(s), ((1.0 - s) * (1.0 + s)).sqrt());
     // Kₘ/sᵐ.
@@ -171,7 +170,7 @@ fn whole_outside(n: u32, s: f64) -> f64 {
     angle - share
 }
 
-/// jₙ of a whole exponent.
+/// Returns jₙ(ρ) for an integer n, with `root` = √(1-ρ²).
 fn whole_moment(n: u32, rho: f64, root: f64) -> f64 {
     let square = rho * rho;
     let (mut moment, from) = if n % 2 == 1 { (math::ln((1.0 + root) / rho), 3) } else { (root, 4) };

@@ -1,24 +1,24 @@
-//! Any profile in three dimensions, by quadrature from its foundation g(x), with an estimate of the error.
+//! Fields of any profile, by quadrature over its foundation g(x), with an error estimate.
 //!
-//! Where g or its slope is not smooth, at 0 and at the [borders](crate::Profile) of the profile, g' may grow like 1/√(x-b)
-//! just outside. Between two of them x² = b² + s² takes that away, and s = δ sinh t the singularity at r, which lies δ before
-//! or after b in squares, however small δ is.
+//! At 0 and at the [borders](crate::Profile) b of the profile, g or its slope is not smooth, and g' may grow like 1/√(x-b). Between
+//! two borders the substitution x² = b² + s² removes this singularity. The substitution s = δ sinh t removes the singularity at r,
+//! where δ² = |b² - r²|.
 
 use crate::Profile;
 use crate::quadrature::kronrod;
 use std::f64::consts::FRAC_2_PI;
 
-/// Of a place on a border the distance, as a share of the radius, from which on inwards the integrand is a power of it.
+/// Relative distance from a border below which the integrand is treated as a power of the distance.
 const ON_BORDER: f64 = 1e-9;
-/// What the distance is divided by to learn of that power.
+/// Factor between the two distances from which the power is determined.
 const CLOSER: f64 = 1e3;
-/// Least power of an integral that is taken for finite.
+/// Smallest power at which an integral counts as finite.
 const LEAST_POWER: f64 = 1e-3;
 
-/// A value and an estimate of its error.
+/// Value and estimate of its error.
 pub(super) type Estimate = (f64, f64);
 
-/// ∫ᵣˣ g'(ξ)/√(ξ²-r²) dξ, dimensionless, r < x; infinite at a tip or where a worn edge was.
+/// Returns ∫ᵣˣ g'(ξ)/√(ξ²-r²) dξ, dimensionless, for r < x; infinite at a sharp tip and at the border of a flat.
 pub(super) fn slope_integral(profile: &Profile, x: f64, r: f64) -> Estimate {
     let borders = profile.borders();
     let first = borders.partition_point(|border| *border <= r);
@@ -29,12 +29,12 @@ pub(super) fn slope_integral(profile: &Profile, x: f64, r: f64) -> Estimate {
     for (i, pair) in ends.windows(2).enumerate() {
         let (low, high) = (pair[0], pair[1]);
         let span = ((high - low) * (high + low)).sqrt();
-        // Distance, in squares, of the other of r and the border.
+        // Distance δ, in squares, between r and the border.
         let other = if i == 0 { below } else { r };
         let delta = ((low - other) * (low + other)).sqrt();
         let at = |s: f64| (low * low + s * s).sqrt();
         let part = if i > 0 {
-            // r lies below this border: dξ/√(ξ²-r²) = s dt/ξ.
+            // r is below this border: dξ/√(ξ²-r²) = s dt/ξ.
             by_logarithm(delta, span, |s, _| profile.depth_slope(at(s)) * s / at(s))
         } else if delta > 0.0 {
             by_logarithm(delta, span, |s, rate| profile.depth_slope(at(s)) / at(s) * rate)
@@ -46,7 +46,7 @@ pub(super) fn slope_integral(profile: &Profile, x: f64, r: f64) -> Estimate {
     total
 }
 
-/// The same from one radius to another, both above r: finite wherever r lies.
+/// Returns the same integral between two radii above r; it is finite for every r.
 pub(super) fn slope_between(profile: &Profile, [from, to]: [f64; 2], r: f64) -> Estimate {
     let inside = profile.borders().iter().copied().filter(|border| *border > from && *border < to);
     let ends: Vec<f64> = std::iter::once(from).chain(inside).chain([to]).collect();
@@ -61,8 +61,9 @@ pub(super) fn slope_between(profile: &Profile, [from, to]: [f64; 2], r: f64) -> 
     total
 }
 
-/// ∫ h(s) ds/s from 0 to `span`, h ~ sᵉ below `delta`: h/e from there, the rest in panels of about a unit of ln s. Infinite
-/// where h does not fade.
+/// Returns ∫ h(s) ds/s from 0 to `span`, with h ~ sᵉ below `delta`; infinite if h does not approach 0.
+///
+/// The part below `delta` is h/e. The rest is integrated in panels of about one unit of ln s.
 fn from_border(delta: f64, span: f64, h: impl Fn(f64) -> f64) -> Estimate {
     let [near, nearer] = [h(delta), h(delta / CLOSER)];
     let power = math::ln(near / nearer) / math::ln(CLOSER);
@@ -83,7 +84,7 @@ fn from_border(delta: f64, span: f64, h: impl Fn(f64) -> f64) -> Estimate {
     total
 }
 
-/// ∫₀ˣ arcsin(ξ/r) dg, m, x ≤ r.
+/// Returns ∫₀ˣ arcsin(ξ/r) dg, m, for x ≤ r.
 pub(super) fn arc_integral(profile: &Profile, x: f64, r: f64) -> Estimate {
     let inside = profile.borders().iter().copied().take_while(|border| *border < x);
     let ends: Vec<f64> = std::iter::once(0.0).chain(inside).chain([x]).collect();
@@ -93,7 +94,7 @@ pub(super) fn arc_integral(profile: &Profile, x: f64, r: f64) -> Estimate {
         let middle = 0.5 * (low + high);
         let at = |s: f64| (low * low + s * s).sqrt();
         let span = ((middle - low) * (middle + low)).sqrt();
-        // At the lower end g' may be singular, at the upper one arcsin.
+        // g' may be singular at the lower end, arcsin at the upper end.
         let lower = kronrod([0.0, span], |s| {
             let x = at(s);
             math::asin((x / r).min(1.0)) * profile.depth_slope(x) * s / x
@@ -107,7 +108,7 @@ pub(super) fn arc_integral(profile: &Profile, x: f64, r: f64) -> Estimate {
     total
 }
 
-/// f(r), m: what a foundation is in three dimensions, by Abel's inversion f = g - (2/π) ∫₀ʳ arcsin(x/r) dg.
+/// Returns the gap f(r), m, by Abel's inversion f = g - (2/π) ∫₀ʳ arcsin(x/r) dg.
 pub(super) fn gap(profile: &Profile, r: f64) -> Estimate {
     if r <= 0.0 {
         return (0.0, 0.0);
@@ -116,7 +117,7 @@ pub(super) fn gap(profile: &Profile, r: f64) -> Estimate {
     (profile.depth(r) - FRAC_2_PI * integral, error)
 }
 
-/// ∫f(s, ds/dt) dt over s = δ sinh t from 0 to `span`, in panels of about a unit of t.
+/// Integrates f(s, ds/dt) over t with s = δ sinh t from 0 to `span`, in panels of about one unit of t.
 fn by_logarithm(delta: f64, span: f64, f: impl Fn(f64, f64) -> f64) -> Estimate {
     let end = math::asinh(span / delta);
     let panels = end.ceil().max(1.0);

@@ -1,34 +1,35 @@
-//! The rings of a contact: what sticks, what slips, and where earlier slip is frozen in.
+//! Rings of a contact that stick or slip.
 
 use super::Fields;
 use super::pieces::LAID_BY_SLIP;
 use crate::ContactState;
 
-/// What the springs of a ring do.
+/// State of the springs in a ring.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum ZoneKind {
-    /// They stick, and have since they touched.
+    /// The springs stick and have not slipped since they touched.
     Stick,
-    /// They stick as an earlier slip in this direction (+1 or -1) has left them: it is frozen in.
+    /// The springs stick, with the stretch distribution of an earlier slip in this direction (+1 or -1).
     Frozen(i8),
-    /// They slip in this direction.
+    /// The springs slip in this direction (+1 or -1).
     Slip(i8),
 }
 
-/// A ring of a contact.
+/// Ring of a contact.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Zone {
     /// Inner radius, m.
     pub from: f64,
     /// Outer radius, m.
     pub to: f64,
-    /// What goes on there.
+    /// State of the springs.
     pub kind: ZoneKind,
 }
 
 impl Fields<'_> {
-    /// The rings from the centre to the edge; none while the contact is open. At most one of them slips, the outermost: limits
-    /// fall with height, so that slip goes from the edge inwards whatever the history was.
+    /// Returns the rings from the centre to the edge; empty for an open contact.
+    ///
+    /// At most the outermost ring slips, because the friction limit decreases with height.
     pub fn zones(&self) -> Vec<Zone> {
         let mut zones: Vec<Zone> = Vec::new();
         let slips = matches!(self.state, ContactState::Partial | ContactState::Slip);

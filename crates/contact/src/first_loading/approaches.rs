@@ -1,21 +1,21 @@
-//! What a first loading comes to by other ways than the difference of two normal forces: each of them tests the others.
+//! Independent computations of a first loading, as tests of the difference of two normal forces (4.38).
 
 use super::FirstLoading;
 use crate::quadrature::kronrod;
 use crate::{Apex, Curve, Interface, Outcome};
 
-/// Error of the integral, of μF_N.
+/// Error tolerance of the integral, relative to μF_N.
 const ACCURACY: f64 = 1e-14;
-/// Most halvings of a piece between two borders of the profile.
+/// Largest number of bisections of a part between two borders of the profile.
 const DEEPEST: u32 = 40;
 
 impl FirstLoading {
-    /// `F_x` as the integral of the line load over the springs (4.39), N, and an estimate of its error:
+    /// Returns `F_x` as the integral of the line load over the springs (4.39), N, and an estimate of its error.
     ///
-    /// `F_x` = 2 ∫₀ᵃ q_x dx with q_x = μE\*[d-g(c)] inside c, μE\*[d-g(x)] outside (4.31), by quadrature from g alone. A sum
-    /// over the springs of a list. An interface that is [pressed on a row](Interface::on_springs) is taken as its profile.
-    // From g and not from its slope: F_x = 2μE* ∫ xg' dx is the same after an integration by parts, and not to be had of profiles
-    // whose slope is not.
+    /// `F_x` = 2 ∫₀ᵃ q_x dx with q_x = μE\*[d-g(c)] for x < c and q_x = μE\*[d-g(x)] for x > c (4.31). The quadrature uses g only.
+    /// For a list of springs the integral is a sum. An interface [on a row of springs](Interface::on_springs) is evaluated with its
+    /// profile.
+    // g' is not used, because some profiles have none.
     pub fn force_by_integral(&self, law: &Interface) -> (f64, f64) {
         let slope = law.stick_slope();
         if self.d <= 0.0 || slope == 0.0 || self.u == 0.0 {
@@ -35,7 +35,7 @@ impl FirstLoading {
         let wanted = ACCURACY * self.d * self.a;
         let (mut sum, mut error) = ((self.d - core) * self.c, 0.0);
         for pair in ends.windows(2) {
-            // x = from + width·t²(3-2t): roots at either end, where a border is, are smooth in t.
+            // The substitution x = from + width·t²(3-2t) makes root singularities at both ends smooth.
             let (from, width) = (pair[0], pair[1] - pair[0]);
             let smooth = |t: f64| load(from + width * t * t * (3.0 - 2.0 * t)) * 6.0 * t * (1.0 - t) * width;
             let part = adaptive([0.0, 1.0], wanted, DEEPEST, &smooth);
@@ -44,16 +44,16 @@ impl FirstLoading {
         (2.0 * limit * sum, (2.0 * limit * error).abs())
     }
 
-    /// What the memory curve makes of it: force, elastic energy of the tangential deformation and friction work, which is (4.42)
-    /// 2G\*κ² ∫_c^a (d-g)(g-g(c)) dx up to the onset of gross slip, and μ`F_N` for every metre beyond.
+    /// Returns force, tangential elastic energy and friction work from the memory curve.
     ///
-    /// The work is summed over what slips, not taken from a difference of energies, so that little of it is as exact as much.
+    /// Up to the onset of gross slip the friction work is 2G\*κ² ∫_c^a (d-g)(g-g(c)) dx (4.42). In gross slip each metre adds μ`F_N`.
+    /// The work is integrated over the slip zone, so that small amounts are accurate, too.
     pub fn outcome(&self, law: &Interface) -> Outcome {
         Curve::new(law, Apex { d: self.d, u: 0.0 }).preview(law, Apex { d: self.d, u: self.u })
     }
 }
 
-/// ∫f over a range, halved until what is off is below its share of `wanted`.
+/// Integrates f over a range by bisection until the error estimate is below `wanted`.
 fn adaptive(range: [f64; 2], wanted: f64, halvings: u32, f: &impl Fn(f64) -> f64) -> (f64, f64) {
     let (value, error) = kronrod(range, f);
     if error <= wanted || halvings == 0 {
@@ -73,7 +73,7 @@ mod tests {
         Interface::new(Pair::from_moduli(3.0, 2.0).unwrap(), profile, 0.3).unwrap()
     }
 
-    /// First loading of a profile to a depth and a share of `u_c`.
+    /// First loading of a profile, at a depth and a fraction of `u_c`.
     fn loaded(law: &Interface, d: f64, share: f64) -> FirstLoading {
         let u = TangentialGiven::Displacement(share * law.gross_slip_displacement(d));
         FirstLoading::solve(law, NormalGiven::Indentation(d), u).unwrap()
@@ -114,7 +114,7 @@ mod tests {
             let got = loading.outcome(&law).friction;
             assert!((got - scale * bracket).abs() <= 1e-15 * scale, "{share}: {got:e} {:e}", scale * bracket);
         }
-        // Beyond gross slip every metre costs μF_N.
+        // In gross slip each metre costs μF_N.
         let [at, beyond] = [1.0, 1.5].map(|share| loaded(&law, 3e-3, share));
         let more = law.friction() * at.normal_force * (beyond.u - at.u);
         let work = beyond.outcome(&law).friction - at.outcome(&law).friction;

@@ -1,53 +1,54 @@
-//! What a circle at which a profile has its border brings into the foundation beyond it: with w = √(x²-b²) the angle
-//! φ = arctan(w/b) = arccos(b/x), its complement ψ = arcsin(b/x), and y = arsinh(w/b), of which φ is the Gudermannian.
+//! Functions of a profile with a border, a circle of radius b at which f is not smooth.
+//!
+//! With w = √(x²-b²): φ = arctan(w/b) = arccos(b/x), its complement ψ = arcsin(b/x), and y = arsinh(w/b). φ is the Gudermannian of y.
 
 use std::f64::consts::FRAC_PI_2;
 
-/// A place x ≥ b beyond a border b, by w: near the border x itself has no digits left for what lies beyond.
+/// Position x ≥ b beyond a border b, stored as w = √(x²-b²), because x - b loses digits near the border.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Place {
-    /// b, m.
+    /// Radius b of the border, m.
     pub(super) border: f64,
-    /// √(x²-b²), m.
+    /// Distance w = √(x²-b²), m.
     pub(super) w: f64,
-    /// x, m.
+    /// Position x, m.
     pub(super) x: f64,
-    /// φ = arctan(w/b).
+    /// Angle φ = arctan(w/b).
     pub(super) angle: f64,
 }
 
 impl Place {
-    /// The place of a given w.
+    /// Creates the position from w.
     pub(super) fn beyond(border: f64, w: f64) -> Self {
         Self { border, w, x: math::hypot(border, w), angle: math::atan2(w, border) }
     }
 
-    /// The place x > b.
+    /// Creates the position from x > b.
     pub(super) fn at(border: f64, x: f64) -> Self {
         let w = ((x - border) * (x + border)).sqrt();
         Self { border, w, x, angle: math::atan2(w, border) }
     }
 
-    /// ψ = π/2 - φ.
+    /// Returns ψ = π/2 - φ.
     pub(super) fn complement(&self) -> f64 {
         math::atan2(self.border, self.w)
     }
 
-    /// x - b, m.
+    /// Returns x - b, m.
     pub(super) fn excess(&self) -> f64 {
         self.w * (self.w / (self.x + self.border))
     }
 
-    /// y = arsinh(w/b).
+    /// Returns y = arsinh(w/b).
     pub(super) fn hyperbolic(&self) -> f64 {
         math::asinh(self.w / self.border)
     }
 }
 
-/// Largest y of the series in y: the terms left out are 1e-17 there.
+/// Largest y of the power series, with a truncation error of 1e-17.
 const SERIES_END: f64 = 0.8;
 
-/// E₂ₖ/(2k+2)!, Eₙ the Euler numbers (DLMF 24.2): ∫₀^y gd = Σ of them times y^{2k+2}, |y| < π/2.
+/// Coefficients E₂ₖ/(2k+2)! of ∫₀^y gd = Σ E₂ₖ y^{2k+2}/(2k+2)!, |y| < π/2, with the Euler numbers Eₙ (DLMF 24.2).
 const EULER: [f64; 24] = [
     0.5,
     -0.041666666666666664,
@@ -78,10 +79,10 @@ const EULER: [f64; 24] = [
 /// Catalan's constant.
 const CATALAN: f64 = 0.915_965_594_177_219;
 
-/// K(y) = ∫₀^y gd(t) dt = ∫₀^φ t/cos t dt, y ≥ 0.
+/// Returns the integral of the Gudermannian function K(y) = ∫₀^y gd(t) dt = ∫₀^φ t/cos t dt, y ≥ 0.
 ///
-/// Beyond the series gd(t) = π/2 - 2 arctan e⁻ᵗ: K = πy/2 - 2G + 2Ti₂(e⁻ʸ), G Catalan's constant, Ti₂(z) = Σ(-1)ᵏz^{2k+1}/(2k+1)²
-/// the inverse tangent integral (Lewin, *Polylogarithms*, 1981, chapter 2).
+/// For large y, gd(t) = π/2 - 2 arctan e⁻ᵗ. Hence K = πy/2 - 2G + 2Ti₂(e⁻ʸ), where G is Catalan's constant and Ti₂(z) =
+/// Σ(-1)ᵏz^{2k+1}/(2k+1)² the inverse tangent integral (Lewin, *Polylogarithms*, 1981, chapter 2).
 pub(super) fn gudermann_integral(y: f64) -> f64 {
     if y <= SERIES_END {
         let square = y * y;
@@ -89,7 +90,7 @@ pub(super) fn gudermann_integral(y: f64) -> f64 {
     }
     let z = math::exp(-y);
     let (square, mut power, mut sum, mut odd) = (z * z, z, 0.0, 1.0);
-    // 21 terms at the end of the series, fewer beyond.
+    // At most 21 terms.
     while f64::abs(power) > 1e-18 {
         sum += power / (odd * odd);
         power *= -square;
@@ -98,11 +99,11 @@ pub(super) fn gudermann_integral(y: f64) -> f64 {
     FRAC_PI_2 * y - 2.0 * CATALAN + 2.0 * sum
 }
 
-/// N R²/b⁵ of f″ = 1/R beyond a border b with g = x(w + bα)/R, M = [(4/3)w³ + b²w + bx²α]/R, dα/dx = -b/(xw): α = -φ where the
-/// profile is flat inside, ψ where it is a cone of the slope b/R.
+/// Returns N R²/b⁵ of a profile with f″ = 1/R beyond a border b.
 ///
-/// N = ∫M dg, integrated by parts three times: (8/15)x⁵ - (5/6)x³ + (5/12)x - 7/60 + x³α²/3 + αP + (yφ - K)/12 in units of b, with
-/// P = (5/6)x³w - xw/4 + y/12. From w = b on at least: below, terms of the size of b cancel where α = -φ.
+/// The profile has g = x(w + bα)/R and M = [(4/3)w³ + b²w + bx²α]/R with dα/dx = -b/(xw). α = -φ for a flat inside the border, and
+/// α = ψ for a cone of slope b/R. Three integrations by parts of N = ∫M dg give (8/15)x⁵ - (5/6)x³ + (5/12)x - 7/60 + x³α²/3 + αP +
+/// (yφ - K)/12 with P = (5/6)x³w - xw/4 + y/12, in units of b. Valid for w ≥ b; below, terms cancel for α = -φ.
 pub(super) fn curved_beyond(place: &Place, alpha: f64) -> f64 {
     let (x, w, y) = (place.x / place.border, place.w / place.border, place.hyperbolic());
     let square = x * x;
@@ -131,7 +132,7 @@ mod tests {
         for (y, want) in table {
             approx::assert_relative_eq!(gudermann_integral(y), want, max_relative = 4e-15);
         }
-        // For small y it is y²/2, for large ones πy/2 less 2G.
+        // For small y the integral is y²/2, for large y it is πy/2 - 2G.
         approx::assert_relative_eq!(gudermann_integral(1e-9), 0.5e-18, max_relative = 1e-15);
         approx::assert_relative_eq!(gudermann_integral(1e9), 1e9 * FRAC_PI_2, max_relative = 1e-8);
     }

@@ -1,8 +1,7 @@
-//! A profile in panels: contact radius and height are cubics of one parameter, panel by panel, and all that follows from them
-//! is exact: M = 2∫a dh and N = ∫M dh are polynomials of the same parameter.
+//! Profile as a sequence of panels, for tables of points and normal laws.
 //!
-//! A table of points and a normal law come to this. With the three integrals in step with each other forces, energies and
-//! friction work close like those of a closed form, whatever the panels miss of the true shape.
+//! In each panel, contact radius and height are cubic polynomials of one parameter. M = 2∫a dh and N = ∫M dh are then exact
+//! polynomials of the same parameter. Because m, M and N are consistent, energy balances close to rounding.
 
 use super::Sums;
 use super::kind::{Kind, Peak};
@@ -11,74 +10,74 @@ use super::outline::Outline;
 use crate::ContactError;
 use crate::quadrature::GAUSS;
 
-/// Panels by ascending height, from the height 0 on.
+/// Panels in order of height, from height 0.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Chart {
-    /// Height at which each begins, m, ascending.
+    /// Height at the start of each panel, m, ascending.
     heights: Vec<f64>,
-    /// Radius at which each ends, m, not falling.
+    /// Radius at the end of each panel, m, not decreasing.
     ends: Vec<f64>,
     panels: Vec<Panel>,
-    /// What stands at the end of the last.
+    /// Integrals m, M and N at the end of the last panel.
     last: Sums,
-    /// Its height, m.
+    /// Height at the end of the last panel, m.
     reach: f64,
-    /// Radii above 0 at which a quadrature is to be parted, m, ascending.
+    /// Radii above 0 at which a quadrature must be split, m, ascending.
     borders: Vec<f64>,
     /// Whether the radius jumps from one panel to the next.
     has_jumps: bool,
-    /// The shape in three dimensions, where there is one.
+    /// Shape in three dimensions, if there is one.
     outline: Option<Outline>,
 }
 
-/// A panel: cubics of s in [0, 1] and what follows from them, lowest power first.
+/// Panel: polynomials of s in [0, 1], with coefficients from the lowest power on.
 #[derive(Debug, Clone, PartialEq)]
 struct Panel {
-    /// a, m.
+    /// Contact radius a, m.
     radius: [f64; 4],
-    /// h, m.
+    /// Height h, m.
     height: [f64; 4],
-    /// M, m².
+    /// Reduced force M, m².
     force: [f64; 7],
-    /// N, m³.
+    /// Reduced energy N, m³.
     energy: [f64; 10],
 }
 
-/// Both ends of a panel, each with the derivatives to s, 0 ≤ s ≤ 1.
+/// Values at both ends of a panel, with derivatives with respect to s.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Ends {
-    /// a, m.
+    /// Contact radii a, m.
     pub(super) radius: [f64; 2],
     pub(super) radius_slope: [f64; 2],
-    /// h, m.
+    /// Heights h, m.
     pub(super) height: [f64; 2],
     pub(super) height_slope: [f64; 2],
 }
 
-/// The cubic with these values and slopes at 0 and 1, its slopes cut so that it does not fall between values that do not (Fritsch and
-/// Carlson, SIAM J. Numer. Anal. 17, 1980).
+/// Returns the cubic polynomial with given values and slopes at 0 and 1. The slopes are limited so that the polynomial does not
+/// decrease (Fritsch and Carlson, SIAM J. Numer. Anal. 17, 1980).
 pub(super) fn rising_cubic([from, to]: [f64; 2], slopes: [f64; 2]) -> [f64; 4] {
     let rise = to - from;
     let [start, end] = slopes.map(|slope| slope.clamp(0.0, 3.0 * rise));
     [from, start, 3.0 * rise - 2.0 * start - end, start + end - 2.0 * rise]
 }
 
-/// Σ cₖsᵏ.
+/// Returns the polynomial Σ cₖsᵏ.
 pub(super) fn value<const N: usize>(c: &[f64; N], s: f64) -> f64 {
     c.iter().rev().fold(0.0, |sum, c| sum * s + c)
 }
 
-/// Its derivative.
+/// Returns the derivative of the polynomial.
 fn slope<const N: usize>(c: &[f64; N], s: f64) -> f64 {
     (1..N).rev().fold(0.0, |sum, k| sum * s + k as f64 * c[k])
 }
 
-/// ∫ factor · p · h′ ds from a start on, h a cubic.
+/// Returns the polynomial start + factor · ∫ p · h′ ds, for a cubic h.
 fn integral<const P: usize, const I: usize>(start: f64, factor: f64, p: &[f64; P], h: &[f64; 4]) -> [f64; I] {
     let mut result = [0.0; I];
     for (i, p) in p.iter().enumerate() {
         for (k, h) in h.iter().enumerate().skip(1) {
-            // k h sᵏ⁻¹ p sⁱ, integrated.
+            // Integral of k h sᵏ⁻¹ p sⁱ.
             let power = i + k;
             result[power] += factor * p * h * k as f64 / power as f64;
         }
@@ -87,20 +86,22 @@ fn integral<const P: usize, const I: usize>(start: f64, factor: f64, p: &[f64; P
     result
 }
 
-/// The s in [0, 1] at which a rising cubic takes a value between those at its ends.
+/// Returns the s in [0, 1] at which an increasing cubic polynomial has a given value.
 fn solve(c: &[f64; 4], wanted: f64) -> f64 {
     let rise = wanted - c[0];
     if rise <= 0.0 {
         return 0.0;
     }
-    // Of the parabola: the cubic's part is small in a panel.
+    // Root of the quadratic part; the cubic part is small in a panel.
     let guess = 2.0 * rise / (c[1] + (c[1] * c[1] + 4.0 * c[2] * rise).max(0.0).sqrt());
     between(guess, |s| (((c[3] * s + c[2]) * s + c[1]) * s - rise, slope(c, s)))
 }
 
 impl Chart {
-    /// Panels in ascending order, each beginning where the one before ends, the first at the height 0; at least one. Neither
-    /// radius nor height falls, and heights rise. `borders` are radii above 0 at which a quadrature is to be parted, m, ascending.
+    /// Creates the profile from at least one panel.
+    ///
+    /// Each panel begins where the one before ends, the first at height 0. Heights increase and radii do not decrease. `borders` are
+    /// radii above 0 at which a quadrature must be split, m, ascending.
     pub(super) fn new(ends: &[Ends], borders: Vec<f64>, outline: Option<Outline>) -> Self {
         let (mut force, mut energy) = (0.0, 0.0);
         let panel = |ends: &Ends| {
@@ -113,7 +114,7 @@ impl Chart {
         };
         let panels: Vec<Panel> = ends.iter().map(panel).collect();
         let (radius, reach) = ends.last().map_or((0.0, 0.0), |ends| (ends.radius[1], ends.height[1]));
-        // Rounding is no jump.
+        // Differences due to rounding are no jumps.
         let jumps = |pair: &[Ends]| pair[1].radius[0] > pair[0].radius[1] * (1.0 + 1e-6);
         Self {
             has_jumps: ends.windows(2).any(jumps),
@@ -127,16 +128,16 @@ impl Chart {
         }
     }
 
-    /// Fails where an indentation lies beyond the last point.
+    /// Fails if an indentation is beyond the last point.
     #[inline(never)]
     pub(super) fn check_end(&self, d: f64) -> Result<(), ContactError> {
-        // What a unit, a waveform at its crest and the inverses of M and g may leave of the last point. There all goes on straight.
+        // Tolerance for rounding in units, waveforms and inverse functions; the profile continues linearly there.
         const ROUNDING: f64 = 1e-12;
         let reach = self.reach;
         if d > reach * (1.0 + ROUNDING) { Err(ContactError::Beyond { d, reach }) } else { Ok(()) }
     }
 
-    /// The panel of a height and the place in it; none beyond the last.
+    /// Returns the panel of a height and the parameter in it; `None` beyond the last panel.
     fn at(&self, h: f64) -> Option<(&Panel, f64)> {
         if h >= self.reach {
             return None;
@@ -145,7 +146,7 @@ impl Chart {
         Some((panel, solve(&panel.height, h)))
     }
 
-    /// ∫ w m dh between two heights, w straight from a value with a slope: panel by panel, in which m is smooth.
+    /// Returns ∫ w m dh between two heights, for a linear w with start value and slope. Each panel is integrated separately.
     pub(super) fn moment(&self, [from, to]: [f64; 2], [start, slope]: [f64; 2]) -> f64 {
         let first = self.heights.partition_point(|height| *height <= from);
         let inside = self.heights[first..].iter().copied().take_while(|height| *height < to);
@@ -162,19 +163,19 @@ impl Chart {
         sum
     }
 
-    /// The panel of a radius within those reached and the place in it.
+    /// Returns the panel of a radius and the parameter in it; `None` beyond the last panel.
     fn of_radius(&self, a: f64) -> Option<(&Panel, f64)> {
         let panel = self.panels.get(self.ends.partition_point(|end| *end < a))?;
         Some((panel, solve(&panel.radius, a)))
     }
 
-    /// Number of panels.
+    /// Returns the number of panels.
     #[cfg(test)]
     pub(super) fn count(&self) -> usize {
         self.panels.len()
     }
 
-    /// The shape in three dimensions, where there is one.
+    /// Returns the shape in three dimensions, if there is one.
     pub(super) fn outline(&self) -> Option<&Outline> {
         self.outline.as_ref()
     }
@@ -199,7 +200,7 @@ impl Kind for Chart {
         }
     }
 
-    /// By halves among the panels and then in one of them: dM/ds = 2a dh/ds.
+    /// Searches the panel by bisection, and then solves in it with dM/ds = 2a dh/ds.
     fn height_of_reduced_force(&self, force: f64) -> f64 {
         if force >= self.last.reduced_force {
             return self.reach + (force - self.last.reduced_force) / self.last.reduced_stiffness;
@@ -220,7 +221,7 @@ impl Kind for Chart {
     fn depth_slope(&self, a: f64) -> f64 {
         let Some((panel, s)) = self.of_radius(a) else { return f64::INFINITY };
         let (rise, width) = (slope(&panel.height, s), slope(&panel.radius, s));
-        // Inside a flat there is no g to have a slope.
+        // Inside a flat the slope of g is not defined.
         if a <= panel.radius[0] && s == 0.0 || width == 0.0 { 0.0 } else { rise / width }
     }
 
@@ -237,7 +238,7 @@ impl Kind for Chart {
         Some(if outline.has_edges() { Peak::Unbounded } else { Peak::Between })
     }
 
-    /// Where the radius rises from 0 on throughout.
+    /// Returns whether the radius begins at 0 and increases throughout.
     fn is_strictly_convex(&self) -> bool {
         let mut before = 0.0;
         let starts = self.panels.first().is_some_and(|panel| panel.radius[0] == 0.0);
@@ -245,7 +246,7 @@ impl Kind for Chart {
         starts && self.ends.iter().all(rises)
     }
 
-    /// Of the first powers of s in the first panel: a ∝ sⁱ and h ∝ sᵏ make a ∝ h^{i/k}.
+    /// Returns 1 + i/k from the first powers in the first panel: a ∝ sⁱ and h ∝ sᵏ give a ∝ h^{i/k}.
     fn first_power(&self) -> f64 {
         let first = |c: &[f64; 4]| (0..4).find(|i| c[*i] != 0.0).unwrap_or(0) as f64;
         let Some(panel) = self.panels.first() else { return 1.0 };
@@ -257,7 +258,7 @@ impl Kind for Chart {
         self.has_jumps
     }
 
-    /// A normal law does at its points.
+    /// Returns whether the profile is a normal law with inner points.
     fn has_bends(&self) -> bool {
         self.outline.is_none() && !self.borders.is_empty()
     }

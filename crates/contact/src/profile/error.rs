@@ -1,118 +1,118 @@
-//! Why a profile is refused.
+//! Errors of profiles.
 
 use thiserror::Error;
 
-/// Why a profile cannot be built.
+/// Reason why a profile is invalid.
 #[derive(Debug, Clone, Copy, PartialEq, Error)]
 pub enum ProfileError {
-    /// A radius must be positive and finite, m.
+    /// The radius is not above 0 or not finite, m.
     #[error("expected a radius above 0 m, got {0}")]
     Radius(f64),
-    /// The radius of a flat must be positive and finite, m.
+    /// The radius of the flat is not above 0 or not finite, m.
     #[error("expected a flat of a radius above 0 m, got {0}")]
     Flat(f64),
-    /// The radius of a tip must be positive and finite, m.
+    /// The radius of the tip is not above 0 or not finite, m.
     #[error("expected a tip of a radius above 0 m, got {0}")]
     Tip(f64),
-    /// The slope of a cone must be positive and finite.
+    /// The slope of the cone is not above 0 or not finite.
     #[error("expected a slope above 0, got {0}")]
     Slope(f64),
-    /// The coefficient of a power law must be positive and finite, and so must its reciprocal.
+    /// The coefficient of the power law is not above 0, or it or its reciprocal is not finite.
     #[error("expected a coefficient above 0, got {0}")]
     Coefficient(f64),
-    /// The exponent of a power law must be positive and finite.
+    /// The exponent of the power law is not above 0 or not finite.
     #[error("expected an exponent above 0, got {0}")]
     Exponent(f64),
-    /// A coefficient of a sum of powers must be at least 0 and finite.
+    /// A coefficient of a sum of powers is below 0 or not finite.
     #[error("expected the coefficient of term {index} to be at least 0, got {value}")]
     TermCoefficient {
-        /// Index in the list, from 0.
+        /// Index of the term, from 0.
         index: usize,
-        /// What stands there.
+        /// Value given.
         value: f64,
     },
-    /// An exponent of a sum of powers must be positive and finite.
+    /// An exponent of a sum of powers is not above 0 or not finite.
     #[error("expected the exponent of term {index} to be above 0, got {value}")]
     TermExponent {
-        /// Index in the list, from 0.
+        /// Index of the term, from 0.
         index: usize,
-        /// What stands there.
+        /// Value given.
         value: f64,
     },
-    /// A sum of powers needs a term above zero.
+    /// The sum of powers has no coefficient above 0.
     #[error("expected at least one term with a coefficient above 0")]
     NoTerm,
-    /// A table needs two points.
+    /// The table has fewer than two points.
     #[error("expected at least two points, got {0}")]
     Points(usize),
-    /// A table has at most [`Profile::MAX_POINTS`](super::Profile::MAX_POINTS).
+    /// The table has more than [`Profile::MAX_POINTS`](super::Profile::MAX_POINTS) points.
     #[error("expected at most {max} points, got {0}", max = super::Profile::MAX_POINTS)]
     TooMany(usize),
-    /// A table begins where nothing is pressed: at (0, 0).
+    /// The first point of the table is not (0, 0).
     #[error("expected the first point at (0, 0), got ({radius}, {value})")]
     Origin {
-        /// Radius or indentation, m.
+        /// Radius or indentation given, m.
         radius: f64,
-        /// What is given there.
+        /// Value given.
         value: f64,
     },
-    /// Radii and indentations of a table rise and are finite.
+    /// Radii or indentations of the table do not increase or are not finite.
     #[error("expected point {index} to lie beyond the point before it")]
     Order {
-        /// Index in the list, from 0.
+        /// Index of the point, from 0.
         index: usize,
     },
-    /// f does not fall, and a normal force rises.
-    #[error("expected the value of point {index} not to fall below that of the point before it")]
+    /// The gap f of a table decreases, or a normal force does not increase.
+    #[error("expected a value of point {index} of at least that of the point before it")]
     Fall {
-        /// Index in the list, from 0.
+        /// Index of the point, from 0.
         index: usize,
     },
-    /// f must be above 0 somewhere.
+    /// The gap f is 0 at the last point.
     #[error("expected a gap above 0 at the last point")]
     NoRise,
-    /// A kink lies at a point between the first and the last.
+    /// A kink is not at a point between the first and the last.
     #[error("expected kink {index} at one of the points between the first and the last, got {value} m")]
     Kink {
-        /// Index in the list, from 0.
+        /// Index of the kink, from 0.
         index: usize,
-        /// What stands there, m.
+        /// Radius given, m.
         value: f64,
     },
-    /// The foundation of a profile that is far from convex does not rise: no contact of one circle belongs to it.
+    /// The profile is so far from convex that its one-dimensional profile g(x) does not increase.
     #[error(
-        "the profile bends down so far before point {index} that its one-dimensional equivalent g(x) does not rise up to {radius} m"
+        "the profile bends down too far before point {index}: its one-dimensional equivalent g(x) does not increase up to {radius} m"
     )]
     NotRising {
-        /// Index in the list, from 0.
+        /// Index of the point, from 0.
         index: usize,
         /// Radius of the point, m.
         radius: f64,
     },
-    /// The stiffness of a contact does not fall as it is pressed.
-    #[error("the force rises less steeply up to point {index} than before it")]
+    /// The contact stiffness of a normal law decreases with the indentation.
+    #[error("the force increases less steeply up to point {index} than before it")]
     Softening {
-        /// Index in the list, from 0.
+        /// Index of the point, from 0.
         index: usize,
     },
-    /// A height of a rough line must be finite, m.
+    /// A height of the rough line is not finite, m.
     #[error("expected a finite height {index}, got {value}")]
     LineHeight {
-        /// Index in the list, from 0.
+        /// Index of the height, from 0.
         index: usize,
-        /// What stands there.
+        /// Value given.
         value: f64,
     },
-    /// A rough line has at most [`Profile::MAX_HEIGHTS`](super::Profile::MAX_HEIGHTS).
+    /// The rough line has more than [`Profile::MAX_HEIGHTS`](super::Profile::MAX_HEIGHTS) heights.
     #[error("expected at most {max} heights, got {0}", max = super::Profile::MAX_HEIGHTS)]
     TooManyHeights(usize),
-    /// The distance of the heights of a rough line must be positive and finite, m.
+    /// The spacing of the rough line is not above 0 or not finite, m.
     #[error("expected a distance of heights above 0 m, got {0}")]
     Spacing(f64),
-    /// A foundation needs at least one spring.
+    /// The list of springs is empty.
     #[error("expected at least one height")]
     Empty,
-    /// Each height has its length.
+    /// The numbers of heights and lengths differ.
     #[error("expected a length for each of the {heights} heights, got {lengths}")]
     Unpaired {
         /// Number of heights.
@@ -120,25 +120,25 @@ pub enum ProfileError {
         /// Number of lengths.
         lengths: usize,
     },
-    /// A height must be finite and at least 0, m.
+    /// A height is below 0 or not finite, m.
     #[error("expected height {index} to be at least 0 m, got {value}")]
     Height {
-        /// Index in the list, from 0.
+        /// Index of the height, from 0.
         index: usize,
-        /// What stands there.
+        /// Value given.
         value: f64,
     },
-    /// A length must be positive and finite, m.
+    /// A length is not above 0 or not finite, m.
     #[error("expected length {index} to be above 0 m, got {value}")]
     Length {
-        /// Index in the list, from 0.
+        /// Index of the length, from 0.
         index: usize,
-        /// What stands there.
+        /// Value given.
         value: f64,
     },
 }
 
-/// The value if it is positive and finite, otherwise the error made from it.
+/// Returns the value if it is above 0 and finite, and otherwise the error made from it.
 pub(super) fn positive(value: f64, error: fn(f64) -> ProfileError) -> Result<f64, ProfileError> {
     if value > 0.0 && value.is_finite() { Ok(value) } else { Err(error(value)) }
 }

@@ -1,17 +1,17 @@
-//! The flat punch: all its foundation touches at once.
+//! Flat punch: the full width touches at once.
 
 use super::error::positive;
 use super::kind::{Kind, Peak};
 use super::{Profile, ProfileError, Shape};
 
-/// A flat punch of radius b, m.
+/// Flat punch of radius b, m.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Flat {
     radius: f64,
 }
 
 impl Profile {
-    /// A flat punch of radius b (m): g = 0 for |x| < b, so m = 2b at every h > 0.
+    /// Creates a flat punch of radius b (m): g = 0 for |x| < b, so m = 2b for every h > 0.
     pub fn flat(radius: f64) -> Result<Self, ProfileError> {
         Ok(Self { shape: Shape::Flat(Flat { radius: positive(radius, ProfileError::Radius)? }) })
     }
@@ -50,7 +50,7 @@ impl Kind for Flat {
         (r <= self.radius).then_some(0.0)
     }
 
-    /// At its edge.
+    /// Returns that the pressure is unbounded at the edge.
     fn peak(&self) -> Option<Peak> {
         Some(Peak::Unbounded)
     }

@@ -1,39 +1,39 @@
-//! A foundation given spring by spring: m, M and N are piecewise constant, straight and quadratic in h.
+//! Foundation given as a list of springs.
 //!
-//! m(h) = Σ lᵢ, M(h) = Σ lᵢ (h-hᵢ), N(h) = Σ lᵢ (h-hᵢ)²/2 over the springs with hᵢ < h.
+//! m(h) = Σ lᵢ, M(h) = Σ lᵢ (h-hᵢ) and N(h) = Σ lᵢ (h-hᵢ)²/2, over the springs with hᵢ < h. Between two heights they are constant,
+//! linear and quadratic.
 
 use super::kind::{Kind, Peak};
 use super::{Profile, ProfileError, Shape};
 
-/// Springs by ascending height, with the sums up to each.
+/// Springs in order of height, with the integrals m, M and N at each.
 ///
-/// Between two heights m is constant, so M and N follow from the sums at the lower one by adding positive
-/// terms: nothing cancels, however many springs there are.
+/// Between two heights M and N follow from the integrals at the lower one, by addition of positive terms, without cancellation.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Foundation {
     /// Heights, m, ascending.
     heights: Vec<f64>,
-    /// Length of each, m, above 0: a share of the contact's length, at whichever positions.
+    /// Length of each spring, m, above 0. The position of a spring does not affect forces.
     lengths: Vec<f64>,
-    /// Index in `heights` of each spring in the order given.
+    /// Index in `heights` of each spring in the given order.
     ranks: Vec<usize>,
-    /// Sums at each height, the spring of that height included in m.
+    /// Integrals at each height; m includes the spring of that height.
     sums: Vec<Sums>,
 }
 
-/// m, M and N at a height.
+/// Integrals m, M and N at a height.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(crate) struct Sums {
-    /// m, m.
+    /// Reduced stiffness m, m.
     pub(crate) reduced_stiffness: f64,
-    /// M, m².
+    /// Reduced force M, m².
     pub(crate) reduced_force: f64,
-    /// N, m³.
+    /// Reduced energy N, m³.
     pub(crate) reduced_energy: f64,
 }
 
 impl Sums {
-    /// At every height, in ascending order, from the lowest on; of heights that no indentation reaches there are none.
+    /// Computes the integrals at every finite height, for heights in ascending order.
     pub(crate) fn of(heights: &[f64], lengths: &[f64]) -> Vec<Self> {
         let (mut stiffness, mut force, mut energy) =
             (Compensated::default(), Compensated::default(), Compensated::default());
@@ -51,7 +51,7 @@ impl Sums {
         heights.iter().take_while(|height| height.is_finite()).zip(lengths).map(step).collect()
     }
 
-    /// The same `rise` (m) higher, below the next height: M is straight and N a parabola.
+    /// Returns the integrals at a height larger by `rise` (m), below the next spring: M is linear and N quadratic.
     #[inline]
     pub(crate) fn at(self, rise: f64) -> Self {
         Self {
@@ -62,26 +62,24 @@ impl Sums {
         }
     }
 
-    /// At a height h (m) above springs at `heights`, in ascending order, with the sums of each.
+    /// Returns the integrals at a height h (m), from ascending `heights` and the integrals at each.
     #[inline]
     pub(crate) fn below(sums: &[Self], heights: &[f64], h: f64) -> Self {
         let count = heights.partition_point(|&height| height < h).min(sums.len());
         if count == 0 { Self::default() } else { sums[count - 1].at(h - heights[count - 1]) }
     }
 
-    /// Height at which M > 0 (m²) is reached.
+    /// Returns the height at which M > 0 (m²) is reached.
     pub(crate) fn height_of_reduced_force(sums: &[Self], heights: &[f64], reduced_force: f64) -> f64 {
-        // Between two heights M is straight: the inverse is a division, and no iteration can miss it.
-        // M is 0 at the lowest height, so at least one spring lies below.
+        // Between two heights M is linear, so the inverse is a division. At the lowest height M is 0.
         let index = sums.partition_point(|sums| sums.reduced_force < reduced_force).max(1) - 1;
         let sums = sums[index];
         heights[index] + (reduced_force - sums.reduced_force) / sums.reduced_stiffness
     }
 }
 
-/// A sum with the rounding error it has made so far (Neumaier, ZAMM 54, 1974).
-// Plain sums over springs of random height are 4e-14 off for a million of them and 1e-13 for ten million, in each of m, M
-// and N; these 2e-16, whatever their number. It is paid once, when a profile is built.
+/// Compensated sum (Neumaier, ZAMM 54, 1974).
+// Plain sums would lose digits for millions of springs.
 #[derive(Default)]
 struct Compensated {
     sum: f64,
@@ -89,7 +87,7 @@ struct Compensated {
 }
 
 impl Compensated {
-    /// The sum with one more term, its error taken off.
+    /// Adds a term and returns the sum.
     fn add(&mut self, term: f64) -> f64 {
         let sum = self.sum + term;
         let (big, small) = if self.sum.abs() >= term.abs() { (self.sum, term) } else { (term, self.sum) };
@@ -100,16 +98,17 @@ impl Compensated {
 }
 
 impl Profile {
-    /// A foundation given spring by spring: heights (m, at least 0, in any order) and the length of each (m).
+    /// Creates a profile from a list of springs: heights (m, at least 0, in any order) and the length of each (m).
     ///
-    /// So enters a rough line g(x), monotone or not: the distribution of its heights alone matters.
+    /// A rough line g(x) can be given in this way. Only the distribution of its heights matters.
     pub fn foundation(heights: &[f64], lengths: &[f64]) -> Result<Self, ProfileError> {
         Ok(Self { shape: Shape::Foundation(Foundation::new(heights, lengths)?) })
     }
 }
 
 impl Foundation {
-    /// Sorted springs with their sums; fails for lists that are empty, of unlike lengths, or with a number out of range.
+    /// Sorts the springs and computes their integrals. Fails for an empty list, unequal numbers of heights and lengths, and invalid
+    /// values.
     pub(super) fn new(heights: &[f64], lengths: &[f64]) -> Result<Self, ProfileError> {
         check(heights, lengths)?;
         let mut order: Vec<usize> = (0..heights.len()).collect();
@@ -124,33 +123,33 @@ impl Foundation {
         Ok(Self { heights, lengths, ranks, sums })
     }
 
-    /// Sums at each height.
+    /// Returns the integrals at each height.
     pub(super) fn sums(&self) -> &[Sums] {
         &self.sums
     }
 
-    /// Heights, m, ascending.
+    /// Returns the heights, m, ascending.
     pub(crate) fn heights(&self) -> &[f64] {
         &self.heights
     }
 
-    /// Length of each, m.
+    /// Returns the length of each spring, m.
     pub(crate) fn lengths(&self) -> &[f64] {
         &self.lengths
     }
 
-    /// Index among the ascending heights of each spring in the order given.
+    /// Returns the index among the ascending heights of each spring in the given order.
     pub(crate) fn ranks(&self) -> &[usize] {
         &self.ranks
     }
 
-    /// The sums at h.
+    /// Returns the integrals at h.
     #[inline]
     fn below(&self, h: f64) -> Sums {
         Sums::below(&self.sums, &self.heights, h)
     }
 
-    /// ∫ w m dh between two heights, w straight from a value with a slope: one term per height in between.
+    /// Returns ∫ w m dh between two heights, for a linear w with start value and slope: one term for each height in between.
     pub(super) fn moment(&self, [from, to]: [f64; 2], [value, slope]: [f64; 2]) -> f64 {
         let (mut at, mut length, mut sum) = (from, self.below(from).reduced_stiffness, 0.0);
         let first = self.heights.partition_point(|&height| height < from);
@@ -163,7 +162,7 @@ impl Foundation {
         sum
     }
 
-    /// Lowest height whose spring completes the length m > 0; infinite beyond all springs.
+    /// Returns the lowest height at which the length m > 0 is in contact; infinite beyond all springs.
     fn height_of_reduced_stiffness(&self, length: f64) -> f64 {
         let index = self.sums.partition_point(|sums| sums.reduced_stiffness < length);
         self.heights.get(index).copied().unwrap_or(f64::INFINITY)
@@ -183,7 +182,7 @@ impl Kind for Foundation {
         self.below(h).reduced_energy
     }
 
-    /// Height at which M > 0 is reached.
+    /// Returns the height at which M > 0 is reached.
     fn height_of_reduced_force(&self, reduced_force: f64) -> f64 {
         Sums::height_of_reduced_force(&self.sums, &self.heights, reduced_force)
     }
@@ -212,7 +211,7 @@ impl Kind for Foundation {
         false
     }
 
-    /// At each of its springs.
+    /// Returns that the stiffness jumps at each spring.
     fn has_kinks(&self) -> bool {
         true
     }
@@ -222,7 +221,7 @@ impl Kind for Foundation {
     }
 }
 
-/// The first thing wrong with a list, if anything is.
+/// Returns the first error of a list.
 fn check(heights: &[f64], lengths: &[f64]) -> Result<(), ProfileError> {
     if heights.len() != lengths.len() {
         return Err(ProfileError::Unpaired { heights: heights.len(), lengths: lengths.len() });

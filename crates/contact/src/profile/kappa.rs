@@ -1,10 +1,7 @@
-//! The factor between a power law and its foundation.
+//! Factor `κ_n` between a power law and its one-dimensional profile.
 
-/// `κ_n` = √π Γ(n/2+1)/Γ((n+1)/2) of (4.20) for f = A rⁿ, n > 0: g = `κ_n` A |x|ⁿ; κ₁ = π/2, κ₂ = 2, κ₄ = 8/3.
-///
-/// Asked for once, when a profile is built.
-// By products where n is whole: fractions, times π where n is odd, that come out as the nearest double up to n = 16. The rest
-// by a series for the quotient itself, 2e-16 off: by the logarithms of two gammas it would be 1.4e-13 off at n = 1000.
+/// Returns `κ_n` = √π Γ(n/2+1)/Γ((n+1)/2) of (4.20) for n > 0: f = A rⁿ has g = `κ_n` A |x|ⁿ; κ₁ = π/2, κ₂ = 2, κ₄ = 8/3.
+// Products for small integers n, exact to rounding; otherwise a series of the quotient, which is more accurate than logarithms of Γ.
 pub(crate) fn kappa(n: f64) -> f64 {
     const LARGEST_BY_RECURSION: f64 = 16.0;
     if n.fract() == 0.0 && n <= LARGEST_BY_RECURSION {
@@ -13,7 +10,7 @@ pub(crate) fn kappa(n: f64) -> f64 {
     std::f64::consts::PI.sqrt() * gamma_ratio(0.5 * (n + 1.0))
 }
 
-/// `κ_n` = κ_{n-2} n/(n-1) from κ₁ = π/2 or κ₂ = 2.
+/// Returns `κ_n` = κ_{n-2} n/(n-1) from κ₁ = π/2 or κ₂ = 2.
 fn kappa_of_integer(n: f64) -> f64 {
     let odd = n % 2.0 == 1.0;
     let (mut k, mut top, mut bottom) = if odd { (1.0, 1.0, 1.0) } else { (2.0, 2.0, 1.0) };
@@ -26,8 +23,10 @@ fn kappa_of_integer(n: f64) -> f64 {
     if odd { std::f64::consts::FRAC_PI_2 * ratio } else { ratio }
 }
 
-/// Γ(z+½)/Γ(z), z > 0: by Γ(z+1) = zΓ(z) up to z ≥ 10, there by its asymptotic series in w = z - ¼, which
-/// holds even powers only (Tricomi and Erdélyi, Pacific J. Math. 1, 1951); truncation below 1e-17.
+/// Returns Γ(z+½)/Γ(z), z > 0.
+///
+/// The recurrence Γ(z+1) = zΓ(z) leads to z ≥ 10. For z ≥ 10 the asymptotic series in w = z - ¼ has even powers only (Tricomi and
+/// Erdélyi, Pacific J. Math. 1, 1951) and a truncation error below 1e-17.
 fn gamma_ratio(z: f64) -> f64 {
     const SERIES: [f64; 8] = [
         1.0,

@@ -1,95 +1,94 @@
-//! What a contact asks of a kind of profile.
+//! Common interface of all kinds of profiles.
 
 use super::Foundation;
 
-/// One kind of profile, each in a file of its own. Heights h and radii a are above 0 here: [`super::Profile`] answers for
-/// the rest, once for all kinds.
+/// One kind of profile. Heights h and radii a are above 0 here; [`super::Profile`] handles other arguments for all kinds.
 pub(super) trait Kind {
-    /// m(h), m.
+    /// Returns the reduced stiffness m(h), m.
     fn reduced_stiffness(&self, h: f64) -> f64;
 
-    /// M(h), m².
+    /// Returns the reduced force M(h), m².
     fn reduced_force(&self, h: f64) -> f64;
 
-    /// N(h), m³.
+    /// Returns the reduced energy N(h), m³.
     fn reduced_energy(&self, h: f64) -> f64;
 
-    /// Height at which M > 0 (m²) is reached, m.
+    /// Returns the height at which M > 0 (m²) is reached, m.
     fn height_of_reduced_force(&self, force: f64) -> f64;
 
-    /// Height of first touch, m.
+    /// Returns the height of first touch, m.
     fn lowest(&self) -> f64 {
         0.0
     }
 
-    /// g(a), m; the lowest of several, infinite where none reaches a.
+    /// Returns g(a), m: the lowest height with the contact radius a; infinite if none has it.
     fn depth(&self, a: f64) -> f64;
 
-    /// dg/da; 0 where it is not defined.
+    /// Returns dg/da; 0 where it is not defined.
     fn depth_slope(&self, a: f64) -> f64;
 
-    /// f(r), m, r ≥ 0; none where there is no gap.
+    /// Returns the gap f(r), m, r ≥ 0; `None` where there is no gap.
     fn gap(&self, r: f64) -> Option<f64>;
 
-    /// Places x > 0, m, ascending, at which g or a derivative of g is not smooth.
+    /// Returns the positions x > 0, m, ascending, at which g or a derivative of g is not smooth.
     fn borders(&self) -> &[f64] {
         &[]
     }
 
-    /// Where its pressure is largest; none without a shape in three dimensions.
+    /// Returns where the pressure is largest; `None` without a shape in three dimensions.
     fn peak(&self) -> Option<Peak>;
 
-    /// ∫₀ᵃ g'/x dx, where there is a closed form.
+    /// Returns ∫₀ᵃ g'/x dx, if there is a closed form.
     fn middle_slope_integral(&self, _a: f64) -> Option<f64> {
         None
     }
 
-    /// Whether each contact radius belongs to one indentation only.
+    /// Returns whether each contact radius belongs to exactly one indentation.
     fn is_strictly_convex(&self) -> bool;
 
-    /// Whether m jumps as the indentation grows.
+    /// Returns whether m jumps while the indentation grows.
     fn has_kinks(&self) -> bool {
         false
     }
 
-    /// Whether m bends, or its slope has a root, at a height above 0.
+    /// Returns whether m has a kink, or its derivative a square-root singularity, at a height above 0.
     fn has_bends(&self) -> bool {
         false
     }
 
-    /// Power p of h with which M begins: 1 where a width touches at once.
+    /// Returns the exponent p of M ∝ hᵖ at small h: 1 if a width touches at once.
     fn first_power(&self) -> f64 {
         1.0
     }
 
-    /// Exponent n, of a power law.
+    /// Returns the exponent n of a power law.
     fn exponent(&self) -> Option<f64> {
         None
     }
 
-    /// Largest height for which it stands, m, if there is a limit.
+    /// Returns the largest height, m, if there is a limit.
     fn reach(&self) -> Option<f64> {
         None
     }
 
-    /// Radius of a flat punch, m.
+    /// Returns the radius of a flat punch, m.
     fn punch(&self) -> Option<f64> {
         None
     }
 
-    /// Its springs, where it is given by them.
+    /// Returns the list of springs, if the profile is one.
     fn as_foundation(&self) -> Option<&Foundation> {
         None
     }
 }
 
-/// Where the normal pressure of a contact is largest.
+/// Location of the largest normal pressure.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Peak {
-    /// At a tip or an edge, without bound.
+    /// At a tip or an edge, where the pressure is unbounded.
     Unbounded,
-    /// In the middle: the power law with this exponent n, 1 < n ≤ 2.
+    /// In the centre, for a power law with this exponent n, 1 < n ≤ 2.
     Middle(f64),
-    /// Somewhere between middle and edge.
+    /// Between centre and edge.
     Between,
 }

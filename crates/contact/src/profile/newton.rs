@@ -1,17 +1,16 @@
-//! The inverse of a profile's function where it has none in closed form: of a convex one from a start, of any other that rises in a
-//! bracket.
+//! Numerical inverse of an increasing function: Newton's method for convex functions, and with a bracket for others.
 
-/// Most steps; what converges takes three to six.
+/// Largest number of steps; usually three to six are needed.
 const STEPS: usize = 60;
 
-/// Relative step at which the search ends: the next one, by quadratic convergence, would change nothing.
-// At a border the second derivative of g has a root singularity and the order falls to 1.5: 1e-11 still leaves 3e-17.
+/// Relative step at which the iteration ends; with quadratic convergence the next step would be negligible.
+// At a border the order of convergence is 1.5, and the error is then 3e-17.
 const ENOUGH: f64 = 1e-11;
 
-/// The x > 0 at which a rising, convex function takes the value `wanted` > 0, from a start above 0; `at` gives value and slope.
+/// Returns the x > 0 at which an increasing, convex function has the value `wanted` > 0.
 ///
-/// Newton's method: the first step leads beyond the root of a convex function, and from there they descend on it. None may take
-/// more than three quarters away, so that a start far off ends all the same.
+/// `at` returns value and slope. Newton's method starts at `start` > 0. After the first step the iterates decrease monotonically. A
+/// step reduces x by at most three quarters, so that the iteration also ends for a poor start.
 pub(super) fn root(wanted: f64, start: f64, at: impl Fn(f64) -> (f64, f64)) -> f64 {
     let mut x = start;
     for _ in 0..STEPS {
@@ -28,9 +27,9 @@ pub(super) fn root(wanted: f64, start: f64, at: impl Fn(f64) -> (f64, f64)) -> f
     x
 }
 
-/// The s in [0, 1] at which a function that rises is 0, from a guess; `at` gives value and slope. 0 or 1 where it has no root between.
+/// Returns the zero in [0, 1] of an increasing function; 0 or 1 if there is none in between.
 ///
-/// Newton's method inside a bracket: seldom more than four steps, and halves where a slope is none or leads out of it.
+/// `at` returns value and slope. Newton's method is combined with bisection, which replaces steps that leave the bracket.
 #[inline]
 pub(super) fn between(guess: f64, at: impl Fn(f64) -> (f64, f64)) -> f64 {
     const HALVES: usize = 80;

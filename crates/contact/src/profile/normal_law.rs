@@ -1,21 +1,21 @@
-//! A profile given by its normal law F_N(d): m = F_N′/E\*, and nothing else of the shape is ever needed for forces.
+//! Profile given by its normal law F_N(d): m = F_N′/E\*.
 //!
-//! Between the points M is a parabola or two, so that m goes straight from point to point and never falls: Schumaker's spline (SIAM J.
-//! Numer. Anal. 20, 1983). Other than a cubic it keeps every convex set of points convex.
+//! Between the points M consists of one or two parabolas, so that m is piecewise linear and does not decrease: Schumaker's spline
+//! (SIAM J. Numer. Anal. 20, 1983). Unlike a cubic spline, it is convex for every convex set of points.
 
 use super::chart::{Chart, Ends};
 use super::{Profile, ProfileError, Shape};
 use std::sync::Arc;
 
 impl Profile {
-    /// The profile with the normal law M(h) = F_N/E\* through points (h in m, M in m²): the first (0, 0), both rising, and
-    /// the stiffness from point to point not falling, as that of no contact does.
+    /// Creates a profile with the normal law M(h) = F_N/E\* through points (h in m, M in m²).
     ///
-    /// It stands up to the last point ([`Self::reach`]) and has no gap: many shapes have one law.
+    /// The first point is (0, 0). Both coordinates increase, and the stiffness from point to point does not decrease. The profile
+    /// ends at the last point ([`Self::reach`]) and has no gap, because many shapes have the same normal law.
     ///
     /// # Errors
     ///
-    /// With the index of the first point that does not fit.
+    /// Returns the index of the first invalid point.
     pub fn normal_law(points: &[(f64, f64)]) -> Result<Self, ProfileError> {
         let secants = secants(points)?;
         let stiffness = stiffnesses(points, &secants);
@@ -24,7 +24,7 @@ impl Profile {
             let (from, to) = (points[i].0, points[i + 1].0);
             let (low, high) = (stiffness[i], stiffness[i + 1]);
             if low < secant && secant < high {
-                // The bend is where the two straight lines have the secant for their mean.
+                // At the knot, the mean of both linear functions is the secant.
                 let bend = from + (to - from) * ((high - secant) / (high - low));
                 panels.push(straight([from, bend], [low, secant]));
                 panels.push(straight([bend, to], [secant, high]));
@@ -40,7 +40,7 @@ impl Profile {
     }
 }
 
-/// A panel in which m goes straight from one height to another.
+/// Returns a panel in which m is linear from one height to the next.
 fn straight(height: [f64; 2], stiffness: [f64; 2]) -> Ends {
     let radius = stiffness.map(|m| 0.5 * m);
     Ends {
@@ -51,7 +51,7 @@ fn straight(height: [f64; 2], stiffness: [f64; 2]) -> Ends {
     }
 }
 
-/// Stiffness from each point to the next, m.
+/// Returns the stiffness between neighbouring points, m.
 fn secants(points: &[(f64, f64)]) -> Result<Vec<f64>, ProfileError> {
     if points.len() < 2 {
         return Err(ProfileError::Points(points.len()));
@@ -70,7 +70,7 @@ fn secants(points: &[(f64, f64)]) -> Result<Vec<f64>, ProfileError> {
         if !(secant > 0.0 && secant.is_finite()) {
             return Err(ProfileError::Fall { index });
         }
-        // Digits that the points do not have are no softening.
+        // A decrease within the rounding of the points is accepted.
         let before = secants.last().copied().unwrap_or(0.0);
         if secant < before * (1.0 - 1e-9) {
             return Err(ProfileError::Softening { index });
@@ -80,18 +80,18 @@ fn secants(points: &[(f64, f64)]) -> Result<Vec<f64>, ProfileError> {
     Ok(secants)
 }
 
-/// Two secants that differ by no more are one: points in a straight line, but for their digits.
+/// Largest relative difference of two secants that count as equal, so that the points lie on a straight line.
 const ALIKE: f64 = 1e-9;
 
-/// Whether three points lie in a straight line, so that the stiffness is their secant throughout: any other that never falls would
-/// miss a point.
+/// Returns whether three points lie on a straight line, so that the stiffness must be the secant throughout.
 fn are_alike(left: f64, right: f64) -> bool {
     right - left <= ALIKE * right
 }
 
-/// Stiffness at each point, m: of the parabola through its neighbours, which lies between the secants beside it; at an end of a
-/// straight line the secant of that.
-// Where two straight lines meet no stiffness is both: there it jumps, and whoever steps over it is told so.
+/// Returns the stiffness at each point, m: the slope of the parabola through its neighbours, which is between both secants.
+///
+/// At the end of a straight line the stiffness is the secant of that line.
+// Where two straight lines meet, the stiffness jumps.
 fn stiffnesses(points: &[(f64, f64)], secants: &[f64]) -> Vec<f64> {
     let is_straight = |cell: usize| {
         let own = secants[cell];

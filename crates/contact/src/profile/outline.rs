@@ -1,47 +1,46 @@
-//! f(r) through points, and its transform g(x) = |x|∫₀^|x| f′(r)/√(x²-r²) dr (4.20).
+//! Gap f(r) through points, and its transform g(x) = |x|∫₀^|x| f′(r)/√(x²-r²) dr (4.20).
 //!
-//! Between two kinks f is smooth: cubics through the points, their slopes those of the polynomial through five points, cut to
-//! what keeps f rising and, where the points are convex, between the secants on both sides. With r = x sinθ the integral is
-//! ∫f′(x sinθ) dθ: the root singularity is gone, and of a cubic's f′ the integral is known. So g has the error of f′ alone, third
-//! order in the distance of the points.
+//! Between two kinks f is a smooth sequence of cubics. Their slopes are those of a polynomial through five points, limited so that f
+//! does not decrease. Where the points are convex, each slope is between the secants on both sides. With r = x sinθ the transform is
+//! ∫f′(x sinθ) dθ, which has a closed form for a cubic. The error of g is that of f′, of third order in the distance of the points.
 
 use super::ProfileError;
 
-/// f between points, in cells.
+/// Gap f(r) between points, as one cubic per cell.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Outline {
-    /// Radii of the points, m, from 0 on, ascending.
+    /// Radii of the points, m, from 0, ascending.
     radii: Vec<f64>,
-    /// f there, m.
+    /// Gap f at the points, m.
     gaps: Vec<f64>,
-    /// f′ at both ends of each cell.
+    /// Slopes f′ at both ends of each cell.
     slopes: Vec<[f64; 2]>,
-    /// Indices of the points at which f has a kink, ascending, neither end among them.
+    /// Indices of the inner points at which f has a kink, ascending.
     kinks: Vec<usize>,
-    /// How far g may be off at the points, m.
+    /// Estimated error of g at the points, m.
     error: f64,
 }
 
-/// Points of the polynomial whose slope is taken.
-// With 200 points three leave g of a sphere up to a/R = 1/2 off by 3e-7 of its last value, five by 1.3e-10; seven gain nothing, for
-// between the points f is a cubic.
+/// Number of points of the polynomial that gives the slope.
+// Three points are less accurate; seven are no better, because f is a cubic between the points.
 const STENCIL: usize = 5;
 
-/// What a slope is at most, of the mean slope, that is rounding.
+/// Slope relative to the mean slope below which it counts as rounding.
 const ROUNDING: f64 = 1e-9;
 
-/// Share of a slope in the middle, or of its jump, by which every second point alone would have it otherwise, or every fourth, where the points
-/// do not hold it: r^{4/3} and smoother, what is left of the cubics' error, and what rounding has made of measured points.
+/// Relative change at which a tip or an edge counts as an artefact of the interpolation.
+///
+/// The slope in the centre or its jump at a kink is compared with that from every second or every fourth point.
 const FADES: f64 = 0.25;
 
 impl Outline {
-    /// Through points (r, f), m, with kinks at some of them.
+    /// Creates the interpolation of points (r, f), m, with kinks at some of them.
     pub(super) fn new(points: &[(f64, f64)], kinks: &[f64]) -> Result<Self, ProfileError> {
         check(points)?;
         let (radii, gaps): (Vec<f64>, Vec<f64>) = points.iter().copied().unzip();
         let mut at: Vec<usize> = Vec::with_capacity(kinks.len());
         for (index, &kink) in kinks.iter().enumerate() {
-            // As it stands in the list, but for the last digit of a unit.
+            // A kink must equal a radius of the list, except for rounding.
             let near = |r: &f64| (r - kink).abs() <= 1e-12 * kink.abs();
             match radii.iter().position(near) {
                 Some(place) if place > 0 && place + 1 < radii.len() => at.push(place),
@@ -53,26 +52,27 @@ impl Outline {
         let slopes = slopes(&radii, &gaps, &at);
         let mut outline = Self { radii, gaps, slopes, kinks: at, error: 0.0 };
         let thinned = outline.thinned();
-        // Of fewer points no more is known.
+        // With few points this comparison is not possible.
         let twice = (outline.radii.len() > 4 * STENCIL).then(|| thinned.thinned());
         outline.smooth(&[Some(&thinned), twice.as_ref()]);
         outline.error = outline.distance(&thinned);
         Ok(outline)
     }
 
-    /// Takes tips and edges away that are not in the points but in what is made of them: slopes that are rounding, or that every second or
-    /// every fourth point would have quite different.
-    // Left in, they are no more than the error of g, but a pressure without bound: that of a table of r²/2R at every second distance of
-    // points, and of a sphere's at most.
+    /// Removes tips and edges that are artefacts of the interpolation.
+    ///
+    /// A slope in the centre or a jump at a kink is an artefact if it is within rounding. A slope is also an artefact if every second
+    /// or fourth point gives a much different value.
+    // A remaining artefact would cause an unbounded pressure, although g has only a small error.
     fn smooth(&mut self, thinned: &[Option<&Self>; 2]) {
         let mean = self.gaps[self.gaps.len() - 1] / self.radii[self.radii.len() - 1];
-        // Of rⁿ half the distance takes 2ⁿ⁻¹ from the slope, of a tip it leaves what is there.
+        // Half the distance changes the slope of rⁿ by a factor 2ⁿ⁻¹, but not that of a real tip.
         let fades = |own: f64, coarse: &dyn Fn(&Self) -> f64| {
             let differs = |other: &Self| (coarse(other) - own).abs() >= FADES * own.abs();
             own.abs() <= ROUNDING * mean || thinned.iter().flatten().any(|other| differs(other))
         };
         let (_, secant, [tip, _]) = self.cell(0);
-        // Where the points bend down from the first it is a tip they show.
+        // If the points bend down from the first one, the tip is real.
         let bends_up = self.gaps.len() > 2 && self.cell(1).1 >= secant;
         if bends_up && fades(tip, &|other| other.slopes[0][0]) {
             self.slopes[0][0] = 0.0;
@@ -88,7 +88,7 @@ impl Outline {
         }
     }
 
-    /// The same through every second point between two kinks.
+    /// Returns the interpolation through every second point between two kinks.
     fn thinned(&self) -> Self {
         let mut ends = vec![0];
         ends.extend(&self.kinks);
@@ -103,17 +103,17 @@ impl Outline {
         Self { radii, gaps, slopes, kinks, error: 0.0 }
     }
 
-    /// Radii of the points, m.
+    /// Returns the radii of the points, m.
     pub(super) fn radii(&self) -> &[f64] {
         &self.radii
     }
 
-    /// Radius of the last kink at or below the start of a cell, m; 0 where there is none.
+    /// Returns the radius of the last kink at or below the start of a cell, m; 0 if there is none.
     pub(super) fn kink_below(&self, cell: usize) -> f64 {
         self.kinks.iter().rev().find(|kink| **kink <= cell).map_or(0.0, |kink| self.radii[*kink])
     }
 
-    /// f(r), m; none beyond the last point.
+    /// Returns the gap f(r), m; `None` beyond the last point.
     pub(super) fn gap(&self, r: f64) -> Option<f64> {
         let end = *self.radii.last()?;
         if r > end {
@@ -126,28 +126,28 @@ impl Outline {
         Some(self.gaps[cell] + width * u * (start + cubic))
     }
 
-    /// dg/dx in the middle: (π/2)f′(0).
+    /// Returns dg/dx in the centre: (π/2)f′(0).
     pub(super) fn tip(&self) -> f64 {
         std::f64::consts::FRAC_PI_2 * self.slopes[0][0]
     }
 
-    /// Whether f has a tip or an edge: a slope in the middle, or one that jumps upwards.
+    /// Returns whether f has a tip or an edge: a slope in the centre, or an upward jump of the slope.
     pub(super) fn has_edges(&self) -> bool {
         self.slopes[0][0] > 0.0 || self.kinks.iter().any(|&kink| self.jump(kink) > 0.0)
     }
 
-    /// How much f′ jumps at a kink.
+    /// Returns the jump of f′ at a kink.
     fn jump(&self, kink: usize) -> f64 {
         self.slopes[kink][0] - self.slopes[kink - 1][1]
     }
 
-    /// Width (m), secant and slopes of a cell.
+    /// Returns width (m), secant and end slopes of a cell.
     fn cell(&self, cell: usize) -> (f64, f64, [f64; 2]) {
         let width = self.radii[cell + 1] - self.radii[cell];
         (width, (self.gaps[cell + 1] - self.gaps[cell]) / width, self.slopes[cell])
     }
 
-    /// g (m) at x = √(b²+w²) > 0 and its derivative to w, b the radius of a kink (or 0) below x and none between them.
+    /// Returns g (m) at x = √(b²+w²) > 0 and its derivative with respect to w. b is the radius of the last kink below x, or 0.
     pub(super) fn foundation(&self, b: f64, w: f64) -> [f64; 2] {
         let x = math::hypot(b, w);
         let (mut mean, mut bend) = (0.0, 0.0);
@@ -157,13 +157,13 @@ impl Outline {
                 break;
             }
             let end = self.radii[cell + 1].min(x);
-            // At the border itself w says more than x does.
+            // At the border, w is more accurate than x.
             let cosine = if end == b { w / x } else { ((x - end) * (x + end)).max(0.0).sqrt() / x };
             let (sine, angle) = (end / x, math::atan2(end / x, cosine));
             let to = (sine, cosine, angle);
             let (width, rise, [low, high]) = self.cell(cell);
             let (first, second) = (6.0 * rise - 4.0 * low - 2.0 * high, 3.0 * (low + high) - 6.0 * rise);
-            // ∫dθ, ∫sinθ dθ and ∫sin²θ dθ.
+            // Integrals ∫dθ, ∫sinθ dθ and ∫sin²θ dθ.
             let whole = to.2 - from.2;
             let sines = from.1 - to.1;
             let squares = 0.5 * (whole - (to.0 * to.1 - from.0 * from.1));
@@ -180,26 +180,26 @@ impl Outline {
             if r > b || r >= x {
                 break;
             }
-            // d/dw of a jump's x arccos(r/x): r/√(x²-r²) w/x.
+            // Derivative of x arccos(r/x) with respect to w: r/√(x²-r²) w/x.
             let share = if r == b { 1.0 } else { w / ((x - r) * (x + r)).sqrt() };
             slope += self.jump(kink) * (r / x) * share;
         }
         [x * mean, slope]
     }
 
-    /// How far g may be off at the points, m: what is left of the difference to g through every second point, at third order.
+    /// Returns the estimated error of g at the points, m, from the comparison with every second point at third order.
     pub(super) fn error(&self) -> f64 {
         self.error
     }
 
-    /// That of a thinned one.
+    /// Computes the error estimate from a thinned interpolation.
     fn distance(&self, thinned: &Self) -> f64 {
         let at = |x: &f64| (self.foundation(0.0, *x)[0] - thinned.foundation(0.0, *x)[0]).abs();
         thinned.radii[1..].iter().map(at).fold(0.0, f64::max) / 7.0
     }
 }
 
-/// The first thing wrong with a table, if anything is.
+/// Returns the first error of a table.
 fn check(points: &[(f64, f64)]) -> Result<(), ProfileError> {
     if points.len() < 2 {
         return Err(ProfileError::Points(points.len()));
@@ -219,11 +219,11 @@ fn check(points: &[(f64, f64)]) -> Result<(), ProfileError> {
             return Err(ProfileError::Fall { index: i + 1 });
         }
     }
-    // It is 0 or rises: something must touch in the end.
+    // The gap must be above 0 somewhere.
     if points[points.len() - 1].1 > 0.0 { Ok(()) } else { Err(ProfileError::NoRise) }
 }
 
-/// f′ at both ends of each cell.
+/// Returns f′ at both ends of each cell.
 fn slopes(radii: &[f64], gaps: &[f64], kinks: &[usize]) -> Vec<[f64; 2]> {
     let mut slopes = Vec::with_capacity(radii.len() - 1);
     let mut from = 0;
@@ -235,7 +235,7 @@ fn slopes(radii: &[f64], gaps: &[f64], kinks: &[usize]) -> Vec<[f64; 2]> {
     slopes
 }
 
-/// f′ at the points of a span without a kink inside.
+/// Returns f′ at the points of a range without a kink inside.
 fn in_span(radii: &[f64], gaps: &[f64]) -> Vec<f64> {
     let last = radii.len() - 1;
     let secant = |cell: usize| (gaps[cell + 1] - gaps[cell]) / (radii[cell + 1] - radii[cell]);
@@ -243,7 +243,7 @@ fn in_span(radii: &[f64], gaps: &[f64]) -> Vec<f64> {
         let first = i.saturating_sub(STENCIL / 2).min((last + 1).saturating_sub(STENCIL));
         let window = first..(first + STENCIL).min(last + 1);
         let slope = derivative(&radii[window.clone()], &gaps[window], i - first);
-        // Three secants at most keep f from falling inside a cell.
+        // A slope of at most three secants keeps f from decreasing within a cell.
         if i == 0 {
             let (own, next) = (secant(0), secant(1.min(last - 1)));
             return if next >= own { slope.clamp(0.0, own) } else { slope.clamp(own, 3.0 * own) };
@@ -258,7 +258,8 @@ fn in_span(radii: &[f64], gaps: &[f64]) -> Vec<f64> {
     (0..=last).map(at).collect()
 }
 
-/// Slope at point j of the polynomial through all points, by its barycentric weights (Berrut and Trefethen, SIAM Review 46, 2004).
+/// Returns the slope at point j of the polynomial through all points, by barycentric weights (Berrut and Trefethen, SIAM Review 46,
+/// 2004).
 fn derivative(x: &[f64], y: &[f64], j: usize) -> f64 {
     let weight = |k: usize| {
         let others = x.iter().enumerate().filter(|(i, _)| *i != k);

@@ -1,24 +1,24 @@
-//! Power laws g = B|x|ⁿ: closed forms throughout.
+//! Power laws g = B|x|ⁿ, with closed forms.
 
 use super::error::positive;
 use super::kappa::kappa;
 use super::kind::{Kind, Peak};
 use super::{Profile, ProfileError, Shape};
 
-/// g = |x|ⁿ/s, s = 1/B: a(h) = (sh)^{1/n}, m = 2a, M = mh n/(n+1), N = Mh n/(2n+1).
+/// Power law g = |x|ⁿ/s with s = 1/B: a(h) = (sh)^{1/n}, m = 2a, M = mh n/(n+1), N = Mh n/(2n+1).
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Power {
-    /// s, m^{n-1}; the radius of curvature R of a paraboloid.
+    /// Scale s, m^{n-1}; for a paraboloid the radius of curvature R.
     scale: f64,
     exponent: f64,
     root: Root,
-    /// 2n/(n+1).
+    /// Factor 2n/(n+1).
     force_factor: f64,
-    /// n/(2n+1).
+    /// Factor n/(2n+1).
     energy_factor: f64,
 }
 
-/// How the n-th root is taken: by the cheapest exact operation there is.
+/// Method of the n-th root.
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum Root {
     First,
@@ -26,8 +26,8 @@ enum Root {
     Third,
     Fourth,
     Eighth,
-    /// x^{1/n} = x^q (1 + δ ln x), where q is the double nearest to 1/n and δ what it lacks.
-    // Without δ the error grows with |ln x|: up to 7ε for x = 1e-12 and n = 2.5, with it up to ε.
+    /// x^{1/n} = x^q (1 + δ ln x), where q is 1/n rounded to a double and δ the rounding error.
+    // Without δ the relative error would grow with |ln x|.
     Any {
         q: f64,
         delta: f64,
@@ -35,19 +35,19 @@ enum Root {
 }
 
 impl Profile {
-    /// A cone f = r tanθ, given its slope tanθ: g = (π/2) tanθ |x|.
+    /// Creates a cone f = r tanθ from its slope tanθ: g = (π/2) tanθ |x|.
     pub fn cone(slope: f64) -> Result<Self, ProfileError> {
         let slope = positive(slope, ProfileError::Slope)?;
         Ok(Self { shape: Shape::Power(Power::new(std::f64::consts::FRAC_PI_2 * slope, 1.0)?) })
     }
 
-    /// A paraboloid f = r²/2R of radius of curvature R (m), the Hertz contact: g = x²/R, M = (4/3)√R h^{3/2}.
+    /// Creates a paraboloid f = r²/2R of radius of curvature R (m), the Hertz contact: g = x²/R, M = (4/3)√R h^{3/2}.
     pub fn paraboloid(radius: f64) -> Result<Self, ProfileError> {
         let radius = positive(radius, ProfileError::Radius)?;
         Ok(Self { shape: Shape::Power(Power::paraboloid(radius)?) })
     }
 
-    /// A power law f = A rⁿ, A in m^{1-n}, n > 0: g = `κ_n` A |x|ⁿ, `κ_n` = √π Γ(n/2+1)/Γ((n+1)/2).
+    /// Creates a power law f = A rⁿ, A in m^{1-n}, n > 0: g = `κ_n` A |x|ⁿ, `κ_n` = √π Γ(n/2+1)/Γ((n+1)/2).
     pub fn power(coefficient: f64, exponent: f64) -> Result<Self, ProfileError> {
         positive(coefficient, ProfileError::Coefficient)?;
         positive(exponent, ProfileError::Exponent)?;
@@ -55,14 +55,14 @@ impl Profile {
         Ok(Self { shape: Shape::Power(Power::new(foundation, exponent)?) })
     }
 
-    /// A power law given by its foundation, g = B |x|ⁿ, B in m^{1-n}, n > 0.
+    /// Creates a power law from its one-dimensional profile g = B |x|ⁿ, B in m^{1-n}, n > 0.
     pub fn foundation_power(coefficient: f64, exponent: f64) -> Result<Self, ProfileError> {
         Ok(Self { shape: Shape::Power(Power::new(coefficient, exponent)?) })
     }
 }
 
 impl Power {
-    /// g = B|x|ⁿ.
+    /// Creates g = B|x|ⁿ.
     fn new(coefficient: f64, exponent: f64) -> Result<Self, ProfileError> {
         positive(coefficient, ProfileError::Coefficient)?;
         positive(exponent, ProfileError::Exponent)?;
@@ -73,12 +73,12 @@ impl Power {
         Ok(Self::of_scale(scale, exponent))
     }
 
-    /// g = x²/R, R taken as it is and not by way of 1/R.
+    /// Creates g = x²/R without the rounding of 1/R.
     fn paraboloid(radius: f64) -> Result<Self, ProfileError> {
         Ok(Self::of_scale(positive(radius, ProfileError::Radius)?, 2.0))
     }
 
-    /// g = |x|ⁿ/s.
+    /// Creates g = |x|ⁿ/s.
     fn of_scale(scale: f64, n: f64) -> Self {
         let root = match n {
             1.0 => Root::First,
@@ -100,7 +100,7 @@ impl Power {
         }
     }
 
-    /// a(h), h > 0.
+    /// Returns a(h), h > 0.
     #[inline]
     fn radius(&self, h: f64) -> f64 {
         let x = self.scale * h;
@@ -112,21 +112,21 @@ impl Power {
         }
     }
 
-    /// M(h) and N(h), h > 0.
+    /// Returns M(h) and N(h), h > 0.
     #[inline]
     pub(super) fn reduced_sums(&self, h: f64) -> [f64; 2] {
         let reduced_force = self.reduced_force(h);
         [reduced_force, self.energy_factor * h * reduced_force]
     }
 
-    /// M(h) and m(h), h > 0.
+    /// Returns M(h) and m(h), h > 0.
     #[inline]
     pub(super) fn force_and_stiffness(&self, h: f64) -> [f64; 2] {
         let radius = self.radius(h);
         [self.force_factor * h * radius, 2.0 * radius]
     }
 
-    /// The roots that cost a call, kept out of the way of those that do not.
+    /// Returns the roots that need a function call. A separate function keeps the code of the other roots short.
     #[inline(never)]
     fn other_root(&self, x: f64) -> f64 {
         match self.root {
@@ -135,7 +135,7 @@ impl Power {
             Root::Third => math::cbrt(x),
             Root::Fourth => x.sqrt().sqrt(),
             Root::Eighth => x.sqrt().sqrt().sqrt(),
-            // Of a height next to none nothing is left, and its logarithm is none.
+            // The logarithm of 0 is not defined.
             Root::Any { .. } if x == 0.0 => 0.0,
             Root::Any { q, delta } => math::powf(x, q) * (1.0 + delta * math::ln(x)),
         }
@@ -148,20 +148,20 @@ impl Kind for Power {
         2.0 * self.radius(h)
     }
 
-    /// M(h) = 2n/(n+1) h a, m².
+    /// Returns M(h) = 2n/(n+1) h a, m².
     #[inline]
     fn reduced_force(&self, h: f64) -> f64 {
         self.force_factor * h * self.radius(h)
     }
 
-    /// N(h) = n/(2n+1) h M, m³.
+    /// Returns N(h) = n/(2n+1) h M, m³.
     #[inline]
     fn reduced_energy(&self, h: f64) -> f64 {
         let [_, reduced_energy] = self.reduced_sums(h);
         reduced_energy
     }
 
-    /// g(a) = aⁿ/s, m.
+    /// Returns g(a) = aⁿ/s, m.
     #[inline]
     fn depth(&self, a: f64) -> f64 {
         let power = match self.root {
@@ -178,7 +178,7 @@ impl Kind for Power {
         power / self.scale
     }
 
-    /// h^{n+1} = (M/k)ⁿ/s with k = 2n/(n+1).
+    /// Solves h^{n+1} = (M/k)ⁿ/s with k = 2n/(n+1).
     fn height_of_reduced_force(&self, reduced_force: f64) -> f64 {
         let y = reduced_force / self.force_factor;
         match self.root {
@@ -187,7 +187,7 @@ impl Kind for Power {
             _ => {
                 let n = self.exponent;
                 let h = math::powf(y, n / (n + 1.0)) / math::powf(self.scale, 1.0 / (n + 1.0));
-                // The rounded exponents cost 4ε at n = 2.5 and 7ε at n = 5: one Newton step leaves 1.5ε.
+                // One Newton step corrects the error due to rounded exponents.
                 let slope = self.reduced_stiffness(h);
                 if slope > 0.0 && slope.is_finite() {
                     h - (self.reduced_force(h) - reduced_force) / slope
@@ -206,7 +206,7 @@ impl Kind for Power {
         Some(self.depth(r) / kappa(self.exponent))
     }
 
-    /// At the tip of a cone and of anything sharper; in the middle up to the paraboloid.
+    /// Returns the location of the largest pressure: the tip for n ≤ 1, the centre for 1 < n ≤ 2, and otherwise in between.
     fn peak(&self) -> Option<Peak> {
         Some(match self.exponent {
             n if n <= 1.0 => Peak::Unbounded,

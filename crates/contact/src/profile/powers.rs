@@ -1,35 +1,35 @@
-//! A sum of powers f = ΣAᵢr^{nᵢ}: g = ΣBᵢ|x|^{nᵢ} with Bᵢ = κ(nᵢ)Aᵢ.
+//! Sum of powers f = ΣAᵢr^{nᵢ}: g = ΣBᵢ|x|^{nᵢ} with Bᵢ = κ(nᵢ)Aᵢ.
 //!
-//! M = 2∫x dg = Σ 2nᵢ/(nᵢ+1) Bᵢ a^{nᵢ+1} and N = ∫M dg = ΣΣ 2nᵢnⱼ/((nᵢ+1)(nᵢ+nⱼ+1)) BᵢBⱼ a^{nᵢ+nⱼ+1}, a the root of g(a) = h. No
-//! coefficient is below zero, so nothing cancels.
+//! M = 2∫x dg = Σ 2nᵢ/(nᵢ+1) Bᵢ a^{nᵢ+1} and N = ∫M dg = ΣΣ 2nᵢnⱼ/((nᵢ+1)(nᵢ+nⱼ+1)) BᵢBⱼ a^{nᵢ+nⱼ+1}, where g(a) = h. All
+//! coefficients are at least 0, so there is no cancellation.
 
 use super::error::positive;
 use super::kappa::kappa;
 use super::kind::{Kind, Peak};
 use super::{Profile, ProfileError, Shape};
 
-/// A sum of powers with at least one coefficient above zero.
+/// Sum of powers with at least one coefficient above 0.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Powers {
     terms: Vec<Term>,
 }
 
-/// B|x|ⁿ.
+/// Term B|x|ⁿ.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Term {
-    /// B, m^{1-n}, above 0.
+    /// Coefficient B, m^{1-n}, above 0.
     coefficient: f64,
     exponent: f64,
-    /// `κ_n`.
+    /// Factor `κ_n`.
     kappa: f64,
 }
 
 impl Profile {
-    /// A sum of powers f = ΣAr^n over terms (A, n): A ≥ 0 in m^{1-n}, any real n > 0.
+    /// Creates a sum of powers f = ΣAr^n from terms (A, n): A ≥ 0 in m^{1-n}, n > 0, both finite.
     ///
     /// # Errors
     ///
-    /// Without a term above zero, for a coefficient below zero or an exponent that is not above it; both finite.
+    /// Fails if there is no coefficient above 0, if a coefficient is below 0, or if an exponent is not above 0.
     pub fn powers(terms: &[(f64, f64)]) -> Result<Self, ProfileError> {
         let mut kept = Vec::with_capacity(terms.len());
         for (index, &(coefficient, exponent)) in terms.iter().enumerate() {
@@ -45,7 +45,7 @@ impl Profile {
         }
         match kept[..] {
             [] => Err(ProfileError::NoTerm),
-            // One term is a power law, and as cheap.
+            // A single term is treated as a power law.
             [Term { coefficient, exponent, .. }] => Self::foundation_power(coefficient, exponent),
             _ => Ok(Self { shape: Shape::Powers(Powers { terms: kept }) }),
         }
@@ -53,31 +53,30 @@ impl Profile {
 }
 
 impl Term {
-    /// B aⁿ.
+    /// Returns B aⁿ.
     fn at(&self, a: f64) -> f64 {
         self.coefficient * power(a, self.exponent)
     }
 
-    /// 2n/(n+1).
+    /// Returns 2n/(n+1).
     fn force_factor(&self) -> f64 {
         2.0 * self.exponent / (self.exponent + 1.0)
     }
 }
 
-/// aⁿ, whole exponents by multiplication.
+/// Returns aⁿ; small integer exponents by multiplication.
 fn power(a: f64, n: f64) -> f64 {
     const MOST: f64 = 16.0;
     if n.fract() == 0.0 && n <= MOST { a.powi(n as i32) } else { math::powf(a, n) }
 }
 
 impl Powers {
-    /// The a at which a sum of c·Bᵢaⁿ⁺ᵐ, c and m of the term, is `wanted`: by Newton's method in the logarithms of both.
-    // There such a sum is convex, its slope between the least and the largest exponent, so that the first step lands beyond
-    // the root and the others descend on it: four of them, where exponents below 1 leave g itself concave.
+    /// Returns the a at which the sum of factor·Bᵢ·a^{nᵢ+more} equals `wanted`, by Newton's method in logarithms.
+    // In logarithms the sum is convex, so the iterates decrease monotonically after the first step, also for exponents below 1.
     fn root(&self, wanted: f64, factor: impl Fn(&Term) -> f64, more: f64) -> f64 {
         const STEPS: usize = 60;
         const ENOUGH: f64 = 1e-10;
-        // Each term alone reaches it later than all together.
+        // A single term reaches the value at a larger a than the sum.
         let alone = |term: &Term| {
             math::powf(wanted / (factor(term) * term.coefficient), 1.0 / (term.exponent + more))
         };
@@ -141,14 +140,14 @@ impl Kind for Powers {
         Some(self.terms.iter().map(|term| term.at(r) / term.kappa).sum())
     }
 
-    /// At the tip, where one term alone has it there.
+    /// Returns that the pressure is unbounded at the tip if an exponent is at most 1.
     fn peak(&self) -> Option<Peak> {
         let has_tip = self.terms.iter().any(|term| term.exponent <= 1.0);
         Some(if has_tip { Peak::Unbounded } else { Peak::Between })
     }
 
-    /// Σ n/(n-1) B aⁿ⁻¹.
-    // Plain panels miss a fifth of it at n = 1.2, whose g'/x grows as x^{-0.8} towards the middle.
+    /// Returns Σ n/(n-1) B aⁿ⁻¹.
+    // Numerical quadrature is inaccurate for exponents near 1, where g'/x is nearly singular in the centre.
     fn middle_slope_integral(&self, a: f64) -> Option<f64> {
         let part = |term: &Term| term.exponent / (term.exponent - 1.0) * term.at(a) / a;
         Some(if self.peak() == Some(Peak::Unbounded) {
@@ -158,7 +157,7 @@ impl Kind for Powers {
         })
     }
 
-    /// That of the term with the lowest exponent, which is the largest near the axis.
+    /// Returns the exponent from the term with the lowest n, which is the largest near the axis.
     fn first_power(&self) -> f64 {
         let lowest = self.terms.iter().fold(f64::INFINITY, |lowest, term| lowest.min(term.exponent));
         1.0 + lowest.recip()

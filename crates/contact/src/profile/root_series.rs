@@ -2,31 +2,32 @@
 
 use super::{Profile, Shape, sphere};
 
-/// Roots that have a closed form of their own.
+/// Exponents with such a form.
 const ROOTS: [u32; 4] = [1, 2, 3, 4];
-/// Terms below this share of the first one leave no trace in a double.
+/// Relative size of terms that are negligible in a double.
 const LAST_PLACE: f64 = 1e-17;
 
-/// The energy N(h) = c h^{2+1/n} Σ aₖ (h/L)ᵏ of a profile: power laws r, r², r³, r⁴ with a single term, and the exact sphere.
+/// Series of the energy N(h) = c h^{2+1/n} Σ aₖ (h/L)ᵏ of a profile.
 ///
-/// Divided differences of such an energy are rational functions of n-th roots of the heights: the mean of a force over any
-/// range has a closed form without a difference.
+/// The form exists for power laws r, r², r³, r⁴ with a single term, and for the sphere. Divided differences of the energy are then
+/// rational functions of n-th roots of the heights. The mean of a force over any range therefore has a closed form without
+/// cancellation.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct RootSeries {
-    /// n, 1 to 4.
+    /// Root n, 1 to 4.
     pub root: u32,
-    /// c, m^{1-1/n}.
+    /// Factor c, m^{1-1/n}.
     pub factor: f64,
-    /// 1/L, 1/m; 0 where there is only one term.
+    /// Curvature 1/L, 1/m; 0 for a single term.
     pub curvature: f64,
-    /// aₖ.
+    /// Coefficients aₖ.
     pub terms: &'static [f64],
 }
 
 impl Profile {
-    /// N as a root and a series up to an indentation (m), to the last place; none of profiles and depths without such a form.
+    /// Returns the series of N up to an indentation (m), exact to rounding; `None` if there is no such form.
     ///
-    /// Of a power law with exponent n it is N = N(1 m) h^{2+1/n}, of the exact sphere √R h^{5/2} Σ aₖ (h/R)ᵏ.
+    /// For a power law of exponent n, N = N(1 m) h^{2+1/n}. For the sphere, N = √R h^{5/2} Σ aₖ (h/R)ᵏ.
     pub fn root_series(&self, depth: f64) -> Option<RootSeries> {
         if let Shape::Sphere(sphere) = &self.shape {
             let radius = sphere.radius();
@@ -40,8 +41,9 @@ impl Profile {
 }
 
 impl RootSeries {
-    /// V(x₀), V\[x₀, x₁\] and V\[x₀, x₁, x₂\]: the series V(x) = Σ aₖ (x/L)ᵏ and its divided differences over heights (m), which
-    /// may coincide. By Horner's rule for each, without a difference.
+    /// Returns V(x₀), V\[x₀, x₁\] and V\[x₀, x₁, x₂\]: the series V(x) = Σ aₖ (x/L)ᵏ and its divided differences.
+    ///
+    /// The heights (m) may coincide. Horner's rule computes each result without a difference.
     #[inline]
     pub fn divided(&self, heights: [f64; 3]) -> [f64; 3] {
         let x = heights.map(|height| self.curvature * height);
@@ -58,7 +60,7 @@ impl RootSeries {
 mod tests {
     use super::*;
 
-    /// Against N as every other place has it: power laws by h M n/(2n+1), the sphere by its own series or closed form.
+    /// Compares the series with N of the profile.
     #[test]
     fn it_is_the_energy_of_the_profile() {
         let profiles = [
@@ -83,7 +85,7 @@ mod tests {
         }
     }
 
-    /// Against differences of heights far apart, and derivatives where they coincide.
+    /// Compares with differences for distant heights and with derivatives for equal ones.
     #[test]
     fn divided_differences_are_those_of_the_series() {
         let series = RootSeries { root: 2, factor: 1.0, curvature: 0.5, terms: &[1.0, -0.4, 0.3, 0.2] };

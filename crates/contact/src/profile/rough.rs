@@ -1,49 +1,47 @@
-//! A rough line: a foundation of so many heights that finding one takes longer than all the rest.
+//! Rough line: a list of many springs with an index for fast search.
 
 use super::foundation::{Foundation, Sums};
 use super::kind::{Kind, Peak};
 use super::{Profile, ProfileError, SelfAffine, Shape};
 use std::sync::Arc;
 
-/// Steps of the index per height.
+/// Number of index intervals per height.
 const STEPS_PER_HEIGHT: usize = 4;
 
-/// A foundation with an index by height.
+/// List of springs with an index by height.
 ///
-/// Heights are parted into equal steps, four times as many as there are springs. Of a line whose heights are spread like those of a surface the
-/// index leaves one or two to look at, and of any line a range that is searched by halves.
-// By halves alone a trial of the curve anywhere among 1e5 heights takes 4.5 times as long as a paraboloid's, most of it in waiting for
-// memory; with the index, and all that belongs to a height side by side, 2.1 times. As many steps as springs: 2.6 times.
+/// The index divides the range of heights into equal intervals, four per spring. For typical surfaces an interval contains one or two
+/// heights; others need a binary search within an interval.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Rough {
     foundation: Foundation,
     levels: Vec<Level>,
-    /// Number of heights below each step.
+    /// Number of heights below each interval.
     starts: Vec<u32>,
-    /// Steps per height, 1/m.
+    /// Number of intervals per height, 1/m.
     scale: f64,
 }
 
-/// A height with the sums there, its own spring included in m.
+/// Height with the integrals there; m includes the spring of that height.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Level {
-    /// m.
+    /// Height, m.
     height: f64,
     sums: Sums,
 }
 
 impl Profile {
-    /// Most heights of a rough line: as many as [`SelfAffine`] makes.
+    /// Largest number of heights of a rough line, that of [`SelfAffine`].
     pub const MAX_HEIGHTS: usize = SelfAffine::MAX_POINTS;
 
-    /// A rough line given by heights (m, outwards from the body, above any level) at equal distances (m): the highest touches first, and
-    /// g at each is what it lacks of the highest.
+    /// Creates a rough line from heights (m, measured outwards from the body) at equal distances `spacing` (m).
     ///
-    /// The line is that of the one-dimensional equivalent. Only the distribution of its heights matters.
+    /// The highest point touches first. g at each point is its distance from the highest one. The line is that of the one-dimensional
+    /// profile; only the distribution of heights matters.
     ///
     /// # Errors
     ///
-    /// Without a height, with more than [`Self::MAX_HEIGHTS`], for one that is not finite and for a distance not above 0.
+    /// Fails without a height, with more than [`Self::MAX_HEIGHTS`], for a height that is not finite, and for a spacing not above 0.
     pub fn rough(heights: &[f64], spacing: f64) -> Result<Self, ProfileError> {
         if heights.len() > Self::MAX_HEIGHTS {
             return Err(ProfileError::TooManyHeights(heights.len()));
@@ -63,7 +61,7 @@ impl Profile {
 }
 
 impl Rough {
-    /// The index of a foundation of at least one spring, at most 2³² of them.
+    /// Creates the index of a list of at least one and at most 2³² springs.
     fn new(foundation: Foundation) -> Self {
         let heights = foundation.heights();
         let levels: Vec<Level> =
@@ -73,7 +71,7 @@ impl Rough {
             Some(&last) if last > 0.0 && (steps as f64 / last).is_finite() => steps as f64 / last,
             _ => 0.0,
         };
-        // A product and its whole part do not fall as a height rises: no height is looked for in the wrong step.
+        // The rounded product is monotone, so a height is always searched in the right interval.
         let step = |height: f64| ((height * scale) as usize).min(steps);
         let mut starts = vec![0; steps + 2];
         for level in &levels {
@@ -85,7 +83,7 @@ impl Rough {
         Self { levels, starts, scale, foundation }
     }
 
-    /// The sums at h > 0.
+    /// Returns the integrals at h > 0.
     #[inline]
     fn below(&self, h: f64) -> Sums {
         let step = ((h * self.scale) as usize).min(self.starts.len() - 2);
@@ -97,7 +95,7 @@ impl Rough {
         }
     }
 
-    /// [`Foundation::moment`].
+    /// See [`Foundation::moment`].
     pub(super) fn moment(&self, heights: [f64; 2], straight: [f64; 2]) -> f64 {
         self.foundation.moment(heights, straight)
     }

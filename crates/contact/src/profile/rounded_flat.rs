@@ -1,4 +1,4 @@
-//! A flat punch with a rounded edge: flat up to a radius b, beyond it f = (r-b)²/2R.
+//! Flat punch with a rounded edge: flat up to a radius b, beyond it f = (r-b)²/2R.
 //!
 //! With w = √(x²-b²) and φ = arccos(b/x) = arctan(w/b) for x ≥ b (handbook 2.5.13):
 //!
@@ -6,7 +6,7 @@
 //! * M = [(4/3)w³ + b²w - bx²φ]/R,
 //! * N by [`curved_beyond`] with α = -φ.
 //!
-//! All three are differences that cancel for w ≪ b; there g and M are series in w/b, and N is summed from them.
+//! All three have cancellation for w ≪ b. For small w/b, g and M are computed by series in w/b, and N by quadrature.
 
 use super::angle::{Place, curved_beyond};
 use super::error::positive;
@@ -16,29 +16,28 @@ use super::{Profile, ProfileError, Shape};
 use crate::quadrature::GAUSS_12;
 use std::f64::consts::FRAC_PI_4;
 
-/// A flat of radius b (m) whose edge is rounded with a radius of curvature R (m).
+/// Flat of radius b (m) with an edge of radius of curvature R (m).
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct RoundedFlat {
     border: [f64; 1],
     radius: f64,
 }
 
-/// Largest w/b of the series, whose terms fall by (w/b)².
-// The closed form of M has lost a digit there, that of g less.
+/// Largest w/b of the series, whose terms decrease as (w/b)².
 const SERIES_END: f64 = 0.5;
 
-/// Terms of the series: what is left out is 1e-17 at its end.
+/// Number of terms of the series, with a truncation error of 1e-17.
 const TERMS: u32 = 27;
 
-/// Largest w/b up to which N is a sum over twelve nodes, good to 1e-15 there; the closed form has lost one digit and a half.
+/// Largest w/b at which N is computed by quadrature with twelve nodes, with an error of 1e-15.
 const SUM_END: f64 = 1.0;
 
 impl Profile {
-    /// A flat punch with a rounded edge: a flat of radius b (m), beyond it f = (r-b)²/2R, given b and R (m).
+    /// Creates a flat punch with a rounded edge: a flat of radius b (m), beyond it f = (r-b)²/2R, from b and R (m).
     ///
     /// # Errors
     ///
-    /// For a radius that is not above 0 and finite.
+    /// Fails for a radius that is not above 0 or not finite.
     pub fn rounded_flat(flat: f64, radius: f64) -> Result<Self, ProfileError> {
         let border = [positive(flat, ProfileError::Flat)?];
         let radius = positive(radius, ProfileError::Radius)?;
@@ -46,24 +45,24 @@ impl Profile {
     }
 }
 
-/// Σ (-1)ᵏ cₖ t^{2k}.
+/// Returns Σ (-1)ᵏ cₖ t^{2k}.
 fn series(t: f64, c: impl Fn(f64) -> f64) -> f64 {
     let square = -t * t;
     (0..TERMS).rev().fold(0.0, |sum, k| sum * square + c(f64::from(k)))
 }
 
-/// gR/b² and its derivative to t = w/b: √(1+t²)(t - arctan t) and (2t - arctan t) t/√(1+t²).
+/// Returns gR/b² and its derivative with respect to t = w/b: √(1+t²)(t - arctan t) and (2t - arctan t) t/√(1+t²).
 fn depth(t: f64) -> (f64, f64) {
     let (x, angle) = (math::hypot(1.0, t), math::atan(t));
     let rest = if t < SERIES_END { t * t * t * series(t, |k| 1.0 / (2.0 * k + 3.0)) } else { t - angle };
     (x * rest, (t + rest) * t / x)
 }
 
-/// MR/b³ and its derivative to t: (4/3)t³ + t - (1+t²) arctan t and 2(2t - arctan t)t.
+/// Returns MR/b³ and its derivative with respect to t: (4/3)t³ + t - (1+t²) arctan t and 2(2t - arctan t)t.
 fn force(t: f64) -> (f64, f64) {
     let angle = math::atan(t);
     let force = if t < SERIES_END {
-        // (4/3)t³ - Σ(-1)ᵏ 2t^{2k+3}/((2k+1)(2k+3)), whose first term is half of it.
+        // (4/3)t³ - Σ(-1)ᵏ 2t^{2k+3}/((2k+1)(2k+3)).
         t * t * t * (4.0 / 3.0 - series(t, |k| 2.0 / ((2.0 * k + 1.0) * (2.0 * k + 3.0))))
     } else {
         t * (4.0 / 3.0 * t * t + 1.0) - (1.0 + t * t) * angle
@@ -71,13 +70,13 @@ fn force(t: f64) -> (f64, f64) {
     (force, 2.0 * (2.0 * t - angle) * t)
 }
 
-/// NR²/b⁵.
+/// Returns NR²/b⁵.
 fn energy(t: f64) -> f64 {
     if t > SUM_END {
         let place = Place::beyond(1.0, t);
         return curved_beyond(&place, -place.angle);
     }
-    // N = ∫M dg over t.
+    // N = ∫M dg, integrated over t.
     let node = |&(x, weight): &(f64, f64)| {
         let at = 0.5 * t * (1.0 + x);
         weight * force(at).0 * depth(at).1
@@ -86,7 +85,7 @@ fn energy(t: f64) -> f64 {
 }
 
 impl RoundedFlat {
-    /// t = w/b where g = h.
+    /// Returns t = w/b with g = h.
     fn t(&self, h: f64) -> f64 {
         let [b] = self.border;
         let wanted = h / b * (self.radius / b);
@@ -114,7 +113,7 @@ impl Kind for RoundedFlat {
     fn height_of_reduced_force(&self, wanted: f64) -> f64 {
         let [b] = self.border;
         let wanted = wanted / (b * b) * (self.radius / b);
-        // M ≥ (2/3)t³ and, far out, about (4/3)t³.
+        // M ≥ (2/3)t³, and M ≈ (4/3)t³ for large t.
         let start =
             if wanted < 1.0 { math::cbrt(1.5 * wanted) } else { math::cbrt(0.75 * wanted) + FRAC_PI_4 };
         b * (b / self.radius) * depth(root(wanted, start, force)).0

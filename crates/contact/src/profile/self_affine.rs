@@ -1,88 +1,87 @@
-//! Rough lines made by numbers: self-affine between two cut-offs, the same on every machine.
+//! Numerically generated rough lines: self-affine between two cut-off wavelengths.
 //!
-//! z(x) = ΣAₖcos(2πkx/L + φₖ) over the wavelengths L/k between the cut-offs, Aₖ ~ k^{-(H+1/2)}: a line whose power spectrum is
-//! C(q) ~ q^{-(1+2H)} (Persson et al., J. Phys.: Condens. Matter 17, 2005, R1), its phases drawn by the seed, scaled to the rms height
-//! asked for.
+//! z(x) = ΣAₖcos(2πkx/L + φₖ) over the wavelengths L/k between the cut-offs, with Aₖ ~ k^{-(H+1/2)}. The power spectrum is C(q) ~
+//! q^{-(1+2H)} (Persson et al., J. Phys.: Condens. Matter 17, 2005, R1). The seed determines the phases φₖ. The line is scaled to the
+//! given rms height.
 //!
-//! Phases and cosines come of integers, sums, products, quotients and square roots, amplitudes of a power of the program's own: every
-//! machine rounds them alike.
+//! All operations round alike on every machine, so the line is the same everywhere.
 
 use thiserror::Error;
 
-/// A self-affine rough line.
+/// Self-affine rough line.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SelfAffine {
-    /// Root of the mean square of the heights about their mean, m, above 0.
+    /// Root-mean-square height relative to the mean, m, above 0.
     pub rms: f64,
     /// Hurst exponent, between 0 and 1.
     pub hurst: f64,
     /// Longest wavelength, m, at most the length.
     pub longest: f64,
-    /// Shortest wavelength, m, at most the longest and two distances of points at least.
+    /// Shortest wavelength, m, at most the longest one and at least twice the distance of the points.
     pub shortest: f64,
     /// Length L of the line, m, after which it repeats.
     pub length: f64,
     /// Number of points, a power of two from 4 to [`Self::MAX_POINTS`].
     pub points: usize,
-    /// What the phases are drawn by.
+    /// Seed of the random phases.
     pub seed: u64,
 }
 
-/// Why a rough line cannot be made.
+/// Reason why a rough line cannot be generated.
 #[derive(Debug, Clone, Copy, PartialEq, Error)]
 pub enum RoughnessError {
-    /// The rms height must be positive and finite, m.
+    /// The rms height is not above 0 or not finite, m.
     #[error("expected an rms height above 0 m, got {0}")]
     Rms(f64),
-    /// The Hurst exponent lies between 0 and 1.
+    /// The Hurst exponent is not between 0 and 1.
     #[error("expected a Hurst exponent between 0 and 1, got {0}")]
     Hurst(f64),
-    /// The length must be positive and finite, m.
+    /// The length is not above 0 or not finite, m.
     #[error("expected a length above 0 m, got {0}")]
     Length(f64),
-    /// The number of points is a power of two.
+    /// The number of points is no power of two within its range.
     #[error("expected a power of two between 4 and {max} points, got {0}", max = SelfAffine::MAX_POINTS)]
     Points(usize),
-    /// The longest wavelength fits into the length, m.
+    /// The longest wavelength exceeds the length, m.
     #[error("expected a longest wavelength of at most the length {length} m, got {longest} m")]
     Longest {
-        /// Asked for, m.
+        /// Wavelength given, m.
         longest: f64,
         /// Length of the line, m.
         length: f64,
     },
-    /// The shortest wavelength is no longer than the longest, m.
+    /// The shortest wavelength exceeds the longest one, m.
     #[error("expected a shortest wavelength of at most the longest of {longest} m, got {shortest} m")]
     Swapped {
-        /// Asked for, m.
+        /// Wavelength given, m.
         shortest: f64,
-        /// The longest, m.
+        /// Longest wavelength, m.
         longest: f64,
     },
-    /// The shortest wavelength has two points at least, m.
+    /// The shortest wavelength is below twice the distance of the points, m.
     #[error(
         "expected a shortest wavelength of at least two distances of points, {least} m, got {shortest} m"
     )]
     Shortest {
-        /// Asked for, m.
+        /// Wavelength given, m.
         shortest: f64,
-        /// Two distances of points, m.
+        /// Twice the distance of the points, m.
         least: f64,
     },
-    /// No whole part of the length lies between the cut-offs.
-    #[error("no whole part of the length lies between the longest and the shortest wavelength")]
+    /// No wavelength L/k with integer k lies between the cut-offs.
+    #[error("no integer fraction of the length lies between the longest and the shortest wavelength")]
     NoWave,
 }
 
 impl SelfAffine {
-    /// Most points.
+    /// Largest number of points.
     pub const MAX_POINTS: usize = 1 << 20;
 
-    /// Heights at equal distances, m, with the mean 0.
+    /// Returns heights at equal distances, m, with mean 0.
     ///
     /// # Errors
     ///
-    /// For the first parameter out of its range.
+    /// Returns the first parameter that is out of its range.
     pub fn heights(&self) -> Result<Vec<f64>, RoughnessError> {
         let [first, last] = self.waves()?;
         let mut random = Random(self.seed);
@@ -99,7 +98,7 @@ impl SelfAffine {
         Ok(spectrum.iter().map(|z| scale * z[0]).collect())
     }
 
-    /// Waves along the length, from the fewest to the most.
+    /// Returns the smallest and largest number of waves along the length.
     fn waves(&self) -> Result<[usize; 2], RoughnessError> {
         let Self { rms, hurst, longest, shortest, length, points, .. } = *self;
         let positive = |value: f64| value > 0.0 && value.is_finite();
@@ -115,7 +114,7 @@ impl SelfAffine {
         if !points.is_power_of_two() || !(4..=Self::MAX_POINTS).contains(&points) {
             return Err(RoughnessError::Points(points));
         }
-        // Rounding of a quotient does not count.
+        // Tolerance for the rounding of quotients.
         let slack = 1e-9;
         if !(longest > 0.0 && longest <= length * (1.0 + slack)) {
             return Err(RoughnessError::Longest { longest, length });
@@ -136,7 +135,7 @@ impl SelfAffine {
     }
 }
 
-/// Whole numbers at random: SplitMix64 (Steele, Lea and Flood, OOPSLA 2014).
+/// Random integers: SplitMix64 (Steele, Lea and Flood, OOPSLA 2014).
 struct Random(u64);
 
 impl Random {
@@ -148,12 +147,12 @@ impl Random {
         z ^ (z >> 31)
     }
 
-    /// Between -1 and 1, evenly.
+    /// Returns a uniform random number between -1 and 1.
     fn even(&mut self) -> f64 {
         (self.next() >> 11) as f64 * (1.0 / (1_u64 << 52) as f64) - 1.0
     }
 
-    /// Cosine and sine of an angle, all alike: of a point in the unit circle, drawn until one lies inside.
+    /// Returns cosine and sine of a uniformly distributed angle, from a random point in the unit circle (rejection method).
     fn direction(&mut self) -> [f64; 2] {
         loop {
             let (x, y) = (self.even(), self.even());
@@ -166,8 +165,9 @@ impl Random {
     }
 }
 
-/// Cosines and sines of the first half of n equal parts of a circle, n a power of two from 4 on: halves of angles whose
-/// directions are known, by square roots.
+/// Returns cosines and sines of the first half of n equal parts of a circle, n a power of two from 4.
+///
+/// Angles are halved by square roots.
 fn directions(n: usize) -> Vec<[f64; 2]> {
     let half = n / 2;
     let mut table = vec![[0.0_f64; 2]; half + 1];
@@ -185,7 +185,7 @@ fn directions(n: usize) -> Vec<[f64; 2]> {
     table
 }
 
-/// Fourier's sum Σ cₖe^{2πijk/n} in place, by halves (Cooley and Tukey, Math. Comp. 19, 1965).
+/// Fast Fourier transform Σ cₖe^{2πijk/n} in place (Cooley and Tukey, Math. Comp. 19, 1965).
 fn transform(c: &mut [[f64; 2]]) {
     let n = c.len();
     let shift = usize::BITS - n.trailing_zeros();

@@ -1,21 +1,20 @@
-//! The exact sphere. With η = h/R, s = a/R and t = artanh s it obeys η = s t, and
+//! Exact sphere. With η = h/R, s = a/R and t = artanh s, η = s t, and
 //!
 //! * m = 2Rs, M = R²[(s²+1)t - s],
-//! * N = R³[(4/3)η²s - (2η-2/3)I - (2/3)K], I = ∫₀ˢ x artanh x dx = [(s²-1)t + s]/2,
-//!   K = ∫₀ᵗ τ tanh τ dτ = t²/2 + t ln(1+q) - [π²/12 + Li₂(-q)]/2, q = e^{-2t}.
+//! * N = R³[(4/3)η²s - (2η-2/3)I - (2/3)K], I = ∫₀ˢ x artanh x dx = [(s²-1)t + s]/2, K = ∫₀ᵗ τ tanh τ dτ = t²/2 + t ln(1+q) -
+//!   [π²/12 + Li₂(-q)]/2, q = e^{-2t}.
 //!
-//! M is (4.26) for the sphere; N follows from N = ∫₀ᵃ(h-g)²dx by parts. Both cancel at small s, so there the
-//! inverse of η = s artanh s is used as a power series, whose integrals need no difference.
+//! M is (4.26) for the sphere. N follows from N = ∫₀ᵃ(h-g)²dx by integration by parts. Both formulas have cancellation at small s.
+//! For small η a power series of the inverse of η = s artanh s is used, whose integrals have no cancellation.
 //!
-//! For s → 0 these are the paraboloid's: m = 2√(Rh), M = (4/3)√R h^{3/2}.
+//! For s → 0 the results are those of the paraboloid: m = 2√(Rh), M = (4/3)√R h^{3/2}.
 
 use super::error::positive;
 use super::kind::{Kind, Peak};
 use super::{Profile, ProfileError, Shape};
 
-/// A sphere of radius R, m.
-// Its own profile and not the paraboloid of its curvature, as most programs have it: at a/R = 0.1 that is 0.17 % too stiff at
-// equal depth, and nothing in a run would tell.
+/// Sphere of radius R, m.
+// At a/R = 0.1 the paraboloid of equal curvature is 0.17 % too stiff at equal indentation.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Sphere {
     radius: f64,
@@ -24,14 +23,11 @@ pub(super) struct Sphere {
 /// Number of terms of the series.
 const TERMS: usize = 20;
 
-/// Largest η of the series, a/R = 0.648. Its radius of convergence is about π, so that what is left out is
-/// c₂₀ 2⁻²⁰ = 3e-18.
-// Up to η = 0.6 series and closed forms agree to 2e-16, at 1 the series has lost three digits and at 2 it is 1e-6 off. Below,
-// the closed form of M is 3e-12 off at η = 1e-4 and 3e-10 at 1e-6; that of N has π²/12 in it, whose rounding alone is a tenth
-// of N at 1e-6. A contact of a tenth of the radius has η = 0.01: the series is what nearly every evaluation takes.
+/// Largest η of the series, which is a/R = 0.648. The truncation error is 3e-18.
+// Up to η = 0.6 series and closed forms agree to 2e-16. For small η the closed forms lose accuracy.
 const SERIES_END: f64 = 0.5;
 
-/// s = √η Σ cₖηᵏ: η = s artanh s = Σ s^{2k+2}/(2k+1) reverted in 60 digits; c₁ = -1/6, c₂ = -1/360, c₃ = 11/5040.
+/// Coefficients of s = √η Σ cₖηᵏ, the inverse of η = s artanh s = Σ s^{2k+2}/(2k+1); c₁ = -1/6, c₂ = -1/360, c₃ = 11/5040.
 const RATIO: [f64; TERMS] = [
     1.0,
     -0.16666666666666666,
@@ -55,13 +51,13 @@ const RATIO: [f64; TERMS] = [
     1.7332516127075533e-11,
 ];
 
-/// M/R² = η^{3/2} Σ 2cₖ/(k+3/2) ηᵏ.
+/// Coefficients of M/R² = η^{3/2} Σ 2cₖ/(k+3/2) ηᵏ.
 const AREA: [f64; TERMS] = integrated(RATIO, 2.0, 1.5);
 
-/// N/R³ = η^{5/2} Σ 2cₖ/((k+3/2)(k+5/2)) ηᵏ.
+/// Coefficients of N/R³ = η^{5/2} Σ 2cₖ/((k+3/2)(k+5/2)) ηᵏ.
 static VOLUME: [f64; TERMS] = integrated(AREA, 1.0, 2.5);
 
-/// The series factor·Σ cₖ/(k+power) ηᵏ.
+/// Returns the coefficients of factor·Σ cₖ/(k+power) ηᵏ.
 const fn integrated(series: [f64; TERMS], factor: f64, power: f64) -> [f64; TERMS] {
     let mut result = series;
     let mut k = 0;
@@ -72,8 +68,8 @@ const fn integrated(series: [f64; TERMS], factor: f64, power: f64) -> [f64; TERM
     result
 }
 
-/// Σ cₖxᵏ in four interleaved Horner chains.
-// 14 ns from argument to value instead of 34 by one chain: each term of a chain waits for the one before.
+/// Returns Σ cₖxᵏ by four interleaved Horner chains.
+// Interleaved chains are faster, because the terms of one chain depend on each other.
 #[inline]
 fn sum(c: &[f64; TERMS], x: f64) -> f64 {
     let (x2, mut chains) = (x * x, [c[16], c[17], c[18], c[19]]);
@@ -86,14 +82,12 @@ fn sum(c: &[f64; TERMS], x: f64) -> f64 {
     (chains[0] + chains[1] * x) + (chains[2] + chains[3] * x) * x2
 }
 
-/// t of t tanh t = η, for η ≥ [`SERIES_END`].
+/// Returns t of t tanh t = η, for η ≥ [`SERIES_END`].
 ///
-/// Newton's method, kept inside the bracket η < t < η + 0.2785 (the largest 2t/(e^{2t}+1)). The start is a
-/// fit good to 2e-3, so three steps reach the last bit.
-// From the middle of the bracket it takes four: 2.5 and 3.1 in the mean. Beyond the series an evaluation of M costs 88 ns
-// where the series takes 15, so each of them counts.
+/// Newton's method is limited to the bracket η < t < η + 0.2785, the largest value of 2t/(e^{2t}+1). The start value is accurate to
+/// 2e-3, so that three steps are sufficient.
 fn invert(eta: f64) -> f64 {
-    // Never needed; an iteration that ends for every argument, NaN included.
+    // The limit ensures an end for every argument, including NaN.
     const STEPS: usize = 8;
     let fit = 5.0747 + eta * (-7.59144 + eta * (12.87772 + eta * (-7.41881 + eta * 2.08249)));
     let (low, high) = (eta, eta + 0.2785);
@@ -104,7 +98,7 @@ fn invert(eta: f64) -> f64 {
         let slope = tanh + 4.0 * t * e / ((1.0 + e) * (1.0 + e));
         let step = (t * tanh - eta) / slope;
         t = (t - step).clamp(low, high);
-        // Quadratic convergence: the step after this one would be below 1e-17.
+        // With quadratic convergence the next step would be below 1e-17.
         if step.abs() <= 1e-8 {
             break;
         }
@@ -112,7 +106,7 @@ fn invert(eta: f64) -> f64 {
     t
 }
 
-/// Li₂(-q) for 0 ≤ q < 0.22, by u = -ln(1+q): Σ Bₙ uⁿ⁺¹/(n+1)! (DLMF 25.12), truncation below 1e-17.
+/// Returns Li₂(-q) for 0 ≤ q < 0.22, by u = -ln(1+q): Σ Bₙ uⁿ⁺¹/(n+1)! (DLMF 25.12), with a truncation error below 1e-17.
 fn dilogarithm(log1q: f64) -> f64 {
     let (u, w) = (-log1q, log1q * log1q);
     let tail = 1.0 / 36.0 + w * (-1.0 / 3600.0 + w * (1.0 / 211_680.0 + w * (-1.0 / 10_886_400.0)));
@@ -120,16 +114,15 @@ fn dilogarithm(log1q: f64) -> f64 {
 }
 
 impl Profile {
-    /// A sphere of radius R (m), exact: f = R-√(R²-r²), g = (x/2) ln((R+x)/(R-x)).
+    /// Creates an exact sphere of radius R (m): f = R-√(R²-r²), g = (x/2) ln((R+x)/(R-x)).
     ///
-    /// Not the paraboloid: at equal depth the contact radius is smaller by (a/R)²/6, 1.7e-5 at a/R = 0.01.
+    /// Compared with the paraboloid at equal indentation, the contact radius is smaller by (a/R)²/6, 1.7e-5 at a/R = 0.01.
     pub fn sphere(radius: f64) -> Result<Self, ProfileError> {
         Ok(Self { shape: Shape::Sphere(Sphere { radius: positive(radius, ProfileError::Radius)? }) })
     }
 }
 
-/// Those terms of N/R³ = η^{5/2} Σ aₖηᵏ that count up to η, the first one always; none beyond the series. What is left out is
-/// below `last` of the first term.
+/// Returns the terms of N/R³ = η^{5/2} Σ aₖηᵏ up to η that exceed `last` times the first term; `None` beyond the series.
 pub(super) fn energy_terms(eta: f64, last: f64) -> Option<&'static [f64]> {
     let counts = |k: &usize| (VOLUME[*k] * eta.powi(*k as i32)).abs() > last * VOLUME[0];
     let count = 1 + (1..TERMS).rev().find(counts).unwrap_or(0);
@@ -137,53 +130,53 @@ pub(super) fn energy_terms(eta: f64, last: f64) -> Option<&'static [f64]> {
 }
 
 impl Sphere {
-    /// R, m.
+    /// Returns the radius R, m.
     pub(super) fn radius(&self) -> f64 {
         self.radius
     }
 
-    /// Largest a/R to which the profile is held to stand; the functions are checked up to here.
+    /// Largest a/R of the profile.
     const LARGEST_RATIO: f64 = 0.999;
 }
 
 impl Kind for Sphere {
-    /// R-√(R²-r²), m; none beyond the sphere.
+    /// Returns the gap R-√(R²-r²), m; `None` beyond the sphere.
     fn gap(&self, r: f64) -> Option<f64> {
-        // r²/(R+√(R²-r²)): the difference as it is written is 8e-8 off at r/R = 1e-5.
+        // The form r²/(R+√(R²-r²)) avoids cancellation.
         let rest = (self.radius - r) * (self.radius + r);
         (rest >= 0.0).then(|| r * r / (self.radius + rest.sqrt()))
     }
 
-    /// Largest indentation for which the profile stands, m.
+    /// Returns the largest indentation of the profile, m.
     fn reach(&self) -> Option<f64> {
         Some(self.depth(Self::LARGEST_RATIO * self.radius))
     }
 
-    /// g(a) = a artanh(a/R), m; infinite from the equator on.
+    /// Returns g(a) = a artanh(a/R), m; infinite from the equator on.
     fn depth(&self, a: f64) -> f64 {
         let s = a / self.radius;
         if s < 1.0 { a * math::atanh(s) } else { f64::INFINITY }
     }
 
-    /// g'(a) = artanh s + s/(1-s²), s = a/R.
+    /// Returns g'(a) = artanh s + s/(1-s²), s = a/R.
     fn depth_slope(&self, a: f64) -> f64 {
         let s = a / self.radius;
         if s < 1.0 { math::atanh(s) + s / (1.0 - s * s) } else { f64::INFINITY }
     }
 
-    /// m(h) = 2Rs, m.
+    /// Returns m(h) = 2Rs, m.
     #[inline]
     fn reduced_stiffness(&self, h: f64) -> f64 {
         2.0 * self.radius * ratio(h / self.radius)
     }
 
-    /// M(h), m².
+    /// Returns M(h), m².
     #[inline]
     fn reduced_force(&self, h: f64) -> f64 {
         self.radius * self.radius * reduced_force(h / self.radius)
     }
 
-    /// N(h), m³.
+    /// Returns N(h), m³.
     fn reduced_energy(&self, h: f64) -> f64 {
         let eta = h / self.radius;
         let reduced_energy = if eta <= SERIES_END {
@@ -195,9 +188,9 @@ impl Kind for Sphere {
         self.radius * self.radius * self.radius * reduced_energy
     }
 
-    /// Newton's method on M, which is convex in h: after the first step it descends on the root monotonically.
+    /// Newton's method on M, which is convex in h: the iterates decrease monotonically after the first step.
     fn height_of_reduced_force(&self, force: f64) -> f64 {
-        // Four steps at most between 1e-6 and 3.8 radii; the rest is for arguments beyond, whose guess may be far off.
+        // At most four steps are needed between 1e-6 and 3.8 radii; other arguments may need more.
         const STEPS: usize = 60;
         let wanted = force / (self.radius * self.radius);
         let hertz = math::cbrt(0.5625 * wanted * wanted);
@@ -228,13 +221,13 @@ impl Kind for Sphere {
     }
 }
 
-/// s = a/R at η.
+/// Returns s = a/R at η.
 #[inline]
 fn ratio(eta: f64) -> f64 {
     if eta <= SERIES_END { eta.sqrt() * sum(&RATIO, eta) } else { (eta / invert(eta)).min(1.0) }
 }
 
-/// M/R² at η.
+/// Returns M/R² at η.
 #[inline]
 fn reduced_force(eta: f64) -> f64 {
     if eta <= SERIES_END {
@@ -245,7 +238,7 @@ fn reduced_force(eta: f64) -> f64 {
     (s * s + 1.0) * t - s
 }
 
-/// N/R³ at η beyond the series.
+/// Returns N/R³ at η beyond the series.
 fn reduced_energy_beyond(eta: f64, t: f64) -> f64 {
     const TWELFTH_PI2: f64 = std::f64::consts::PI * std::f64::consts::PI / 12.0;
     let s = eta / t;

@@ -1,35 +1,34 @@
-//! A table of points (r, f): transformed once, by (4.20), and charted.
+//! Profile given by a table of points (r, f), transformed numerically by (4.20).
 
 use super::chart::{Chart, Ends, rising_cubic, value};
 use super::outline::Outline;
 use super::{Profile, ProfileError, Shape};
 use std::sync::Arc;
 
-/// What a panel may miss of the transform, relative to g at the last point, or more: as much as the points leave open of g themselves.
-// What 200 points leave of a sphere or a fourth power. Of points that scatter by a hundredth it would take 43 panels per cell.
+/// Largest error of a panel, relative to g at the last point. The error of the points themselves is the limit if it is larger.
+// The value is the error of 200 points of a sphere. For noisy points it would need many panels per cell.
 const TOLERANCE: f64 = 1e-10;
 
-/// Parts between two kinks at most that a quadrature over g is parted into.
-// What is not smooth at the other points is the second derivative of cubics that meet, which a part of several cells takes well; 4000
-// parts take as many quadratures for the pressure at one place.
+/// Largest number of parts between two kinks into which a quadrature over g is split.
+// At other points only the second derivative of the cubics jumps, and a part may span several of them.
 const PARTS: usize = 16;
 
-/// Most halvings of a cell. Behind a kink and nowhere else are some needed.
+/// Largest number of bisections of a cell, needed only beyond a kink.
 const HALVINGS: u32 = 8;
 
 impl Profile {
-    /// Most points of a table: its transform takes their number squared.
+    /// Largest number of points of a table. The cost of the transform is proportional to its square.
     pub const MAX_POINTS: usize = 4000;
 
-    /// A profile f(r) given by points (r, f), m, the first (0, 0), r rising and f not falling, with kinks at the radii named, each
-    /// of them a point: g by the numerical transform (4.20).
+    /// Creates a profile f(r) from points (r, f), m, by the numerical transform (4.20).
     ///
-    /// Between two kinks f must be smooth. It stands up to g of the last point ([`Self::reach`]). 200 even points give g of
+    /// The first point is (0, 0); r increases and f does not decrease. `kinks` are radii of points at which f has a kink. Between two
+    /// kinks f must be smooth. The profile ends at g of the last point ([`Self::reach`]). 200 equidistant points give g of a
     /// paraboloid, cone, sphere, fourth power and truncated cone to 1e-9 of its last value ([`Self::transform_error`]).
     ///
     /// # Errors
     ///
-    /// With the index of the first point or kink that does not fit, or where g falls: f is too far from convex.
+    /// Returns the index of the first invalid point or kink. Fails also if g decreases, because f is too far from convex.
     pub fn table(points: &[(f64, f64)], kinks: &[f64]) -> Result<Self, ProfileError> {
         let outline = Outline::new(points, kinks)?;
         let panels = panels(&outline)?;
@@ -37,8 +36,7 @@ impl Profile {
         Ok(Self { shape: Shape::Chart(Arc::new(Chart::new(&panels, borders, Some(outline)))) })
     }
 
-    /// How far g of a table may be off because of the distance of its points, m: an estimate from every second of them. None of
-    /// every other profile.
+    /// Returns the estimated error of g due to the distance of the points, m; `None` for a profile that is no table.
     pub fn transform_error(&self) -> Option<f64> {
         match &self.shape {
             Shape::Chart(chart) => chart.outline().map(Outline::error),
@@ -47,26 +45,26 @@ impl Profile {
     }
 }
 
-/// g at a place √(b²+w²): value and derivative to w.
+/// Value of g at √(b²+w²) and its derivative with respect to w.
 #[derive(Debug, Clone, Copy)]
 struct At {
     w: f64,
-    /// g, m.
+    /// Height g, m.
     height: f64,
-    /// dg/dw.
+    /// Derivative dg/dw.
     slope: f64,
 }
 
-/// A stretch of the foundation behind one kink.
+/// Part of the foundation beyond one kink.
 struct Stretch<'a> {
     outline: &'a Outline,
-    /// b, m.
+    /// Radius b of the kink, m.
     border: f64,
     /// Largest error of a panel, m.
     tolerance: f64,
 }
 
-/// The panels of all cells whose foundation does not lie flat at 0.
+/// Returns the panels of all cells in which g is above 0.
 fn panels(outline: &Outline) -> Result<Vec<Ends>, ProfileError> {
     let radii = outline.radii();
     let end = radii[radii.len() - 1];
@@ -82,14 +80,14 @@ fn panels(outline: &Outline) -> Result<Vec<Ends>, ProfileError> {
         if to.height <= last {
             return Err(ProfileError::NotRising { index: cell + 1, radius: pair[1] });
         }
-        // As the panel before ended: by a formula behind another kink its last digit may differ.
+        // The panel begins with the height at which the one before ended, which may differ in the last digit.
         stretch.fill(At { height: last, ..from }, to, HALVINGS, &mut panels);
         last = to.height;
     }
     Ok(panels)
 }
 
-/// Where a quadrature over g is to be parted: at the end of the flat, at the kinks, and at some of the points between.
+/// Returns the radii at which a quadrature over g must be split: the end of the flat, the kinks, and some other points.
 fn borders(outline: &Outline, flat: f64) -> Vec<f64> {
     let radii = outline.radii();
     let every = radii.len().div_ceil(PARTS);
@@ -104,7 +102,7 @@ fn borders(outline: &Outline, flat: f64) -> Vec<f64> {
 }
 
 impl Stretch<'_> {
-    /// √(x²-b²), m.
+    /// Returns √(x²-b²), m.
     fn w(&self, x: f64) -> f64 {
         ((x - self.border) * (x + self.border)).sqrt()
     }
@@ -117,7 +115,7 @@ impl Stretch<'_> {
         At { w, height, slope }
     }
 
-    /// Both ends of a panel.
+    /// Returns the values at both ends of a panel.
     fn ends(&self, from: At, to: At) -> Ends {
         let (b, width) = (self.border, to.w - from.w);
         let radius = [math::hypot(b, from.w), math::hypot(b, to.w)];
@@ -130,7 +128,7 @@ impl Stretch<'_> {
         }
     }
 
-    /// One panel, or the panels of both halves where it misses too much in its middle.
+    /// Adds one panel, or the panels of both halves if the error in its middle is too large.
     fn fill(&self, from: At, to: At, halvings: u32, panels: &mut Vec<Ends>) {
         let ends = self.ends(from, to);
         let middle = self.at(0.5 * (from.w + to.w));
@@ -153,7 +151,7 @@ impl Stretch<'_> {
 mod tests {
     use super::*;
 
-    /// Panels of a table.
+    /// Number of panels of a table.
     fn count(table: &Profile) -> usize {
         let Shape::Chart(chart) = &table.shape else { unreachable!() };
         chart.count()
@@ -167,7 +165,7 @@ mod tests {
             (draws >> 11) as f64 / (1_u64 << 53) as f64
         };
         for (points, scatter) in [(60, 0.01), (400, 0.1), (4000, 0.02)] {
-            // A ball whose slope scatters from cell to cell.
+            // Paraboloid with a random slope error in each cell.
             let (mut gap, mut table) = (0.0, vec![(0.0, 0.0)]);
             for k in 1..points {
                 let r = f64::from(k) / f64::from(points);
@@ -178,11 +176,11 @@ mod tests {
             let (cells, panels) = (table.len() - 1, count(&profile));
             assert!(panels >= cells && panels <= cells + cells / 20, "{cells}: {panels}");
             assert!(profile.borders().len() <= PARTS, "{}", profile.borders().len());
-            // And it is still the ball: g = x² with f = r²/2.
+            // The table still approximates the paraboloid: g = x² with f = r²/2.
             let error = (profile.depth(0.5) / 0.25 - 1.0).abs();
             assert!(error < 0.3 * scatter, "{points}: {error:e}");
         }
-        // A kink and the end of a flat are borders, however many points there are.
+        // A kink and the end of a flat are borders for any number of points.
         let at = |k: u32| f64::from(k) / 1000.0;
         let worn: Vec<(f64, f64)> = (0..=1000).map(|k| (at(k), (at(k) - 0.203).max(0.0))).collect();
         let worn = Profile::table(&worn, &[0.203]).unwrap();

@@ -1,7 +1,6 @@
-//! A paraboloid with a conical tip: a cone of the slope b/R up to a radius b, beyond it f = (r²+b²)/2R, so that f and f′ go on
-//! without a step.
+//! Paraboloid with a conical tip: a cone of slope b/R up to a radius b, beyond it f = (r²+b²)/2R. f and f′ are continuous.
 //!
-//! For x ≤ b it is the cone, g = (π/2)(b/R)x. With w = √(x²-b²) and ψ = arcsin(b/x) for x ≥ b:
+//! For x ≤ b the profile is the cone, g = (π/2)(b/R)x. With w = √(x²-b²) and ψ = arcsin(b/x) for x ≥ b:
 //!
 //! * g = x(w + bψ)/R, g′ = (2w + bψ)/R,
 //! * M = [(4/3)w³ + b²w + bx²ψ]/R,
@@ -14,7 +13,7 @@ use super::newton::root;
 use super::{Profile, ProfileError, Shape};
 use std::f64::consts::FRAC_PI_2;
 
-/// A paraboloid of radius of curvature R (m) with a cone up to a radius b (m).
+/// Paraboloid of radius of curvature R (m) with a cone up to a radius b (m).
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct TippedParaboloid {
     border: [f64; 1],
@@ -24,11 +23,11 @@ pub(super) struct TippedParaboloid {
 }
 
 impl Profile {
-    /// A paraboloid of radius of curvature R (m) with a conical tip up to a radius b (m): f = br/R inside, (r²+b²)/2R beyond.
+    /// Creates a paraboloid of radius of curvature R (m) with a conical tip up to a radius b (m): f = br/R inside, (r²+b²)/2R beyond.
     ///
     /// # Errors
     ///
-    /// For a radius that is not above 0 and finite.
+    /// Fails for a radius that is not above 0 or not finite.
     pub fn tipped_paraboloid(radius: f64, tip: f64) -> Result<Self, ProfileError> {
         let border = [positive(tip, ProfileError::Tip)?];
         let radius = positive(radius, ProfileError::Radius)?;
@@ -37,14 +36,14 @@ impl Profile {
     }
 }
 
-/// M R: (4/3)w³ + b²w + bx²ψ.
+/// Returns M R: (4/3)w³ + b²w + bx²ψ.
 fn force(place: &Place) -> f64 {
     let Place { border: b, w, x, .. } = *place;
     w * (4.0 / 3.0 * w * w + b * b) + b * x * x * place.complement()
 }
 
 impl TippedParaboloid {
-    /// Where g = h, h beyond the cone. The paraboloid of the same h lies beyond: w + bψ ≥ x.
+    /// Returns the position with g = h, for h beyond the cone. The paraboloid of the same h is an upper bound, because w + bψ ≥ x.
     fn place(&self, h: f64) -> Place {
         let [b] = self.border;
         let wanted = self.radius * h;
@@ -56,7 +55,7 @@ impl TippedParaboloid {
         Place::at(b, x.max(b))
     }
 
-    /// Height at which the cone ends, m.
+    /// Returns the height at which the cone ends, m.
     fn end(&self) -> f64 {
         self.slope * self.border[0]
     }
@@ -121,17 +120,17 @@ impl Kind for TippedParaboloid {
         &self.border
     }
 
-    /// At the tip.
+    /// Returns that the pressure is unbounded at the tip.
     fn peak(&self) -> Option<Peak> {
         Some(Peak::Unbounded)
     }
 
-    /// Where its cone ends.
+    /// Returns that the derivative of the stiffness is singular where the cone ends.
     fn has_bends(&self) -> bool {
         true
     }
 
-    /// That of its tip.
+    /// Returns the exponent of the conical tip.
     fn first_power(&self) -> f64 {
         2.0
     }

@@ -1,4 +1,4 @@
-//! A worn cone: flat up to a radius b, beyond it f = (r-b) tanθ.
+//! Truncated cone: flat up to a radius b, beyond it f = (r-b) tanθ.
 //!
 //! With w = √(x²-b²) and φ = arccos(b/x) = arctan(w/b) for x ≥ b (handbook 2.5.8):
 //!
@@ -6,7 +6,7 @@
 //! * M = (x²φ + bw) tanθ,
 //! * N = [φ²x³/3 + b²(x-b)/3 + (2/3)bφxw - (b³/3)K] tan²θ, K = ∫₀^φ t/cos t dt.
 //!
-//! All terms are positive but the last, which is a seventh of the rest at most: nothing cancels at small h, where all is that
+//! Only the last term is negative, and it is at most a seventh of the others. The formulas have no cancellation at small h, the limit
 //! of a flat punch, nor for b → 0, the cone.
 
 use super::angle::{Place, gudermann_integral};
@@ -16,7 +16,7 @@ use super::newton::root;
 use super::{Profile, ProfileError, Shape};
 use std::f64::consts::FRAC_2_PI;
 
-/// A cone of slope tanθ, worn to a flat of radius b (m).
+/// Cone of slope tanθ, truncated to a flat of radius b (m).
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct TruncatedCone {
     border: [f64; 1],
@@ -24,11 +24,11 @@ pub(super) struct TruncatedCone {
 }
 
 impl Profile {
-    /// A truncated cone: a flat of radius b (m), beyond it f = (r-b) tanθ, given b and tanθ.
+    /// Creates a truncated cone: a flat of radius b (m), beyond it f = (r-b) tanθ, from b and tanθ.
     ///
     /// # Errors
     ///
-    /// For a radius or slope that is not above 0 and finite.
+    /// Fails for a radius or slope that is not above 0 or not finite.
     pub fn truncated_cone(flat: f64, slope: f64) -> Result<Self, ProfileError> {
         let border = [positive(flat, ProfileError::Flat)?];
         let slope = positive(slope, ProfileError::Slope)?;
@@ -37,7 +37,7 @@ impl Profile {
 }
 
 impl TruncatedCone {
-    /// Where g = h > 0: x φ rises from w at small w to (π/2)w - b at large ones.
+    /// Returns the position with g = h > 0. x φ is about w for small w and about (π/2)w - b for large w.
     fn place(&self, h: f64) -> Place {
         let [b] = self.border;
         let wanted = h / self.slope;
@@ -68,11 +68,11 @@ impl Kind for TruncatedCone {
         self.slope * self.slope * (outer - inner) / 3.0
     }
 
-    /// In w, where dM/dw = 2(wφ + b) tanθ.
+    /// Solves for w, with dM/dw = 2(wφ + b) tanθ.
     fn height_of_reduced_force(&self, force: f64) -> f64 {
         let [b] = self.border;
         let wanted = force / self.slope;
-        // M is 2bw at least, and about a cone's far out.
+        // M is at least 2bw tanθ, and about that of a cone for large w.
         let start = (0.5 * wanted / b).min((FRAC_2_PI * wanted).sqrt() + b);
         let w = root(wanted, start, |w| {
             let Place { x, angle, .. } = Place::beyond(b, w);
@@ -108,7 +108,7 @@ impl Kind for TruncatedCone {
         &self.border
     }
 
-    /// At the edge of the flat, without bound, if only as a logarithm.
+    /// Returns that the pressure is unbounded at the edge of the flat, where it has a logarithmic singularity.
     fn peak(&self) -> Option<Peak> {
         Some(Peak::Unbounded)
     }

@@ -1,4 +1,4 @@
-//! A worn ball: flat up to a radius b, beyond it f = (r²-b²)/2R.
+//! Truncated paraboloid, a worn sphere: flat up to a radius b, beyond it f = (r²-b²)/2R.
 //!
 //! With w = √(x²-b²) for x ≥ b (handbook 2.5.9):
 //!
@@ -6,14 +6,14 @@
 //! * M = 2w(2w²+3b²)/(3R),
 //! * N = (2/3R²)(x-b)[(4/5)(x⁴+x³b+x²b²+xb³) - b⁴/5].
 //!
-//! For b → 0 these are the paraboloid's, at small h those of a flat punch.
+//! For b → 0 these are the functions of the paraboloid, at small h those of a flat punch.
 
 use super::angle::Place;
 use super::error::positive;
 use super::kind::{Kind, Peak};
 use super::{Profile, ProfileError, Shape};
 
-/// A paraboloid of radius of curvature R (m), worn to a flat of radius b (m).
+/// Paraboloid of radius of curvature R (m), truncated to a flat of radius b (m).
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct TruncatedParaboloid {
     border: [f64; 1],
@@ -21,11 +21,11 @@ pub(super) struct TruncatedParaboloid {
 }
 
 impl Profile {
-    /// A truncated paraboloid: a flat of radius b (m), beyond it f = (r²-b²)/2R, given b and R (m): a worn ball.
+    /// Creates a truncated paraboloid, a worn sphere: a flat of radius b (m), beyond it f = (r²-b²)/2R, from b and R (m).
     ///
     /// # Errors
     ///
-    /// For a radius that is not above 0 and finite.
+    /// Fails for a radius that is not above 0 or not finite.
     pub fn truncated_paraboloid(flat: f64, radius: f64) -> Result<Self, ProfileError> {
         let border = [positive(flat, ProfileError::Flat)?];
         let radius = positive(radius, ProfileError::Radius)?;
@@ -34,13 +34,13 @@ impl Profile {
 }
 
 impl TruncatedParaboloid {
-    /// w at h > 0, m, from w²(b²+w²) = R²h².
+    /// Returns w at h > 0, m, from w²(b²+w²) = R²h².
     fn w(&self, h: f64) -> f64 {
         let ([b], rh) = (self.border, self.radius * h);
         rh * (2.0 / (b * b + math::hypot(b * b, 2.0 * rh))).sqrt()
     }
 
-    /// M over its factor: w³ + (3/2)b²w.
+    /// Returns M divided by its factor: w³ + (3/2)b²w.
     fn cubic(&self, w: f64) -> f64 {
         let [b] = self.border;
         w * (w * w + 1.5 * b * b)
@@ -65,7 +65,7 @@ impl Kind for TruncatedParaboloid {
         2.0 / (3.0 * self.radius * self.radius) * place.excess() * bracket
     }
 
-    /// The real root of the cubic by hyperbolic functions, and one step of Newton's for the digits that they lose.
+    /// Returns the real root of a cubic by hyperbolic functions, with one Newton step as a correction.
     fn height_of_reduced_force(&self, force: f64) -> f64 {
         let ([b], wanted) = (self.border, 0.75 * self.radius * force);
         let unit = b * std::f64::consts::FRAC_1_SQRT_2;
@@ -97,7 +97,7 @@ impl Kind for TruncatedParaboloid {
         &self.border
     }
 
-    /// At the edge of the flat, without bound, if only as a logarithm.
+    /// Returns that the pressure is unbounded at the edge of the flat, where it has a logarithmic singularity.
     fn peak(&self) -> Option<Peak> {
         Some(Peak::Unbounded)
     }

@@ -1,44 +1,42 @@
-//! One spring along a straight chord of the (d, u) plane.
+//! One spring along a straight path in the (d, u) plane.
 //!
-//! Limit and trial stretch of a spring are both linear along the chord, so it sticks first and then slips in
-//! one direction to the end, or sticks throughout: the end follows from clamping, and the friction work from
-//! the anchor's way and the limit at its two ends.
-//!
-//! So a row is exact along a chord of any length, as the curve is; what it errs by is the size of its cells.
+//! Friction limit and trial stretch are linear along the path. A spring therefore sticks throughout, or sticks first and then slips
+//! in one direction. The final stretch follows from the limit at the end. The friction work follows from the slip distance and the
+//! limits at both ends of the slip. A row is thus exact along a straight path of any length, except for its discretization.
 
 use super::Springs;
 use super::lanes::clamp;
 use crate::Apex;
 
-/// A chord with what all its springs share.
+/// Straight path with quantities that all springs share.
 pub(super) struct Chord {
-    /// Where it starts.
+    /// Start of the path.
     pub(super) from: Apex,
-    /// Where it ends.
+    /// End of the path.
     pub(super) to: Apex,
-    /// κ.
+    /// Slope κ of the friction limit.
     slope: f64,
-    /// Growth κΔd of the limit along the chord.
+    /// Change κΔd of the friction limit along the path.
     growth: f64,
-    /// 1/(Δu-κΔd), part of the chord per way of an anchor that slips forward; 0 if none can.
+    /// Fraction of the path per slip distance of a spring that slips forward, 1/(Δu-κΔd); 0 if none can.
     forward: f64,
-    /// 1/|Δu+κΔd|, the same for one that slips backward.
+    /// Fraction of the path per slip distance of a spring that slips backward, 1/|Δu+κΔd|; 0 if none can.
     backward: f64,
 }
 
-/// What a chord does to one spring.
+/// Effect of a path on one spring.
 #[derive(Clone, Copy)]
 pub(super) struct Slide {
-    /// Its anchor at the end, m.
+    /// Rest position at the end, m.
     pub(super) anchor: f64,
-    /// Its stretch at the end, m.
+    /// Stretch at the end, m.
     pub(super) stretch: f64,
     /// Friction work over G\* and the spring's length, m².
     pub(super) work: f64,
 }
 
 impl Chord {
-    /// The chord between two apexes for springs with the slope κ of the stick limit.
+    /// Creates the path between two apexes, for springs with the slope κ of the friction limit.
     pub(super) fn new(from: Apex, to: Apex, slope: f64) -> Self {
         let (travel, growth) = (to.u - from.u, slope * (to.d - from.d));
         let inverse = |rate: f64| if rate > 0.0 { 1.0 / rate } else { 0.0 };
@@ -52,36 +50,36 @@ impl Chord {
         }
     }
 
-    /// Limit κ(d-h) at the end.
+    /// Returns the friction limit κ(d-h) at the end, m.
     #[inline]
     pub(super) fn limit(&self, h: f64) -> f64 {
         self.slope * (self.to.d - h)
     }
 
-    /// Stretch at the end, per depth d-h below it, of a spring that first touched along the chord.
+    /// Returns the stretch at the end over d-h, for a spring that touches for the first time along the path.
     pub(super) fn fresh_stretch_per_rise(&self) -> f64 {
         clamp((self.to.u - self.from.u) / (self.to.d - self.from.d), self.slope)
     }
 
-    /// u at the moment when a spring first touches, which is where it is anchored.
-    // Not u at the end of the chord, which would leave all springs of a step unstretched: a loss of order one in the steps of
-    // a growing contact.
+    /// Returns u at the time when a spring touches: its initial rest position.
+    // The value u at the end of the path would leave new springs unstretched, an error of first order.
     #[inline]
     pub(super) fn touching_anchor(&self, h: f64) -> f64 {
         self.to.u - (self.to.u - self.from.u) * ((self.to.d - h) / (self.to.d - self.from.d))
     }
 
-    /// A spring that touches at the end, from the anchor it had or touched with.
+    /// Returns the effect of the path on a spring in contact at the end, from its rest position `anchor`.
     ///
-    /// Slipping forward its anchor moves by D = (Δu-κΔd)·(part of the chord it slips), so its limit has the
-    /// mean L - ½κΔd·part over the slip, L at the end. That holds for a spring that has just touched as well.
+    /// A spring that slips forward moves its rest position by D = (Δu-κΔd) times the fraction of the path in which it slips. The mean
+    /// limit over the slip is L - ½κΔd times that fraction, where L is the limit at the end. The formula also holds for a spring that
+    /// has just touched.
     #[inline(always)]
     pub(super) fn slide(&self, h: f64, anchor: f64) -> Slide {
         let (u, limit) = (self.to.u, self.limit(h));
         let trial = u - anchor;
         let edge = u - limit.copysign(trial);
-        // u - edge must not come out below the limit: the spring would seem to stick. Rounding takes half of all slipping
-        // springs there, and an ulp of the edge brings every one of them back (ten million drawn at random).
+        // Rounding must not make the stretch smaller than the limit, because the spring would seem to stick. One unit in the last
+        // place is sufficient.
         let ulp = (edge.abs() * f64::EPSILON).copysign(trial);
         let edge = if (u - edge).abs() < limit { edge - ulp } else { edge };
         let moved = if trial.abs() > limit { edge } else { anchor };
@@ -91,8 +89,9 @@ impl Chord {
         Slide { anchor: moved, stretch: clamp(trial, limit), work: way * (limit - 0.5 * self.growth * part) }
     }
 
-    /// Friction work over G\* of the springs `after..before`, which leave contact along the chord: they stick,
-    /// then slip until their limit is 0.
+    /// Returns the friction work over G\* of the springs `after..before`, which leave contact along the path.
+    ///
+    /// These springs stick, then slip until their limit is 0.
     pub(super) fn leaving_work(
         &self,
         springs: &Springs,

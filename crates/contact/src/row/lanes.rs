@@ -1,36 +1,31 @@
-//! Sums over the springs of a row, eight at a time.
+//! Sums over the springs of a row, in eight parallel lanes.
 //!
-//! Spring i always goes to lane i mod 8 and the lanes are added in one order, so equal springs give equal
-//! bits; the compiler turns each lane loop into vector instructions.
-//!
-//! The lowest springs come first, and those that touch are always the lowest: every sum runs over one piece of memory
-//! without asking spring by spring.
+//! Spring i always belongs to lane i mod 8, and the lanes are added in a fixed order. Equal springs therefore give equal bits. The
+//! compiler vectorizes each loop over lanes. Springs in contact are always the first ones, so every sum covers a contiguous range.
 
 use super::chord::Chord;
 use super::springs::Cells;
 use crate::Apex;
 
-/// Sums side by side.
-// ns per spring of a row of 2048 for force, trial and commit: 0.82, 1.63, 2.98 by one lane, 0.49, 1.63, 3.02 by four, 0.47,
-// 1.03, 2.24 by eight, 0.39, 0.89, 2.34 by sixteen; a row of 128 takes 0.55 by eight for a force and 0.66 by sixteen.
+/// Number of lanes.
 const LANES: usize = 8;
 
-/// The lanes' sum, in a fixed order.
+/// Returns the sum of the lanes, in a fixed order.
 #[inline]
 fn total(lanes: &[f64; LANES]) -> f64 {
     let [a, b, c, d, e, f, g, h] = *lanes;
     ((a + e) + (b + f)) + ((c + g) + (d + h))
 }
 
-/// x clamped to ±limit, limit ≥ 0.
-// Two comparisons: a force costs 0.47 ns per spring, with `f64::clamp` 0.87 and with `min` and `max` 0.81, for the sake of NaN.
+/// Limits x to ±limit, for limit ≥ 0.
+// Two comparisons are faster than `f64::clamp`, which also handles NaN.
 #[inline(always)]
 pub(super) fn clamp(x: f64, limit: f64) -> f64 {
     let x = if x > limit { limit } else { x };
     if x < -limit { -limit } else { x }
 }
 
-/// Σ length·stretch of springs in contact before and after a move, m².
+/// Returns Σ length·stretch of springs in contact before and after a move, m².
 #[inline]
 pub(super) fn shear(cells: Cells<'_>, anchors: &[f64], to: Apex, slope: f64) -> f64 {
     let one = |h: f64, length: f64, anchor: f64| length * clamp(to.u - anchor, slope * (to.d - h));
@@ -49,7 +44,7 @@ pub(super) fn shear(cells: Cells<'_>, anchors: &[f64], to: Apex, slope: f64) -> 
     total(&lanes)
 }
 
-/// Σ length·(u-p) of springs that stick, m².
+/// Returns Σ length·(u-p) of sticking springs, m².
 pub(super) fn stuck(cells: Cells<'_>, anchors: &[f64], u: f64) -> f64 {
     let (lengths, rest_l) = cells.lengths.as_chunks::<LANES>();
     let (anchors, rest_a) = anchors.as_chunks::<LANES>();
@@ -65,18 +60,18 @@ pub(super) fn stuck(cells: Cells<'_>, anchors: &[f64], u: f64) -> f64 {
     total(&lanes)
 }
 
-/// What the springs in contact before and after a move add up to.
+/// Sums over the springs in contact before and after a move.
 #[derive(Clone, Copy, Default)]
 pub(super) struct Tally {
-    /// Σ length·stretch, m².
+    /// Sum of length·stretch, m².
     pub(super) shear: f64,
     /// Length that sticks, m.
     pub(super) stick: f64,
-    /// Length that slips forward less length that slips backward, m.
+    /// Length that slips forward minus length that slips backward, m.
     pub(super) slip: f64,
 }
 
-/// The tally of springs in contact before and after a move, in one pass over them.
+/// Returns the sums over springs in contact before and after a move.
 #[inline]
 pub(super) fn tally(cells: Cells<'_>, anchors: &[f64], to: Apex, slope: f64) -> Tally {
     let (mut shear, mut stick, mut slip) = ([0.0; LANES], [0.0; LANES], [0.0; LANES]);
@@ -103,12 +98,12 @@ pub(super) fn tally(cells: Cells<'_>, anchors: &[f64], to: Apex, slope: f64) -> 
     Tally { shear: total(&shear), stick: total(&stick), slip: total(&slip) }
 }
 
-/// Σ length·(d-h), m².
+/// Returns Σ length·(d-h), m².
 pub(super) fn pressed_force(cells: Cells<'_>, d: f64) -> f64 {
     cells.heights.iter().zip(cells.lengths).map(|(h, length)| length * (d - h)).sum()
 }
 
-/// Slides the anchors of springs that touch at the end of a chord; returns the friction work over G\*, m³.
+/// Updates the rest positions of springs in contact at the end of a path. Returns the friction work over G\*, m³.
 pub(super) fn slide(cells: Cells<'_>, anchors: &mut [f64], chord: &Chord) -> f64 {
     let one = |h: f64, length: f64, anchor: &mut f64| {
         let slide = chord.slide(h, *anchor);

@@ -1,74 +1,75 @@
-//! A row between two changes of its springs.
+//! Linear force law of a row of springs between two changes of its springs.
 //!
-//! While no spring touches, parts, begins to slip or sticks again, the forces of a row are straight in d and u, whatever the
-//! path: a spring that sticks at p carries G\*l(u-p), one that slips ±G\*lκ(d-h), and both press with E\*l(d-h). So a lull
-//! is two straight lines and the five distances to its end; it goes on smoothly beyond, as a [`Branch`](crate::Branch) does,
-//! so that a stepper of any order can look for the end inside a step.
+//! A change is first touch, lift-off, onset of slip or onset of stick of a spring. Between two changes the forces are linear in d and
+//! u for any path. A sticking spring with rest position p carries G\*l(u-p), a slipping one ±G\*lκ(d-h), and both press with
+//! E\*l(d-h). The laws continue smoothly beyond their end, as those of a [`Branch`](crate::Branch), so that an integrator can locate
+//! the end within a step.
 //!
-//! Anchors of springs that touch differ by at most κ times their heights. So those that slip are always the highest, all in
-//! one sense, and the next to slip is the highest that sticks.
+//! Rest positions of neighbouring springs differ by at most κ times their difference in height. Slipping springs are therefore always
+//! the highest ones, all in one direction. The next spring to slip is the highest one that sticks.
 
 use super::{Row, Springs, lanes};
 use crate::words::{Words, push};
 use crate::{Apex, Interface, Motion};
 
-/// What the last lull ended with, where that is known.
+/// Change at which the previous interval ended, if known.
 ///
-/// At that moment the motion says it within rounding only: it is decreed.
+/// At that time the motion determines the change only within rounding, so the known change takes precedence.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Change {
-    /// Not known: the motion says it.
+    /// The change is unknown and is determined from the motion.
     Any,
     /// The next spring has touched.
     Touches,
-    /// The highest spring has parted.
+    /// The highest spring has lifted off.
     Parts,
-    /// The highest spring that sticks has reached its limit in a sense, +1 or -1; unless it has parted at that moment.
+    /// The highest sticking spring has reached its friction limit in a direction, +1 or -1, unless it has just lifted off.
     Slips(f64),
-    /// The springs that slip come to stick: u̇ and κḋ are equal.
+    /// The slipping springs begin to stick: σu̇ = κḋ for the slip direction σ.
     Sticks,
 }
 
-/// How near to its change a spring counts as there, m.
+/// Tolerances within which a spring counts as being at its change, m.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Slack {
-    /// Of indentations.
+    /// Tolerance of indentations, m.
     pub d: f64,
-    /// Of stretches.
+    /// Tolerance of stretches, m.
     pub u: f64,
 }
 
-/// The law of a row until the next change of a spring.
+/// Linear force law of a row until the next change of a spring.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Lull {
-    /// Where it began; all else is counted from there.
+    /// Apex at the start of the interval, to which all sums refer.
     from: Apex,
-    /// Sense in which springs slip; 0 where none does.
+    /// Direction in which springs slip; 0 if none does.
     sense: f64,
-    /// κ.
+    /// Slope κ of the friction limit.
     slope: f64,
-    /// `F_x` over G\* at the start, m².
+    /// Tangential force over G\* at the start, m².
     shear: f64,
-    /// What of it slips, as a magnitude, m².
+    /// Magnitude of the slipping springs' force over G\* at the start, m².
     limit: f64,
     /// Length that sticks, m.
     stick: f64,
-    /// κ times the length that slips, m.
+    /// Length that slips, times κ, m.
     slip: f64,
-    /// `F_N` over E\* at the start, m².
+    /// Normal force over E\* at the start, m².
     press: f64,
-    /// Length that touches, m.
+    /// Length in contact, m.
     touch: f64,
-    /// Stretches that are left at the start until a spring slips forward and backward, m; infinite where none can.
+    /// Stretches left at the start until a spring slips forward and backward, m; infinite if none can.
     left: [f64; 2],
-    /// Heights of the highest spring that touches and of the lowest that does not, m; infinite without any.
+    /// Heights of the highest spring in contact and of the lowest one out of contact, m; infinite if there is none.
     heights: [f64; 2],
 }
 
 impl Row {
-    /// The law of the row from where it stands, moving as `at` does, after a change. A row pressed by a `force` has one
-    /// spring at least that holds it, however small that is; of such a row the length is told that touches by the law by which `at`
-    /// sinks, m, 0 where none is known: it sinks slower the more springs touch.
+    /// Returns the linear force law of the row after a change, for a motion `at`.
+    ///
+    /// `force` is `Some` for a row under a given normal force, in which at least the lowest spring stays in contact. The value is the
+    /// length in contact for which the rate of indentation in `at` was computed, m, or 0 if unknown.
     pub fn lull(
         &self,
         springs: &Springs,
@@ -77,7 +78,7 @@ impl Row {
         slack: Slack,
         force: Option<f64>,
     ) -> Lull {
-        // The lowest springs have all one height: under a force they part together or not at all.
+        // The lowest springs have equal heights and lift off together.
         let lowest = if force.is_some() { springs.up_to(springs.heights()[0]) } else { 0 };
         let touching = self.touching_after(springs, (at, change), slack.d).max(lowest);
         let still = self.still(springs, law, (lowest, touching));
@@ -91,7 +92,7 @@ impl Row {
         let reached = |sense: f64| sense * at.du > still.slope * slower * at.dd && near(sense);
         let sense = match change {
             Change::Sticks => 0.0,
-            // A spring without stretch comes to its limits where it parts: that says nothing about the one below it.
+            // A spring without stretch reaches its limit when it lifts off. This does not determine the state of the spring below.
             Change::Slips(sense) if near(sense) => sense,
             _ if reached(1.0) => 1.0,
             _ if reached(-1.0) => -1.0,
@@ -104,7 +105,7 @@ impl Row {
         let ahead = |it: f64| if stick > 0 && sense != -it { left(stick - 1, it) } else { f64::INFINITY };
         let inner = springs.sums_of(stick, still.from.d);
         let limit = still.slope * (still.press - inner.reduced_force);
-        // What has only just touched is unstretched.
+        // A spring that has just touched is unstretched.
         let old = stick.min(self.touching);
         Lull {
             sense,
@@ -117,7 +118,7 @@ impl Row {
         }
     }
 
-    /// Without friction: springs that press, of which the `lowest` never part.
+    /// Returns the law without friction. The `lowest` springs never lift off.
     fn still(&self, springs: &Springs, law: &Interface, (lowest, touching): (usize, usize)) -> Lull {
         let sums = springs.sums_of(touching, self.apex.d);
         let top = if touching > lowest { springs.heights()[touching - 1] } else { f64::NEG_INFINITY };
@@ -137,13 +138,13 @@ impl Row {
         }
     }
 
-    /// Stretch left until the distinct spring of a rank slips in a sense, m.
+    /// Returns the stretch left until a distinct spring slips in a direction, m.
     fn left(&self, springs: &Springs, slope: f64, (rank, sense): (usize, f64)) -> f64 {
         let stretch = if rank < self.touching { self.apex.u - self.anchors[rank] } else { 0.0 };
         slope * (self.apex.d - springs.heights()[rank]) - sense * stretch
     }
 
-    /// Number of distinct springs that touch after a change.
+    /// Returns the number of distinct springs in contact after a change.
     fn touching_after(&self, springs: &Springs, (at, change): (&Motion, Change), slack: f64) -> usize {
         let d = self.apex.d;
         match change {
@@ -157,70 +158,70 @@ impl Row {
 }
 
 impl Lull {
-    /// Length that touches, m.
+    /// Returns the length in contact, m.
     #[inline]
     pub fn touch(&self) -> f64 {
         self.touch
     }
 
-    /// Sense in which springs slip, +1 or -1; 0 where none does.
+    /// Returns the direction in which springs slip, +1 or -1; 0 if none does.
     #[inline]
     pub fn sense(&self) -> f64 {
         self.sense
     }
 
-    /// `F_x`, N.
+    /// Returns the tangential force `F_x`, N.
     #[inline]
     pub fn force(&self, law: &Interface, at: Apex) -> f64 {
         let (rise, way) = (at.d - self.from.d, at.u - self.from.u);
         law.tangential_modulus() * (self.shear + self.stick * way + self.sense * self.slip * rise)
     }
 
-    /// M(d), m²: the normal force over E\*.
+    /// Returns the reduced force M(d), m²: the normal force over E\*.
     #[inline]
     pub fn reduced_force(&self, d: f64) -> f64 {
         self.press + self.touch * (d - self.from.d)
     }
 
-    /// Indentation at which M (m²) is reached, m, and its slope dd/dM, 1/m.
+    /// Returns the indentation at a reduced force M (m²), m, and the derivative dd/dM, 1/m.
     #[inline]
     pub fn depth(&self, reduced_force: f64) -> (f64, f64) {
         (self.from.d + (reduced_force - self.press) / self.touch, 1.0 / self.touch)
     }
 
-    /// Stiffness of the springs that stick, N/m.
+    /// Returns the tangential stiffness of the sticking springs, N/m.
     #[inline]
     pub fn stiffness(&self, law: &Interface) -> f64 {
         law.tangential_modulus() * self.stick
     }
 
-    /// Friction power Σ G\*lκ(d-h)(σu̇ - κḋ) of the springs that slip, W.
+    /// Returns the friction power of the slipping springs Σ G\*lκ(d-h)(σu̇ - κḋ), W.
     #[inline]
     pub fn friction_power(&self, law: &Interface, at: &Motion) -> f64 {
         let limit = self.limit + self.slip * (at.d - self.from.d);
         law.tangential_modulus() * limit * (self.sense * at.du - self.slope * at.dd)
     }
 
-    /// Stretch left until a spring slips in a sense, m.
+    /// Returns the stretch left until a spring slips in a direction, m.
     #[inline]
     pub fn left(&self, sense: f64, at: Apex) -> f64 {
         let left = if sense > 0.0 { self.left[0] } else { self.left[1] };
         left + self.slope * (at.d - self.from.d) - sense * (at.u - self.from.u)
     }
 
-    /// Height of the highest spring that touches, m; -∞ without one that may part.
+    /// Returns the height of the highest spring in contact, m; -∞ if no spring can lift off.
     #[inline]
     pub fn top(&self) -> f64 {
         self.heights[0]
     }
 
-    /// Height of the lowest spring that does not, m; ∞ without any.
+    /// Returns the height of the lowest spring out of contact, m; ∞ if there is none.
     #[inline]
     pub fn next(&self) -> f64 {
         self.heights[1]
     }
 
-    /// Counts displacements from another origin, `by` (m) further back.
+    /// Moves the origin of displacements: all displacements grow by `by` (m).
     pub fn shift(&mut self, by: f64) {
         self.from.u += by;
     }
@@ -233,7 +234,7 @@ impl Lull {
         push(words, self.heights);
     }
 
-    /// Reads what [`Self::write`] wrote of a contact with this interface.
+    /// Reads a law that [`Self::write`] wrote, for a contact with this interface.
     pub fn read(law: &Interface, words: &mut Words<'_>) -> Option<Self> {
         let from = words.apex()?;
         let sense = words.finite().filter(|sense| [1.0, 0.0, -1.0].contains(sense))?;

@@ -1,10 +1,10 @@
-//! A row of springs as plain words.
+//! Serialization of a row of springs.
 
 use super::{Row, Springs};
 use crate::words::{Words, push};
 
 impl Row {
-    /// Writes the state: of the anchors those of springs that touch, for the others have none.
+    /// Writes the state, with the rest positions of springs in contact only.
     pub(crate) fn write(&self, words: &mut Vec<u64>) {
         words.reserve(4 + self.touching);
         push(words, [self.apex.d, self.apex.u]);
@@ -13,7 +13,7 @@ impl Row {
         words.extend(self.anchors[..self.touching].iter().map(|anchor| anchor.to_bits()));
     }
 
-    /// Reads what [`Self::write`] wrote of a row of these springs.
+    /// Reads a state that [`Self::write`] wrote, for a row of these springs.
     pub(crate) fn read(springs: &Springs, words: &mut Words<'_>) -> Option<Self> {
         let (apex, backward) = (words.apex()?, words.flag()?);
         let touching = words.count(springs.heights().len())?;

@@ -1,5 +1,4 @@
-//! What the memory curve must stand: random histories on every scale, NaN, stacks that overflow, steps by the
-//! hundred thousand.
+//! Robustness tests of the memory curve: random histories on every scale, NaN, overflowing stacks, and very many steps.
 
 use proptest::prelude::*;
 use stickslip_contact::{Apex, ContactError, Curve, Interface, Move, Pair, Profile, Segment, SpringState};
@@ -33,7 +32,7 @@ fn profile(kind: usize, scale: f64) -> Profile {
     .unwrap()
 }
 
-/// A shift by a power of two just below u rounds nothing: forces, energies and what comes after are the same to the bit.
+/// A shift by a power of two just below u causes no rounding, so that all later results are identical to the last bit.
 #[test]
 fn a_shift_of_the_origin_changes_nothing() {
     for kind in 0..6 {
@@ -53,7 +52,7 @@ fn a_shift_of_the_origin_changes_nothing() {
     }
 }
 
-/// A move before it knows where the contact stands.
+/// Random move, independent of the state of the contact.
 #[derive(Debug, Clone, Copy)]
 struct Throw {
     kind: u8,
@@ -66,7 +65,7 @@ fn throws() -> impl Strategy<Value = Vec<Throw>> {
     prop::collection::vec(throw, 1..60)
 }
 
-/// A history: its scale of d (m), where u starts (m), μ, and what follows.
+/// Random history: scale of d (m), initial u (m), μ, and moves.
 #[derive(Debug, Clone)]
 struct Game {
     law: Interface,
@@ -86,7 +85,7 @@ fn games() -> impl Strategy<Value = Game> {
     )
 }
 
-/// Where a throw goes.
+/// Target of a random move.
 fn target(game: &Game, curve: &Curve, throw: Throw) -> Apex {
     let (at, Throw { x, y, .. }) = (curve.apex(), throw);
     let slide = 2.0 * game.law.stick_slope() * game.scale;
@@ -112,9 +111,9 @@ fn target(game: &Game, curve: &Curve, throw: Throw) -> Apex {
     }
 }
 
-/// Round-off that a history may have gathered.
+/// Scales of the rounding errors of a history.
 struct Scale {
-    /// Last place of the farthest displacement, m: an anchor knows no better.
+    /// Rounding of the largest displacement, m.
     place: f64,
     /// Largest μF_N, N.
     force: f64,
@@ -163,7 +162,7 @@ fn check(law: &Interface, curve: &Curve, scale: &Scale, capacity: usize) -> Resu
     Ok(())
 }
 
-/// What is not a number is refused and leaves no trace.
+/// Checks that values that are not finite are rejected and leave the curve unchanged.
 fn refused(law: &Interface, curve: &mut Curve) -> Result<(), TestCaseError> {
     let before = curve.clone();
     let at = curve.apex();
@@ -203,7 +202,7 @@ fn play(game: &Game, capacity: usize) -> Result<(), TestCaseError> {
         let work = curve.commit(law, segment).unwrap();
         check(law, &curve, &scale, capacity)?;
 
-        // Round-off of the work: a last place of u, or of κd, dragged under the full limit.
+        // Rounding of the work: the last place of u or κd, shifted under the full limit force.
         let path = scale.place / EPS + (goal.u - from.u).abs();
         prop_assert!(work >= -64.0 * EPS * scale.force * path, "friction {work:e}, {from:?} to {goal:?}");
         if curve.merged() == merged {
@@ -211,7 +210,7 @@ fn play(game: &Game, capacity: usize) -> Result<(), TestCaseError> {
         }
 
         let booked = curve.merged().force - merged.force;
-        // Pieces count as collinear within two last places of their anchors.
+        // Pieces count as collinear within two units in the last place of their rest positions.
         let slack = 1e-13 * scale.force + 2.0 * scale.stiffness * scale.place + booked;
         prop_assert!(
             (trial.force - curve.force(law)).abs() <= slack,
@@ -257,8 +256,8 @@ fn a_grown_segment_without_a_finite_force_or_energy_is_refused() {
     }
 }
 
-/// A path of growth along the edge itself whose last piece is a little less steep: the edge crosses that piece alone. Taken for the whole
-/// path its front moved by the inverse of nothing, and the force was no number.
+/// After growth along the limit line the last piece is slightly less steep. The limit line must cross only that piece, or the force
+/// would not be finite.
 #[test]
 fn the_edge_crosses_no_path_that_runs_along_it() {
     let law = paraboloid();
@@ -281,7 +280,7 @@ fn the_edge_crosses_no_path_that_runs_along_it() {
 
 // ---- Stacks that overflow
 
-/// Turns of a decay that loses one part in `length` of its first amplitude, or of its last, each time.
+/// Reversals of a decay whose amplitude decreases by a fraction 1/`length` of the first or of the previous amplitude.
 fn decays(length: i32) -> [Vec<f64>; 2] {
     let sign = |k: i32| if k % 2 == 0 { 0.9 } else { -0.9 };
     let even = (0..length).map(|k| sign(k) * (1.0 - f64::from(k) / f64::from(length))).collect();
@@ -303,8 +302,8 @@ fn a_long_decay_in_a_small_stack_books_its_error() {
                 curve.commit(&law, to(d, turn * u_c)).unwrap();
             }
             let booked = small.merged();
-            // An anchor is clamped by every move, which never widens a difference: what merging changed in the
-            // force bounds the error of the force for ever, and with the largest stretch u_c that of the energy.
+            // Later moves never enlarge a difference of rest positions. The recorded error of the force is therefore a bound for all
+            // later times.
             let error = (small.force(&law) - large.force(&law)).abs();
             assert!(error <= booked.force + 1e-13 * limit, "turn {k}: {error:e} {booked:?}");
             let error = (small.elastic(&law) - large.elastic(&law)).abs();
@@ -314,7 +313,7 @@ fn a_long_decay_in_a_small_stack_books_its_error() {
         }
         assert_eq!(large.merged().knots, 0);
         assert!(large.knot_count() > 99_000 && small.merged().knots > 99_000);
-        // On the way out the errors show most: every loop closes where the small stack has lost its turns.
+        // Large amplitudes close the loops in which the small stack has lost reversals, so the errors are largest here.
         for k in 0..200 {
             let part = 0.9 * f64::from(k) / 199.0;
             let probe = |curve: &Curve| curve.trial(&law, Move::Chord(Apex { d, u: part * u_c })).force;
@@ -355,15 +354,15 @@ fn collinear_growth_in_tiny_steps_stays_one_piece() {
 
 #[test]
 fn slightly_curved_growth_is_not_straightened() {
-    // u = β[d + εd²/d₁] on a paraboloid: F_x = G*∫u'm dh = 2G*√R β[(2/3)d^{3/2} + (4/5)εd^{5/2}/d₁]. The chords are a
-    // quadrature of it, G*Σ(Δu/Δd)ΔM, which misses Σu''ΔmΔ²/12 = ε(β/κ)μF_N/(4N²) of it.
+    // u = β[d + εd²/d₁] on a paraboloid: F_x = G*∫u'm dh = 2G*√R β[(2/3)d^{3/2} + (4/5)εd^{5/2}/d₁]. The chords are a quadrature
+    // G*Σ(Δu/Δd)ΔM with the error Σu''ΔmΔ²/12 = ε(β/κ)μF_N/(4N²).
     let law = paraboloid();
     let (d1, beta, steps) = (1e-6, 0.4 * law.stick_slope(), 100_000);
     let limit = law.friction() * law.normal_force(d1);
     for bend in [1e-13, 1e-12, 1e-11, 1e-9, 1e-7, 1e-5, 1e-3, 0.3] {
         for bend in [bend, -bend] {
             let path = |d: f64| beta * (d + bend * d * d / d1);
-            // G*ΔM Δu/Δd of a chord, with ΔM free of cancellation.
+            // Contribution G*ΔM Δu/Δd of a chord, without cancellation in ΔM.
             let chord = |k: i32| {
                 let edge = |k: i32| d1 * f64::from(k) / f64::from(steps);
                 let (low, high) = (edge(k), edge(k + 1));
@@ -388,11 +387,11 @@ fn slightly_curved_growth_is_not_straightened() {
                 let error = (curve.force(&law) - exact(d1)).abs();
                 let allowed = 1e-13 * limit + 1.001 * missed + booked;
                 assert!(error <= allowed, "{name}, {bend:e}: {:e} {:e}", error / limit, allowed / limit);
-                // The quadrature itself.
+                // Result of the quadrature.
                 let dense: f64 = (0..steps).map(chord).sum();
                 let error = (curve.force(&law) - dense).abs();
                 assert!(error <= 1e-13 * limit + booked, "{name}, {bend:e}: {:e} {booked:e}", error / limit);
-                // The knots inside: unload to half the depth along the same path.
+                // The inner knots are tested by unloading to half the indentation along the same path.
                 let half = curve.trial(&law, Move::Chord(Apex { d: 0.5 * d1, u: path(0.5 * d1) })).force;
                 let error = (half - exact(0.5 * d1)).abs();
                 assert!(error <= allowed, "{name}, {bend:e}: half {:e}", error / limit);

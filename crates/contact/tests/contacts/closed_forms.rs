@@ -1,9 +1,8 @@
-//! The memory curve against closed forms of the contact alone.
+//! Tests of the memory curve against closed forms of the contact.
 //!
-//! For a power law g ∝ xⁿ everything follows from p = (n+1)/n and the contact radius a at the indentation d:
-//! m = 2a(h/d)^{p-1}, M = hm/p, N = hM/(p+1), F_N = E\*M(d). The flat punch is the limit n → ∞: p = 1 and
-//! c/a = (1-u/u_c)^0 = 1 until everything slips at once. In Ũ = u/u_c and φ = F_x/(μF_N) the profiles differ
-//! by p alone. No reference value comes from the code under test, M and N included.
+//! For a power law g ∝ xⁿ all results depend on p = (n+1)/n and the contact radius a at indentation d: m = 2a(h/d)^{p-1}, M = hm/p,
+//! N = hM/(p+1), F_N = E\*M(d). The flat punch is the limit n → ∞ with p = 1 and c/a = 1 up to gross slip. In the variables Ũ =
+//! u/u_c and φ = F_x/(μF_N) the profiles differ only in p. No reference value, including M and N, comes from the code under test.
 
 use crate::lottery::Lottery;
 use stickslip_contact::{
@@ -21,12 +20,12 @@ fn law(profile: Profile, friction: f64) -> Interface {
     Interface::new(Pair::from_moduli(E, G).unwrap(), profile, friction).unwrap()
 }
 
-/// A power-law contact pressed to [`D`], with what the closed forms need of it.
+/// Power-law contact pressed to [`D`], with the quantities of the closed forms.
 struct Case {
     law: Interface,
-    /// Exponent, ∞ for the flat punch.
+    /// Exponent n, ∞ for the flat punch.
     n: f64,
-    /// (n+1)/n
+    /// Exponent p = (n+1)/n.
     p: f64,
     /// Contact radius at [`D`], m.
     a: f64,
@@ -37,13 +36,13 @@ impl Case {
         Self { law: law(profile, MU), n, p: 1.0 + 1.0 / n, a }
     }
 
-    /// m, M and N at a height.
+    /// Integrals m, M and N at a height.
     fn sums(&self, h: f64) -> (f64, f64, f64) {
         let length = 2.0 * self.a * (h / D).powf(self.p - 1.0);
         (length, length * h / self.p, length * h * h / (self.p * (self.p + 1.0)))
     }
 
-    /// μF_N at [`D`], N.
+    /// Friction limit μF_N at [`D`], N.
     fn limit(&self) -> f64 {
         MU * E * self.sums(D).1
     }
@@ -52,17 +51,17 @@ impl Case {
         Curve::new(&self.law, Apex { d: D, u: 0.0 })
     }
 
-    /// φ that a trial at Ũ gives.
+    /// Value φ from a trial at Ũ.
     fn phi(&self, curve: &Curve, part: f64) -> f64 {
         curve.trial(&self.law, Move::Chord(Apex { d: D, u: part * U_C })).force / self.limit()
     }
 
-    /// Goes to (d, u); friction work, J.
+    /// Moves the contact to (d, u); returns the friction work, J.
     fn go(&self, curve: &mut Curve, d: f64, u: f64) -> f64 {
         curve.commit(&self.law, Segment::Straight(Apex { d, u })).unwrap()
     }
 
-    /// Slides to Ũ at [`D`]; friction work over μF_N u_c.
+    /// Moves the contact to Ũ at [`D`]; returns the friction work over μF_N u_c.
     fn slide(&self, curve: &mut Curve, part: f64) -> f64 {
         self.go(curve, D, part * U_C) / (self.limit() * U_C)
     }
@@ -89,7 +88,7 @@ fn virgin(p: f64, part: f64) -> f64 {
     (1.0 - rest.powf(p)) * part.signum()
 }
 
-/// Nodes and weights of Gauss and Legendre on (0, 1), by Newton's method on the recurrence.
+/// Nodes and weights of Gauss–Legendre quadrature on (0, 1), by Newton's method on the recurrence.
 fn gauss(count: usize) -> Vec<(f64, f64)> {
     let legendre = |x: f64| {
         let (mut now, mut last) = (x, 1.0);
@@ -111,14 +110,14 @@ fn gauss(count: usize) -> Vec<(f64, f64)> {
     (0..count).map(node).collect()
 }
 
-/// ∫ f over (from, to) in panels of 12 Gauss nodes.
+/// Integral of f over (from, to) in panels of 12 Gauss nodes.
 fn integral(from: f64, to: f64, panels: usize, f: impl Fn(f64) -> f64) -> f64 {
     let (rule, width) = (gauss(12), (to - from) / panels as f64);
     let panel = |k: usize| -> f64 { rule.iter().map(|(x, w)| w * f(from + width * (k as f64 + x))).sum() };
     (0..panels).map(panel).sum::<f64>() * width
 }
 
-/// Where a rising function passes 0, to the last bit.
+/// Zero of an increasing function, to the last bit.
 fn root(mut low: f64, mut high: f64, f: impl Fn(f64) -> f64) -> f64 {
     loop {
         let middle = 0.5 * (low + high);
@@ -203,9 +202,9 @@ fn first_loading_friction_work() {
             let exact = 2.0 * G * KAPPA * KAPPA * exact / (case.limit() * U_C);
             let mut curve = case.curve();
             let work = case.slide(&mut curve, part);
-            // A flat punch loses nothing: what is left is the round-off of the swept sum, relative to FU.
+            // A flat punch dissipates nothing in partial slip; rounding relative to FU remains.
             close(work, exact, if exact > 0.0 { 1e-12 * exact } else { 1e-15 });
-            // In parts it is the same work.
+            // Several partial moves give the same work.
             let mut curve = case.curve();
             let parts: f64 = (1..=10).map(|k| case.slide(&mut curve, 0.1 * part * f64::from(k))).sum();
             close(parts, exact, if exact > 0.0 { 1e-12 * exact } else { 1e-15 });
@@ -230,13 +229,13 @@ fn loading_energy_balance() {
 
 #[test]
 fn unloading_and_reloading() {
-    // F₁ - 2μF_N[1-(1-(u₁-u)/(2u_c))^p], until gross slip 2u_c away; mirrored on the way up.
+    // F₁ - 2μF_N[1-(1-(u₁-u)/(2u_c))^p], until gross slip after 2u_c; mirrored for reloading.
     for case in cases() {
         for top in [0.3, 0.8, 1.0, 2.5] {
             let mut curve = case.curve();
             case.slide(&mut curve, top);
             let first = virgin(case.p, top);
-            // From u₁ < u_c the virgin curve takes over at -u₁.
+            // From u₁ < u_c the first loading curve continues at -u₁.
             let bottom = if top < 1.0 { -top } else { top - 2.0 };
             for share in [1e-6, 0.1, 0.5, 0.9, 1.0] {
                 let part = top + share * (bottom - top);
@@ -259,8 +258,10 @@ fn unloading_and_reloading() {
     }
 }
 
-/// Masing's and Madelung's rules for |Ũ| < 1, without a foundation: a branch is the virgin curve twice as
-/// large; it ends where it meets the turning point before its own start, or the virgin curve.
+/// Hysteresis by Masing's and Madelung's rules for |Ũ| < 1, without a contact model.
+///
+/// A branch is the first loading curve scaled by two. The branch ends at the reversal before its own start, or on the first loading
+/// curve.
 struct Masing {
     p: f64,
     at: f64,
@@ -312,7 +313,7 @@ fn nested_loops_close_and_are_forgotten() {
             close(curve.force(&case.law) / case.limit(), masing.force(), 1e-12);
         }
         assert_eq!(curve.knot_count(), depths[11] + 1);
-        // Outwards: each turn is met again with the force it had, and the loop that ends there is forgotten.
+        // With increasing amplitude each reversal is reached again with its force, and its loop is erased.
         for k in (1..11).rev() {
             let (turn, beyond) = (turns[k], turns[k] - 0.1 * (turns[k - 1] - turns[k]));
             for part in [turn, beyond] {
@@ -323,7 +324,7 @@ fn nested_loops_close_and_are_forgotten() {
             case.slide(&mut curve, turn);
             masing.go(turn);
             close(curve.force(&case.law) / case.limit(), masing.force(), 1e-12);
-            // Round-off may leave a sliver beside the turn, never more.
+            // Rounding may leave one small piece at the reversal.
             assert!(curve.knot_count() <= depths[k] + 2, "turn {k}: {} {}", curve.knot_count(), depths[k]);
         }
         case.slide(&mut curve, 0.97);
@@ -350,8 +351,10 @@ fn random_turns_obey_masing_and_madelung() {
     }
 }
 
-/// Loop energy over 4μF_N u_c without cancellation: Ũ + Ũ(1-Ũ)^p - (2/(p+1))[1-(1-Ũ)^{p+1}] is
-/// Σ_{k≥2} C_k (k-1)/(k+1) Ũ^{k+1} with (1-Ũ)^p = Σ C_k Ũᵏ, and no term is negative for 1 ≤ p ≤ 2.
+/// Loop energy over 4μF_N u_c without cancellation.
+///
+/// Ũ + Ũ(1-Ũ)^p - (2/(p+1))[1-(1-Ũ)^{p+1}] equals Σ_{k≥2} C_k (k-1)/(k+1) Ũ^{k+1} with (1-Ũ)^p = Σ C_k Ũᵏ. No term is negative for 1
+/// ≤ p ≤ 2.
 fn loop_series(p: f64, part: f64) -> f64 {
     let (mut term, mut sum) = (1.0, 0.0);
     for k in 0..200 {
@@ -395,7 +398,7 @@ fn loop_energy_below_and_above_gross_slip() {
                 let cycle = case.slide(&mut curve, -part) + case.slide(&mut curve, part);
                 close(cycle / 4.0, exact, tolerance);
             }
-            // The stored energy is the same after each cycle: the loss is the area of the loop.
+            // The stored energy is the same after each cycle, so the friction work is the area of the loop.
             let stored = curve.elastic(&case.law);
             case.slide(&mut curve, -part);
             close(curve.elastic(&case.law), stored, 1e-13 * case.limit() * U_C);
@@ -432,7 +435,7 @@ fn small_amplitudes_obey_the_cubic_law() {
 
 #[test]
 fn a_last_place_of_the_indentation_changes_no_work() {
-    // Sliding to Ũ while d moves by a share δ of itself: work and force of the constant d, but for terms of order δ.
+    // Displacement to Ũ while d changes by a fraction δ: work and force equal those at constant d to first order in δ.
     for case in cases() {
         let (mut level, part) = (case.curve(), 0.7);
         let (work, force) = (case.slide(&mut level, part), virgin(case.p, part));
@@ -456,7 +459,7 @@ fn fretting_thresholds() {
     for case in cases() {
         let (a, d) = (1.0 / (2.0 * case.n + 1.0), 2f64.powf(1.0 / (case.n + 1.0)) - 1.0);
         for compliance in [0.0, 0.5, 2.0] {
-            // Rig displacement over u_c at Ũ; the drive prescribes it and the contact follows.
+            // Displacement of the rig over u_c at Ũ; the rig prescribes the displacement of the contact.
             let mut curve = case.curve();
             let follow = |curve: &Curve, rig: f64| {
                 root(-1.0, 1.0, |part| part + compliance * case.phi(curve, part) - rig)
@@ -480,7 +483,7 @@ fn fretting_thresholds() {
 
 #[test]
 fn static_friction_under_tangential_vibration() {
-    // The largest mean force that a contact vibrating with amplitude U carries: μF_N(1-U/u_c)^p.
+    // Largest mean force of a contact that oscillates with amplitude U: μF_N(1-U/u_c)^p.
     for case in cases() {
         for amplitude in [0.1, 0.5, 0.9] {
             let mut curve = case.curve();
@@ -489,7 +492,7 @@ fn static_friction_under_tangential_vibration() {
                 let middle = 0.05 * f64::from(step);
                 case.slide(&mut curve, middle + amplitude);
                 case.slide(&mut curve, middle - amplitude);
-                // The mean over a period, sampled evenly in time and in the middle of each interval.
+                // Mean over a period, by the midpoint rule in time.
                 let mut mean = 0.0;
                 for k in 0..64 {
                     let phase = std::f64::consts::PI * (f64::from(k) + 0.5) / 32.0;
@@ -565,7 +568,7 @@ fn oblique_loading_sticks_or_slips_as_a_whole() {
                 close(curve.force(&case.law) / case.limit(), force, 1e-11);
                 let lost = MU * E * KAPPA * slip * volume;
                 close(work, lost, 1e-11 * lost + 1e-14 * case.limit() * U_C);
-                // Elastic: ½G*∫(β(d-h))²dm = G*β²N.
+                // Elastic energy: ½G*∫(β(d-h))²dm = G*β²N.
                 let stored = G * (force * KAPPA).powi(2) * volume;
                 close(curve.elastic(&case.law), stored, 1e-11 * stored);
                 let state = if ratio.abs() > 1.0 { ContactState::Slip } else { ContactState::Stick };
@@ -578,7 +581,7 @@ fn oblique_loading_sticks_or_slips_as_a_whole() {
     }
 }
 
-/// ∫(D-h)²dm over heights from `low` to `top`, by parts.
+/// Integral ∫(D-h)²dm over heights from `low` to `top`, by integration by parts.
 fn squares(case: &Case, top: f64, low: f64) -> f64 {
     let (at_top, at_low) = (case.sums(top), case.sums(low));
     let reach = top - low;
@@ -587,9 +590,8 @@ fn squares(case: &Case, top: f64, low: f64) -> f64 {
 
 #[test]
 fn in_phase_oscillation_dissipates_once() {
-    // (d, u) = (d₀-x, -βx), |β| < κ. On the first way down a spring at depth y = d₀-h slips from x = κy/(β+κ) on
-    // under κ(y-x): W = ½G*κ{β²/(β+κ) ∫_{h*}^{d₀} y²dm - (β+κ)∫_{h*}^{d₁}(d₁-h)²dm}, h* = d₀-X(β+κ)/κ. After
-    // that the path runs along the curve.
+    // (d, u) = (d₀-x, -βx), |β| < κ. During the first unloading a spring at depth y = d₀-h slips from x = κy/(β+κ) on under κ(y-x):
+    // W = ½G*κ{β²/(β+κ) ∫_{h*}^{d₀} y²dm - (β+κ)∫_{h*}^{d₁}(d₁-h)²dm}, h* = d₀-X(β+κ)/κ. Later the path runs along the curve.
     for case in cases() {
         for (ratio, swing) in [(0.3, 0.4), (0.9, 0.2), (-0.5, 0.3)] {
             let (beta, x) = (f64::abs(ratio) * KAPPA, swing * D);
@@ -630,7 +632,7 @@ fn relaxation_damping_of_unlimited_friction() {
         }
         let slope = 0.5 * (radius / D).sqrt();
         let small = 16.0 / 3.0 * G * du * du * dd * phase.sin().powi(2) * slope;
-        // The same at any Δd: 4G*Δu²Δd sin²φ∫(1-s²)a'(d₀+Δd s)ds, over μ = 1000 and 8000 chords to about 1e-6.
+        // The same for any Δd: 4G*Δu²Δd sin²φ∫(1-s²)a'(d₀+Δd s)ds, with μ = 1000 and 8000 chords, to about 1e-6.
         let shape = integral(-1.0, 1.0, 8, |s| (1.0 - s * s) / (1.0 + swing * s).sqrt());
         close(work / small, 0.75 * shape, 5e-6);
         deviations.push(work / small - 1.0);
@@ -675,7 +677,7 @@ fn exact_sphere() {
             close(work, lost, 1e-11 * lost);
             let stored = (part * d).powi(2) * c + integral(c, a, 12, |x| (d - g(x)).powi(2));
             close(elastic, G * KAPPA * KAPPA * stored, 1e-11 * elastic);
-            // Unloading is twice as large (Masing).
+            // Unloading is scaled by two (Masing's rule).
             let (_, force, _, stick) = go(-0.4 * part);
             close(force, first - 4.0 * G * KAPPA * sum(0.7 * part), 1e-11 * limit);
             close(stick, radius_of(d * (1.0 - 0.7 * part)), 1e-11 * a);
@@ -716,7 +718,7 @@ fn third_party_values() {
 
 // ---- What is at its limit
 
-/// Springs one by one, the textbook way: s + Δu, clamped to ±κ(d-h) (4.22).
+/// Individual springs by the textbook algorithm: stretch s + Δu, limited to ±κ(d-h) (4.22).
 struct Springs {
     heights: Vec<f64>,
     stretch: Vec<f64>,
@@ -730,7 +732,7 @@ impl Springs {
                 (*s, *state) = (0.0, SpringState::Open);
                 continue;
             }
-            // One that comes into contact starts where the chord crosses its height.
+            // A spring that comes into contact starts where the path crosses its height.
             let share = if from.d < *h { (to.d - h) / (to.d - from.d) } else { 1.0 };
             let (trial, limit) = (*s + share * (to.u - from.u), KAPPA * (to.d - h));
             *s = trial.clamp(-limit, limit);
@@ -747,8 +749,7 @@ impl Springs {
 
 #[test]
 fn stick_radius_and_spring_states_after_complex_histories() {
-    // The stick radius is the radius inside which no spring is at its limit after the last move that was not
-    // zero: the front of that move alone, however many fronts of older moves lie inside it.
+    // The stick radius is determined by the last move only: all springs inside stick, independently of the fronts of older moves.
     let law = law(Profile::paraboloid(1e-3).unwrap(), MU);
     let (count, mut lottery) = (1500, Lottery(5));
     let cell = (1e-3 * 2.0 * D).sqrt() / f64::from(count);
@@ -776,7 +777,7 @@ fn stick_radius_and_spring_states_after_complex_histories() {
             let stick = curve.stick_radius(&law);
             assert!((stick - innermost).abs() <= cell, "{round}/{place}: {stick} {innermost}");
             for (i, (&h, &s)) in row.heights.iter().zip(&row.stretch).enumerate() {
-                // The spring whose cell holds the front or the edge may go either way by round-off.
+                // For the spring whose cell contains the front or the edge, rounding decides.
                 let near =
                     [stick, law.profile().radius(d)].iter().any(|r| (r - radii[i]).abs() < 1e-9 * cell);
                 assert!(near || curve.spring_state(h) == row.states[i], "{round}/{place}: spring {i}");
@@ -788,8 +789,8 @@ fn stick_radius_and_spring_states_after_complex_histories() {
 
 #[test]
 fn growth_almost_along_the_edge_is_cut_where_it_is_crossed() {
-    // Oblique growth at β = κ(1-ε), then a slide that uses up half of the ε κ d left: the edge meets the piece at
-    // h = d/2 and F_x = G*[βM(d/2) + κ(M(d)-M(d/2))].
+    // Oblique growth at β = κ(1-ε), then a displacement by half of εκd: the limit line meets the piece at h = d/2, and F_x =
+    // G*[βM(d/2) + κ(M(d)-M(d/2))].
     for case in &cases()[..3] {
         for epsilon in [1e-3, 1e-7, 2e-9, 5e-10, 1e-11] {
             let mut curve = Curve::new(&case.law, Apex::default());

@@ -1,4 +1,4 @@
-//! Stuck springs that are damped: what a move takes longer for, it takes less force for.
+//! Tests of damped sticking springs: the force decreases with the duration of a move.
 
 use approx::assert_relative_eq;
 use std::sync::Arc;
@@ -45,7 +45,7 @@ fn a_move_in_a_time_adds_what_the_stuck_springs_oppose() {
     }
 }
 
-/// Without damping, and without hurry, a move's duration does not count; memory never asks for it.
+/// Without damping, or with a duration of 0, the duration has no influence. The memory never depends on it.
 #[test]
 fn nothing_else_asks_how_long_it_takes() {
     let to = Apex { d: DEPTH, u: 20e-9 };

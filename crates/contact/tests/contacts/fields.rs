@@ -1,4 +1,4 @@
-//! Fields against closed forms and independent quadrature: handbook (4.34)–(4.38).
+//! Tests of stresses and displacements against closed forms and independent quadrature: handbook (4.34)–(4.38).
 
 use approx::assert_relative_eq;
 use std::f64::consts::PI;
@@ -7,11 +7,11 @@ use stickslip_contact::{
     Segment, SpringState, Springs, TangentialGiven, ZoneKind,
 };
 
-/// Pseudo-random numbers that are the same everywhere (Marsaglia's xorshift).
+/// Pseudo-random numbers, the same on every machine (Marsaglia's xorshift).
 struct Random(u64);
 
 impl Random {
-    /// In [0, 1).
+    /// Random number in [0, 1).
     fn unit(&mut self) -> f64 {
         self.0 ^= self.0 << 13;
         self.0 ^= self.0 >> 7;
@@ -30,7 +30,7 @@ fn interface(profile: Profile, friction: f64) -> Interface {
     Interface::new(Pair::from_moduli(MODULI.0, MODULI.1).unwrap(), profile, friction).unwrap()
 }
 
-/// Pressed to d, then pushed to each of the displacements.
+/// Memory of a contact that is pressed to d and then moved to each of the displacements.
 fn pushed(law: &Interface, d: f64, ways: &[f64]) -> Memory {
     let mut memory = Engine::Curve.memory(law, Apex { d, u: 0.0 });
     for &u in ways {
@@ -39,15 +39,16 @@ fn pushed(law: &Interface, d: f64, ways: &[f64]) -> Memory {
     memory
 }
 
-/// ∫f over a range by the rule of double exponentials (Takahasi and Mori 1974), which no singularity at an end disturbs; `f` is
-/// given the place and its distances from both ends.
+/// Integral of f over a range by double-exponential quadrature (Takahasi and Mori 1974), suitable for end singularities.
+///
+/// The arguments of `f` are the position and its distances from both ends.
 fn double_exponential([from, to]: [f64; 2], f: impl Fn(f64, f64, f64) -> f64) -> f64 {
     let (half, step) = (0.5 * (to - from), 1.0 / 64.0);
     let node = |k: i32| {
         let t = f64::from(k) * step;
         let s = 0.5 * PI * t.sinh();
         let (near, far) = (1.0 / (1.0 + (2.0 * s).exp()), 1.0 / (1.0 + (-2.0 * s).exp()));
-        // `far` from 0 to 1 along the range.
+        // `far` increases from 0 to 1 along the range.
         let weight = 0.5 * PI * t.cosh() / s.cosh().powi(2);
         let (left, right) = (2.0 * half * far, 2.0 * half * near);
         let value = f(if far < 0.5 { from + left } else { to - right }, left, right);
@@ -56,7 +57,7 @@ fn double_exponential([from, to]: [f64; 2], f: impl Fn(f64, f64, f64) -> f64) ->
     half * step * (-250..=250).map(node).sum::<f64>()
 }
 
-/// p(r)/E* of (4.34), independent of the code under test: x² = r² + y².
+/// Pressure p(r)/E* of (4.34), independent of the code under test: x² = r² + y².
 fn pressure(slope: impl Fn(f64) -> f64, a: f64, r: f64) -> f64 {
     if r >= a {
         return 0.0;
@@ -67,7 +68,7 @@ fn pressure(slope: impl Fn(f64) -> f64, a: f64, r: f64) -> f64 {
     }) / PI
 }
 
-/// (2/π) ∫₀ʳ u(x)/√(r²-x²) dx with corners at `corners`, by x = r sin φ.
+/// Integral (2/π) ∫₀ʳ u(x)/√(r²-x²) dx with corners at `corners`, by x = r sin φ.
 fn surface(line: impl Fn(f64) -> f64, corners: &[f64], r: f64) -> f64 {
     let mut angles: Vec<f64> = corners.iter().filter(|c| **c < r).map(|c| (c / r).asin()).collect();
     angles.insert(0, 0.0);
@@ -76,7 +77,7 @@ fn surface(line: impl Fn(f64) -> f64, corners: &[f64], r: f64) -> f64 {
     2.0 / PI * angles.windows(2).map(part).sum::<f64>()
 }
 
-/// 2π ∫ f(r) r dr over the contact, split at the borders of its zones and at those given.
+/// Integral 2π ∫ f(r) r dr over the contact, split at the borders of its zones and at `corners`.
 fn over_area(fields: &Fields<'_>, corners: &[f64], f: impl Fn(f64) -> f64) -> f64 {
     let mut ends = vec![0.0];
     ends.extend(corners.iter().filter(|c| **c < fields.radius()));
@@ -87,7 +88,7 @@ fn over_area(fields: &Fields<'_>, corners: &[f64], f: impl Fn(f64) -> f64) -> f6
     2.0 * PI * ends.windows(2).map(part).sum::<f64>()
 }
 
-/// Power laws g = Bxⁿ: the profile, B and n.
+/// Power laws g = Bxⁿ: profile, B and n.
 fn powers() -> Vec<(Profile, f64, f64)> {
     let of = |b: f64, n: f64| (Profile::foundation_power(b, n).unwrap(), b, n);
     let all = [1.0, 2.0, 4.0, 3.0, 6.0, 0.6, 1.5, 2.5, 2.999, 3.000_01, 7.25, 80.0];
@@ -188,7 +189,7 @@ fn the_cone_has_its_closed_forms() {
         let want = d * 2.0 / PI * (s.asin() - (1.0 - (1.0 - s * s).sqrt()) / s);
         assert_relative_eq!(fields.at(r).deflection, want, max_relative = 1e-10);
     }
-    // At the tip p and its stuck part are both infinite, their difference τ = μ(E*/π)(π/2)tanθ ln(a/c) is not.
+    // At the tip both pressures are infinite, but τ = μ(E*/π)(π/2)tanθ ln(a/c) is finite.
     let tip = fields.at(0.0);
     assert_eq!(tip.pressure, f64::INFINITY);
     let want = 0.5 * 0.5 * MODULI.0 * slope * (1.0_f64 / 0.6).ln();
@@ -263,7 +264,7 @@ fn the_sphere_by_quadrature_is_what_its_foundation_says() {
     }
 }
 
-/// A random walk in the (d, u) plane.
+/// Random walk in the (d, u) plane.
 fn walk(law: &Interface, memory: &mut Memory, depth: f64, corners: usize, random: &mut Random) {
     let reach = 1.5 * law.gross_slip_displacement(depth);
     for _ in 0..corners {
@@ -274,7 +275,7 @@ fn walk(law: &Interface, memory: &mut Memory, depth: f64, corners: usize, random
 
 #[test]
 fn every_other_profile_has_fields_by_quadrature_that_add_up() {
-    // What is a root at a worn edge, kinked at a node, sharp at a tip: ∫p = F_N, ∫τ = F_x, u and w by (4.25), w = d - f inside.
+    // Tests integrals for profiles with a worn edge, a kink or a tip: ∫p = F_N, ∫τ = F_x, u and w by (4.25), w = d - f inside.
     let table: Vec<(f64, f64)> = (0..=12).map(|k| f64::from(k) / 12.0).map(|r| (r, r * r / 3.0)).collect();
     let profiles = [
         ("truncated cone", Profile::truncated_cone(0.2, 0.5), 1e-9),
@@ -323,7 +324,7 @@ fn a_sum_of_powers_is_the_sum_of_its_fields_also_at_its_tip() {
         let memory = pushed(&law, d, &[0.5 * law.gross_slip_displacement(d)]);
         let fields = Fields::of(&law, &memory).unwrap();
         let c = fields.stick_radius();
-        // Terms are given by f = A rⁿ; one term alone tells its B.
+        // The terms are given as f = A rⁿ; a profile with one term provides B.
         let foundation =
             |(coefficient, n): (f64, f64)| (Profile::power(coefficient, n).unwrap().depth(1.0), n);
         let parts: Vec<(f64, f64)> = terms.iter().copied().map(foundation).collect();
@@ -356,7 +357,7 @@ fn a_sum_of_powers_is_the_sum_of_its_fields_also_at_its_tip() {
 
 #[test]
 fn nothing_that_is_told_is_not_a_number() {
-    // Tips, worn edges, punches; unsheared, without friction, in partial and in gross slip; on every border and in the centre.
+    // Tips, worn edges and punches; without shear, without friction, in partial and gross slip; at every border and in the centre.
     let profiles = [
         Profile::cone(0.1),
         Profile::power(1.0, 0.5),
@@ -510,7 +511,7 @@ fn an_open_contact_has_fields_that_are_nothing_and_a_list_has_none() {
     assert!(Fields::of(&list, &Engine::Curve.memory(&list, Apex { d: 1e-6, u: 0.0 })).is_none());
 }
 
-/// Places and weights of ∫ … 2πr dr over ranges between borders, by double exponentials in some points each.
+/// Nodes and weights of ∫ … 2πr dr over the ranges between borders, by double-exponential quadrature.
 fn rings(mut borders: Vec<f64>, points: i32) -> (Vec<f64>, Vec<f64>) {
     borders.push(0.0);
     borders.sort_by(f64::total_cmp);
@@ -571,13 +572,13 @@ fn the_map_of_any_history_sums_to_its_friction_work() {
         let mut memory = Engine::Curve.memory(&law, Apex { d: 1.0, u: 0.0 });
         walk(&law, &mut memory, 1.0, random.between(1.0, 6.0) as usize, &mut random);
         let from = memory.apex();
-        // Slips at constant load, loads with slip, takes load off, and opens.
+        // Slip at constant load, growing load with slip, falling load, and opening.
         let (d, u) =
             (random.between(-0.3, 1.2), random.between(-1.5, 1.5) * law.gross_slip_displacement(1.0));
         let to = match k % 3 {
             0 => Apex { d: from.d, u },
             1 => Apex { d, u },
-            // Both edges close in.
+            // Both limit lines could slip.
             _ => Apex { d, u: from.u + random.between(-1.0, 1.0) * law.stick_slope() * (d - from.d).abs() },
         };
         let corners = |memory: &Memory| {
@@ -589,7 +590,7 @@ fn the_map_of_any_history_sums_to_its_friction_work() {
         let work = after.commit(&law, Segment::Straight(to)).unwrap();
         let mut borders = [before, corners(&after)].concat();
         borders.push(law.profile().radius(to.d));
-        // Where the pressure goes to 0 while something slips the map has corners that no curve has.
+        // Where the pressure approaches 0 during slip, the map has kinks.
         let widest = borders.iter().copied().fold(0.0, f64::max);
         borders.extend((1..100).map(|k| widest * f64::from(k) / 100.0));
         let (radii, weights) = rings(borders, 14);
@@ -601,6 +602,6 @@ fn the_map_of_any_history_sums_to_its_friction_work() {
         worst = worst.max(off);
         assert!(off < 1e-8, "{k}: n {n}, {from:?} to {to:?}: {total}, {work}: {off:e}");
     }
-    // Nothing slips in a few of them, all of it in a few others.
+    // Some cases have no slip, others gross slip.
     assert!(worst > 0.0);
 }

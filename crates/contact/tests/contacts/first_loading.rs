@@ -1,4 +1,4 @@
-//! First loadings: all nine queries, and the force by a second way.
+//! Tests of first loadings: all nine combinations of given quantities, and the force by an independent computation.
 
 use stickslip_contact::{
     FirstLoading, FirstLoadingError, Interface, Material, NormalGiven, Pair, Profile, TangentialGiven,
@@ -24,7 +24,7 @@ fn stepped() -> [Profile; 2] {
     [Profile::flat(1e-4).unwrap(), Profile::foundation(&heights, &vec![1e-7; 300]).unwrap()]
 }
 
-/// Agreement of two states, each quantity over its scale (d, a, `F_N`, `u_c`, a, `μF_N`).
+/// Difference of two states, each quantity relative to its scale (d, a, `F_N`, `u_c`, a, `μF_N`).
 fn difference(law: &Interface, left: &FirstLoading, right: &FirstLoading) -> f64 {
     let scale = law.friction() * left.normal_force;
     [
@@ -39,7 +39,7 @@ fn difference(law: &Interface, left: &FirstLoading, right: &FirstLoading) -> f64
     .fold(0.0, |worst, e: f64| worst.max(e.abs()))
 }
 
-/// (4.39): 2∫₀ᶜ G*u dx + 2∫_c^a μE*(d-g(x)) dx by tanh-sinh quadrature over x.
+/// Force by (4.39): 2∫₀ᶜ G*u dx + 2∫_c^a μE*(d-g(x)) dx, by tanh-sinh quadrature.
 fn force_by_integration(law: &Interface, state: &FirstLoading) -> f64 {
     let half_pi = std::f64::consts::FRAC_PI_2;
     let stick = 2.0 * law.tangential_modulus() * state.u.abs() * state.c;
@@ -114,7 +114,7 @@ fn stepped_profiles_answer_to_depths_and_forces() {
 
 #[test]
 fn the_two_ways_to_the_force_agree() {
-    // (4.38), superposition, in the library; (4.39), the integral, by quadrature over x here.
+    // Superposition (4.38) in the library is compared with the integral (4.39), by quadrature over x.
     for profile in convex() {
         let law = law(profile);
         for part in [-0.95, -0.2, 0.05, 0.5, 0.9, 1.0, 1.7] {
@@ -122,7 +122,7 @@ fn the_two_ways_to_the_force_agree() {
             let state =
                 FirstLoading::solve(&law, NormalGiven::Indentation(1.8e-7), TangentialGiven::Displacement(u))
                     .unwrap();
-            // Beyond u_c the stick term vanishes with c.
+            // Beyond u_c the stick radius c is 0.
             let other = force_by_integration(&law, &state);
             let error = (state.tangential_force - other) / (law.friction() * state.normal_force);
             assert!(error.abs() < 1e-12, "{part}: {error:e}");

@@ -1,14 +1,14 @@
-//! What a bent path of growth stores is lost again where an edge gives it up: the memory keeps its chords, the books close.
+//! Tests of the friction work when curved growth paths are erased: the memory stores chords, and the energy balance must hold.
 
 use super::thinning::{DEPTH, Path, grown, paraboloid};
 use stickslip_contact::{Apex, Curve, Interface, Segment};
 
-/// Intervals of a way over which its force is summed up.
+/// Number of intervals of a path in the force integral.
 const STEPS: u32 = 20_000;
-/// Simpson's weights over an interval.
+/// Nodes and weights of Simpson's rule.
 const SIMPSON: [(f64, f64); 3] = [(0.0, 1.0 / 6.0), (0.5, 4.0 / 6.0), (1.0, 1.0 / 6.0)];
 
-/// Friction work and what it should be, ∫F_x du less the elastic energy that is gained, of a straight way from where a curve stands.
+/// Friction work of a straight path and its expected value, ∫F_x du minus the gain of elastic energy.
 fn lost(law: &Interface, curve: &Curve, to: Apex) -> [f64; 2] {
     let (from, stored) = (curve.apex(), curve.elastic(law));
     let place = |x: f64| Apex { d: from.d + x * (to.d - from.d), u: from.u + x * (to.u - from.u) };
@@ -22,8 +22,7 @@ fn lost(law: &Interface, curve: &Curve, to: Apex) -> [f64; 2] {
     [friction, work - (after.elastic(law) - stored)]
 }
 
-/// Both ways, to within the path and through all of it, at one depth and where the contact shrinks. On chords alone the books of five
-/// pieces miss 1.2e-3 of the work.
+/// Tests both directions, partly and completely through the growth path, at constant and at decreasing indentation.
 #[test]
 fn books_of_a_bent_path_close() {
     let law = paraboloid();

@@ -1,5 +1,6 @@
-//! The memory curve against the reference contact histories: 24 random histories of d and u, solved independently
-//! (exact to 1e-11 of the largest friction force; friction work to 1e-6 of the largest).
+//! Tests of the memory curve against 24 random reference histories of d and u, solved independently.
+//!
+//! The references are exact to 1e-11 of the largest friction force, and to 1e-6 of the largest friction work.
 
 use crate::lottery::Lottery;
 use serde_json::Value;
@@ -9,7 +10,7 @@ use stickslip_contact::{
 
 struct History {
     law: Interface,
-    /// d, u, F_N, F_x, tangential elastic energy, friction work.
+    /// Rows of d, u, F_N, F_x, tangential elastic energy and friction work.
     rows: Vec<[f64; 6]>,
 }
 
@@ -122,7 +123,7 @@ fn trials_leave_no_trace() {
 
 #[test]
 fn friction_work_closes_the_energy_balance() {
-    // ∫F_x du by Gauss quadrature over many sub-chords, independent of the swept pieces.
+    // ∫F_x du by Gauss quadrature over many short paths, independent of the work integral of the curve.
     let nodes = [0.5 - 15f64.sqrt() / 10.0, 0.5, 0.5 + 15f64.sqrt() / 10.0];
     let weights = [5.0 / 18.0, 8.0 / 18.0, 5.0 / 18.0];
     for (i, History { law, rows }) in histories().iter().enumerate() {
@@ -146,7 +147,7 @@ fn friction_work_closes_the_energy_balance() {
     }
 }
 
-/// Number of springs whose state differs between the engines, and number compared.
+/// Number of springs whose state differs between the engines, and number of compared springs.
 fn differing_states(history: &History, count: usize) -> (usize, usize) {
     let History { law, rows } = history;
     let span = 2.0 * law.profile().radius(largest(rows, 0));
@@ -175,13 +176,13 @@ fn both_engines_see_the_same_springs_stick_and_slip() {
     }
 }
 
-/// An edge's law on the other side of the old curve, where a shrinking contact may be before its stepper knows: it has to
-/// go on with the same slope, G\*m(d). Held at the curve instead, it has no stiffness there.
+/// A shrinking contact may cross the old curve before the stepper detects it. Beyond the curve the force must continue with the slope
+/// G\*m(d).
 #[test]
 fn the_law_of_an_edge_goes_on_smoothly_beside_the_curve() {
     let pair = Pair::from_moduli(1.15e11, 0.95e11).unwrap();
     let law = Interface::new(pair, Profile::paraboloid(1e-3).unwrap(), 0.2).unwrap();
-    // A path of growth in three pieces, each steeper: a branch that starts on it is found on the curve itself.
+    // A growth path in three pieces of increasing slope: a branch that starts on it is found on the curve itself.
     let mut curve = Curve::new(&law, Apex::default());
     let (mut force, mut energy, mut at) = (0.0, 0.0, Apex::default());
     for (d, slope) in [(1e-7, 0.02), (2e-7, 0.05), (3e-7, 0.1)] {
@@ -189,7 +190,7 @@ fn the_law_of_an_edge_goes_on_smoothly_beside_the_curve() {
         let more = law.tangential_modulus()
             * slope
             * (law.profile().reduced_force(d) - law.profile().reduced_force(at.d));
-        // ½∫F du over the piece, F linear in M: near enough, since energies enter no force.
+        // ½∫F du over the piece, with F linear in M; accurate enough because energies do not affect forces.
         energy += (force + 0.5 * more) * (end.u - at.u);
         force += more;
         curve.commit(&law, Segment::Grown { to: end, force, energy, joins: at.d > 0.0 }).unwrap();
@@ -205,7 +206,7 @@ fn the_law_of_an_edge_goes_on_smoothly_beside_the_curve() {
             let slope = (at(beside).force - here) / beside;
             assert!((slope / stiffness - 1.0).abs() < 1e-3, "{sense} {beside:e}: {}", slope / stiffness);
         }
-        // To second order, on the law's own piece: F + G\*m δ - σ G\*m'δ²/2(κ-σk).
+        // Second-order expansion of the law: F + G\*m δ - σ G\*m'δ²/2(κ-σk).
         let bend = law.tangential_modulus() * law.profile().reduced_stiffness(d)
             / (2.0 * d)
             / (law.stick_slope() - sense * 0.1);
@@ -215,8 +216,8 @@ fn the_law_of_an_edge_goes_on_smoothly_beside_the_curve() {
     }
 }
 
-/// What an edge has dragged lies along it, at its own level to the last place. Where it begins must not depend on that place:
-/// the force does not, but the friction power does.
+/// Pieces made by slip lie on the limit line to rounding. The slip front must not depend on this rounding, because the friction power
+/// depends on the front.
 #[test]
 fn an_edge_at_rest_begins_where_its_last_move_left_it() {
     let pair = Pair::from_moduli(1.15e11, 0.95e11).unwrap();

@@ -1,11 +1,13 @@
-//! The ideal inertia drive, a law of the contact alone: the flyback is instantaneous (u falls by the stroke S at
-//! fixed d), the slow phase quasi-static (u rises until F_x carries the opposing load λμF_N). The advance of a
-//! cycle is S less that rise; when settled it is max(0, S-S₀) with
+//! Tests of the ideal inertia drive, which depends on the contact alone.
+//!
+//! The flyback is instantaneous: u decreases by the stroke S at constant d. The slow phase is quasi-static: u increases until F_x
+//! carries the opposing load λμF_N. The advance of a cycle is S minus this increase. The steady step length is max(0, S-S₀) with the
+//! zero-step stroke
 //!
 //! S₀ = 2u_c[1-((1-λ)/2)^{n/(n+1)}],
 //!
-//! the rise from full backward slip along Masing's branch -1+2[1-(1-s/2u_c)^p] = λ. It stalls at
-//! λ = 1-2(1-S/2u_c)^{(n+1)/n}, never beyond S = 2u_c.
+//! the increase from full backward slip along Masing's branch -1+2[1-(1-s/2u_c)^p] = λ. The drive stalls at λ =
+//! 1-2(1-S/2u_c)^{(n+1)/n}, but not for S above 2u_c.
 
 use stickslip_contact::{Apex, Curve, Interface, Move, Pair, Profile, Segment};
 
@@ -15,7 +17,7 @@ const MU: f64 = 0.15;
 const D: f64 = 1.8e-7;
 const U_C: f64 = MU * E / G * D;
 
-/// A contact at D under an ideal drive; lengths in units of u_c, forces of μF_N.
+/// Contact at indentation D in an ideal drive; lengths in units of u_c, forces in units of μF_N.
 struct Drive {
     law: Interface,
     limit: f64,
@@ -24,7 +26,7 @@ struct Drive {
 }
 
 impl Drive {
-    /// `area` is M(D), from its closed form.
+    /// Creates the drive; `area` is M(D) from its closed form.
     fn new(profile: Profile, area: f64) -> Self {
         let law = Interface::new(Pair::from_moduli(E, G).unwrap(), profile, MU).unwrap();
         let curve = Curve::new(&law, Apex { d: D, u: 0.0 });
@@ -40,7 +42,7 @@ impl Drive {
         self.at = part;
     }
 
-    /// The slow phase: to the first place, to the last bit, whose force carries the load.
+    /// Slow phase: moves to the first position whose force carries the load.
     fn rise(&mut self, load: f64) -> f64 {
         let (from, mut low, mut high) = (self.at, self.at, self.at + 3.0);
         assert!(self.force(high) >= load);
@@ -63,12 +65,11 @@ impl Drive {
         let before = self.at;
         self.go(before - stroke);
         self.rise(load);
-        // From place to place, so that a cycle that comes back to the last bit advances by 0.
+        // The result is a difference of positions, so that a closed cycle advances by exactly 0.
         stroke - (self.at - (before - stroke))
     }
 
-    /// The advance once the creep of the first cycles has died away: each is a fixed share of the one before,
-    /// near S₀ a large one, and nothing is settled before 2000 cycles in a row agree to round-off.
+    /// Steady advance per cycle, after the transient: 2000 consecutive cycles must agree to rounding.
     fn settled(&mut self, stroke: f64, load: f64) -> f64 {
         self.rise(load);
         let (mut last, mut repeats) = (f64::INFINITY, 0);
@@ -84,10 +85,10 @@ impl Drive {
     }
 }
 
-/// Round-off of a step: a few last places of the places it is a difference of.
+/// Rounding of a step: a few units in the last place of the positions.
 const NOTHING: f64 = 4.0 * f64::EPSILON;
 
-/// Exponent n and a drive on it: cone, paraboloid, power 8. M = 2n/(n+1) a d.
+/// Exponents n and drives: cone, paraboloid, power 8. M = 2n/(n+1) a d.
 fn drives() -> [(f64, Drive); 3] {
     let area = |n: f64, a: f64| 2.0 * n / (n + 1.0) * a * D;
     [
@@ -97,7 +98,7 @@ fn drives() -> [(f64, Drive); 3] {
     ]
 }
 
-/// S₀/u_c.
+/// Zero-step stroke S₀/u_c.
 fn zero_step_stroke(n: f64, load: f64) -> f64 {
     2.0 * (1.0 - (0.5 * (1.0 - load)).powf(n / (n + 1.0)))
 }
@@ -106,7 +107,7 @@ fn zero_step_stroke(n: f64, load: f64) -> f64 {
 fn the_paraboloid_has_the_published_zero_step_strokes() {
     for (load, published) in [(0.0, 0.74008), (0.5, 1.20630)] {
         assert!((zero_step_stroke(2.0, load) - published).abs() <= 5e-6);
-        // Found on the contact, without the formula: the settled advance passes 0 there.
+        // Numerical zero of the steady advance, without the formula.
         let (mut low, mut high) = (0.0, 2.0);
         while high - low > 1e-7 {
             let stroke = 0.5 * (low + high);
@@ -117,7 +118,7 @@ fn the_paraboloid_has_the_published_zero_step_strokes() {
     }
 }
 
-// At S = S₀ itself (a cone, λ = 1/2, S = u_c) the creep dies away like a power of the number of cycles only.
+// At S = S₀ itself (a cone, λ = 1/2, S = u_c) the transient decreases only as a power of the number of cycles.
 
 #[test]
 fn steps_are_stroke_less_the_zero_step_stroke() {
@@ -128,7 +129,7 @@ fn steps_are_stroke_less_the_zero_step_stroke() {
                 let step = drive.settled(stroke, load);
                 let place = format!("n = {n}, λ = {load}, S = {stroke}");
                 assert!((step - expected).abs() <= 1e-9, "{place}: {step} {expected}");
-                // Below S₀ it stays where it is for ever.
+                // Below S₀ the position does not change.
                 let start = drive.at;
                 let worst = (0..1000).map(|_| drive.cycle(stroke, load).abs()).fold(0.0, f64::max);
                 if expected == 0.0 {
@@ -168,7 +169,7 @@ fn beyond_twice_u_c_no_load_below_the_limit_stalls_it() {
 
 #[test]
 fn below_the_zero_step_stroke_it_creeps_and_stops() {
-    // From the virgin curve it advances a little, each time by less, until the last place.
+    // From the first loading curve the advance decreases in each cycle, until the position is steady.
     for (n, mut drive) in drives() {
         drive.rise(0.2);
         let steps: Vec<f64> = (0..200).map(|_| drive.cycle(0.4, 0.2)).collect();

@@ -1,6 +1,6 @@
-//! Numbers by chance, the same everywhere.
+//! Pseudo-random numbers, the same on every machine.
 
-/// A small generator of numbers in [0, 1): what is drawn here needs no quality.
+/// Simple generator of random numbers in [0, 1).
 pub(crate) struct Lottery(pub(crate) u64);
 
 impl Lottery {
@@ -9,7 +9,7 @@ impl Lottery {
         (self.0 >> 11) as f64 / (1u64 << 53) as f64
     }
 
-    /// About normal, rms 1.
+    /// Approximately normal random number with rms 1.
     pub(crate) fn normal(&mut self) -> f64 {
         (0..12).map(|_| self.draw()).sum::<f64>() - 6.0
     }

@@ -1,6 +1,6 @@
-//! Contacts as a whole: profiles, memory curve, row of springs and fields against closed forms, quadratures and reference histories.
+//! Tests of contacts: profiles, memory curve, row of springs and fields, against closed forms, quadrature and reference histories.
 //!
-//! One binary, linked once; every module is a subject.
+//! All tests are one binary, which is linked once.
 
 #![allow(
     clippy::unwrap_used,

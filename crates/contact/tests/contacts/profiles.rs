@@ -1,10 +1,12 @@
-//! Profiles against closed forms, values computed in 80 digits, and the quadrature of m.
+//! Tests of profiles against closed forms, values with 80 digits, and the quadrature of m.
 
 use approx::assert_relative_eq;
 use stickslip_contact::{Profile, ProfileError};
 
-/// (η, s, M/R², N/R³) of the sphere: mpmath, 80 digits, η = h/R the double nearest to the decimal shown,
-/// s = a/R the root of s artanh s = η, M/R² = (s²+1) artanh s - s, N/R³ = ∫₀ˢ(η - x artanh x)²dx by quadrature.
+/// Values (η, s, M/R², N/R³) of the sphere, by mpmath with 80 digits.
+///
+/// η = h/R is the double nearest to the decimal shown, and s = a/R the root of s artanh s = η. M/R² = (s²+1) artanh s - s and N/R³ =
+/// ∫₀ˢ(η - x artanh x)²dx by quadrature.
 const SPHERE: [(f64, f64, f64, f64); 16] = [
     (1e-16, 1e-08, 1.3333333333333332e-24, 5.333333333333333e-41),
     (1e-12, 9.999999999998333e-07, 1.3333333333332e-18, 5.3333333333329525e-31),
@@ -41,7 +43,7 @@ fn profiles() -> Vec<(&'static str, Profile)> {
     ]
 }
 
-/// ∫₀ʰ f by tanh-sinh quadrature, which does not mind the root of m at 0.
+/// Integral ∫₀ʰ f by tanh-sinh quadrature, suitable for the root of m at 0.
 fn integral(f: impl Fn(f64) -> f64, h: f64) -> f64 {
     let half_pi = std::f64::consts::FRAC_PI_2;
     let step = 1.0 / 64.0;
@@ -84,7 +86,7 @@ fn the_sphere_agrees_with_80_digit_values() {
 
 #[test]
 fn the_sphere_is_not_the_paraboloid() {
-    // s artanh s = s²(1 + s²/3 + …) against s²: at equal depth a differs by s²/6.
+    // s artanh s = s²(1 + s²/3 + …) instead of s²: at equal indentation a differs by s²/6.
     let (sphere, paraboloid) = (Profile::sphere(1.0).unwrap(), Profile::paraboloid(1.0).unwrap());
     let d = sphere.depth(0.01);
     let difference = paraboloid.radius(d) / sphere.radius(d) - 1.0;
@@ -155,7 +157,7 @@ fn area_and_volume_are_the_integrals_of_length() {
     }
 }
 
-/// The power with which the force begins is that of its last decade: hm/M.
+/// The exponent of the force at small h is that of the last decade: hm/M.
 #[test]
 fn forces_begin_with_their_first_power() {
     let others = [
@@ -284,8 +286,7 @@ fn nothing_touches_at_or_below_zero() {
     }
 }
 
-/// The least height there is, which a steep power's scale makes none: its root and the logarithm of that made no number, and a run whose
-/// last springs began to slip stopped.
+/// The smallest positive height must give finite results for a steep power.
 #[test]
 fn steep_powers_have_lengths_at_the_least_heights() {
     for exponent in [2.5, 4.91, 5.0, 6.0, 8.0] {

@@ -1,5 +1,6 @@
-//! Profiles with a border (worn, rounded, tipped) and sums of powers: against values of 50 digits, against the transform (4.20)
-//! of their f by a quadrature of its own, and against what they become at the ends of their parameters.
+//! Tests of profiles with a border (truncated, rounded, tipped) and sums of powers.
+//!
+//! References are values with 50 digits, an independent quadrature of the transform (4.20), and limits of the parameters.
 
 use std::f64::consts::FRAC_PI_2;
 use stickslip_contact::{Apex, Curve, Interface, Pair, Profile, ProfileError, Row, Segment, Springs};
@@ -9,8 +10,9 @@ const SLOPE: f64 = 0.01;
 const R: f64 = 5e-3;
 const TERMS: [(f64, f64); 4] = [(0.0003, 0.7), (2.0, 1.5), (100.0, 2.0), (3e8, 4.25)];
 
-/// Kind, h, a, M, N: mpmath, 50 digits, the inputs as doubles: a by bisection of the handbook's g, M = 2∫(h-g)dx and
-/// N = ∫(h-g)²dx over 0…a by quadrature.
+/// Kind, h, a, M, N, by mpmath with 50 digits.
+///
+/// a is found by bisection of the handbook's g. M = 2∫(h-g)dx and N = ∫(h-g)²dx over 0…a are computed by quadrature.
 const VALUES: [(&str, f64, f64, f64, f64); 42] = [
     ("TruncatedCone", 2.0000000000000002e-19, 2e-05, 8.000000000000001e-24, 8.000000000000002e-43),
     (
@@ -206,7 +208,7 @@ const VALUES: [(&str, f64, f64, f64, f64); 42] = [
     ("Powers", 0.01, 0.002579055571882673, 4.02536014566156e-05, 1.7538913847229388e-07),
 ];
 
-/// A profile, its f′, and where f′ has a kink.
+/// Profile, its f′, and the kink of f′.
 struct Specimen {
     name: &'static str,
     profile: Profile,
@@ -241,7 +243,7 @@ fn specimens() -> Vec<Specimen> {
     ]
 }
 
-/// Whether a value is another one, relative to it: unlike the macros of `approx` also where both are far below 1.
+/// Asserts that two values agree relative to their size. The macros of `approx` would compare absolutely far below 1.
 #[track_caller]
 fn close(got: f64, want: f64, tolerance: f64) {
     assert!(
@@ -251,7 +253,7 @@ fn close(got: f64, want: f64, tolerance: f64) {
     );
 }
 
-/// ∫ f by tanh-sinh quadrature, which does not mind roots at the ends. f is told how far it is from both ends.
+/// Integral of f by tanh-sinh quadrature, suitable for roots at the ends. The arguments of f are the distances from both ends.
 fn integral(f: impl Fn(f64) -> f64, [from, to]: [f64; 2]) -> f64 {
     let step = 1.0 / 64.0;
     let node = |k: i32| {
@@ -285,7 +287,7 @@ fn they_agree_with_50_digit_values() {
 fn g_is_the_transform_of_f() {
     for Specimen { name, profile, slope, border } in specimens() {
         for x in [0.3 * B, 1.01 * B, 1.7 * B, 12.0 * B, 400.0 * B] {
-            // r = x sinθ, parted where f′ has its kink.
+            // Substitution r = x sinθ, split at the kink of f′.
             let part = |from, to| integral(|angle: f64| slope(x * angle.max(1e-30).sin()), [from, to]);
             let kink = border.filter(|b| *b < x).map_or(0.0, |b| (b / x).asin());
             let transform = x * (part(0.0, kink) + part(kink, FRAC_PI_2));
@@ -293,7 +295,7 @@ fn g_is_the_transform_of_f() {
             if transform == 0.0 {
                 continue;
             }
-            // f by its own slope, and dg/da by differences.
+            // f by its slope, and dg/da by differences.
             let kink = border.filter(|b| *b < x).unwrap_or(0.0);
             let above = |r: f64| slope(r.max(1e-40));
             let gap = integral(above, [0.0, kink]) + integral(above, [kink, x]);
@@ -310,7 +312,7 @@ fn g_is_the_transform_of_f() {
 #[test]
 fn stiffness_force_and_energy_are_derivatives_of_each_other() {
     for Specimen { name, profile, .. } in specimens() {
-        // At every scale of the borders, and across them.
+        // Heights on every scale of the borders.
         for k in -24..40 {
             let h = 1e-9 * 10f64.powf(f64::from(k) / 8.0);
             let step = 1e-4 * h;
@@ -323,7 +325,7 @@ fn stiffness_force_and_energy_are_derivatives_of_each_other() {
                 close(force, forward, 2e-13);
             }
             close(profile.height_of_reduced_force(force), h, 1e-14);
-            // Just behind a border a radius has few digits left for what lies beyond.
+            // Immediately beyond a border, a radius has few significant digits for the distance from the border.
             if profile.borders().is_empty() || profile.radius(h) > 1.001 * B {
                 close(profile.depth(profile.radius(h)), h, 1e-12);
             }
@@ -339,29 +341,30 @@ fn at_the_ends_of_their_parameters_they_are_what_is_known() {
         close(profile.reduced_energy(h), other.reduced_energy(h), tolerance);
     };
     let (tiny, h) = (1e-12, 1e-6);
-    // Without a flat or a tip: cone and paraboloid, up to b/a (a rounded flat), its square (a worn ball).
+    // Without a flat or tip the results are those of cone and paraboloid, to order b/a for a rounded flat and (b/a)² for a truncated
+    // paraboloid.
     near(&Profile::truncated_cone(tiny, SLOPE).unwrap(), &Profile::cone(SLOPE).unwrap(), h, 1e-7);
     let ball = Profile::paraboloid(R).unwrap();
     near(&Profile::truncated_paraboloid(tiny, R).unwrap(), &ball, h, 1e-14);
     near(&Profile::rounded_flat(tiny, R).unwrap(), &ball, h, 1e-7);
     near(&Profile::tipped_paraboloid(R, tiny).unwrap(), &ball, h, 1e-7);
-    // Hardly pressed, a worn profile is a flat punch and a tip a cone.
+    // At small indentation a truncated profile is a flat punch, and a tip a cone.
     let flat = Profile::flat(B).unwrap();
     near(&Profile::truncated_cone(B, SLOPE).unwrap(), &flat, 1e-15, 1e-14);
     near(&Profile::truncated_paraboloid(B, R).unwrap(), &flat, 1e-16, 1e-14);
     near(&Profile::rounded_flat(B, R).unwrap(), &flat, 1e-25, 1e-8);
     near(&Profile::tipped_paraboloid(R, B).unwrap(), &Profile::cone(B / R).unwrap(), 1e-8, 1e-15);
-    // One term is a power law, whatever stands beside it with nothing before it.
+    // A single term with a coefficient above 0 is a power law.
     let one = Profile::powers(&[(0.0, 0.3), (7.0, 3.0)]).unwrap();
     assert_eq!(one, Profile::power(7.0, 3.0).unwrap());
-    // Two halves of one power are that power.
+    // Two equal terms are one power law.
     near(&Profile::powers(&[(3.5, 3.0), (3.5, 3.0)]).unwrap(), &one, h, 3e-15);
     near(&Profile::powers(&[(3.5, 2.7), (3.5, 2.7)]).unwrap(), &Profile::power(7.0, 2.7).unwrap(), h, 3e-15);
 }
 
 #[test]
 fn units_are_of_no_account() {
-    // The same contact in other units: lengths times 2⁴⁰ or 2⁻⁴⁰ take every digit with them.
+    // Lengths scaled by 2⁴⁰ or 2⁻⁴⁰ give identical digits.
     for scale in [2f64.powi(40), 2f64.powi(-40)] {
         let pairs = [
             (Profile::truncated_cone(B, SLOPE), Profile::truncated_cone(scale * B, SLOPE)),
@@ -401,13 +404,13 @@ fn curve_and_row_agree_through_histories() {
             row.commit(&springs, &law, Segment::Straight(to)).unwrap();
             worst = worst.max((curve.force(&law) - row.force(&springs, &law, to)).abs() / limit);
         }
-        // Cells of 1/100 000 of the width; the edge of a flat need not lie between two of them.
+        // Cells of 1/100 000 of the width; the edge of a flat may lie within a cell.
         assert!(worst < 3e-8, "{name}: {worst:e}");
     }
 }
 
-/// At one depth a chord slips as far as its parts do one after the other, and loses as much: also where one of them ends the slip
-/// front's way across a border, thin strips that no difference of M or N resolves.
+/// At constant indentation a straight path and its parts have the same slip and the same friction work. The test includes thin strips
+/// at a border, where differences of M or N would have no accuracy.
 #[test]
 fn chords_across_a_border_lose_what_one_does() {
     for Specimen { name, profile, border, .. } in specimens() {

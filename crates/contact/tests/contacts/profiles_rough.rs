@@ -1,4 +1,4 @@
-//! Rough lines: a curve over 10⁵ heights against a row of as many springs, and lines made by numbers.
+//! Tests of rough lines: a curve over 10⁵ heights against a row of springs, and generated lines.
 
 use crate::lottery::Lottery;
 use std::f64::consts::TAU;
@@ -41,7 +41,7 @@ fn a_line_is_the_foundation_of_what_each_height_lacks_of_the_highest() {
         let rough = Profile::rough(&heights, spacing).unwrap();
         let list = Profile::foundation(&lacks, &vec![spacing; count]).unwrap();
         let mut lottery = Lottery(9);
-        // At heights of springs, one last place above and below them, and beyond all.
+        // Heights of springs, one unit in the last place above and below them, and beyond all.
         let near = lacks.iter().take(300).flat_map(|h| [h.next_down(), *h, h.next_up()]);
         let anywhere = (0..1000).map(|_| 600e-9 * lottery.draw());
         for h in near.chain(anywhere).chain([1e-300, 1.0, 1e300]).collect::<Vec<_>>() {
@@ -53,7 +53,7 @@ fn a_line_is_the_foundation_of_what_each_height_lacks_of_the_highest() {
         assert_eq!(rough.height_of_reduced_force(force), list.height_of_reduced_force(force));
         assert_eq!((rough.gap(0.0), rough.exponent(), rough.has_kinks()), (None, None, true));
     }
-    // All at one height: a flat punch.
+    // All heights equal: a flat punch.
     let flat = Profile::rough(&[3e-6; 7], 1e-6).unwrap();
     assert!((flat.reduced_force(1e-9) / 7e-15 - 1.0).abs() < 1e-14);
 }
@@ -63,7 +63,7 @@ fn a_line_of_as_many_points_as_are_made_is_a_profile() {
     let points = SelfAffine::MAX_POINTS;
     let heights = SelfAffine { points, ..LINE }.heights().unwrap();
     let rough = Profile::rough(&heights, LINE.length / points as f64).unwrap();
-    // Pressed flat it is as long as the line.
+    // Fully pressed, the contact has the length of the line.
     assert!((rough.reduced_stiffness(1.0) / LINE.length - 1.0).abs() < 1e-13);
 }
 
@@ -90,7 +90,7 @@ fn a_self_affine_line_has_the_spectrum_asked_for() {
         };
         2.0 / count * part(f64::cos).hypot(part(f64::sin))
     };
-    // Waves 4 to 200 along the length, falling with the exponent H + 1/2; none longer or shorter.
+    // Waves 4 to 200 along the length, with amplitudes that decrease with the exponent H + 1/2.
     let first = amplitude(4);
     for k in [5, 17, 60, 200] {
         let want = first * (k as f64 / 4.0).powf(-1.3);
@@ -104,7 +104,7 @@ fn a_self_affine_line_has_the_spectrum_asked_for() {
 
 #[test]
 fn a_seed_makes_the_same_line_everywhere() {
-    // Sums, square roots and a power that the program brings along: no function is in it whose last digit another machine could turn.
+    // The line uses only functions whose results are identical on every machine.
     let heights = LINE.heights().unwrap();
     let mixed = heights.iter().fold(0_u64, |sum, z| sum.rotate_left(5).wrapping_mul(31) ^ z.to_bits());
     assert_eq!(mixed, 0x9f9f_a889_35ab_1c76);

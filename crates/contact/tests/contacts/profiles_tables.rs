@@ -1,11 +1,11 @@
-//! Profiles by points: tables of (r, f) through the numerical transform (4.20) against closed forms, and normal laws.
+//! Tests of profiles given by points: tables of (r, f) with the transform (4.20) against closed forms, and normal laws.
 
 use stickslip_contact::{
     Apex, ContactError, Curve, FirstLoadingError, Interface, Material, Move, NormalGiven, Pair, Profile,
     ProfileError, Row, Segment, Springs,
 };
 
-/// A profile of closed form, its f, the last radius of its table, its kinks.
+/// Profile with a closed form, its f, the last radius of its table, and its kinks.
 struct Specimen {
     name: &'static str,
     exact: Profile,
@@ -42,7 +42,7 @@ fn specimens() -> [Specimen; 5] {
 }
 
 impl Specimen {
-    /// Its table of `count` cells of equal width.
+    /// Table with `count` cells of equal width.
     fn table(&self, count: u32) -> Profile {
         let at = |k: u32| self.end * f64::from(k) / f64::from(count);
         let points: Vec<(f64, f64)> = (0..=count).map(|k| (at(k), (self.gap)(at(k)))).collect();
@@ -66,7 +66,7 @@ fn two_hundred_points_give_g_to_a_millionth() {
         let table = specimen.table(200);
         let error = specimen.error(&table);
         assert!(error < 1e-9, "{}: {error:e}", specimen.name);
-        // The estimate is one of g at the points: of the right size, but for what panels may miss.
+        // The estimate has the size of the error of g at the points, apart from the error of the panels.
         let estimate = table.transform_error().unwrap() / specimen.exact.depth(specimen.end);
         let is_right = estimate < 10.0 * error && error < 10.0 * estimate + 2e-10;
         assert!(is_right, "{}: {estimate:e}", specimen.name);
@@ -76,7 +76,7 @@ fn two_hundred_points_give_g_to_a_millionth() {
 #[test]
 fn the_error_of_g_falls_faster_than_the_third_power_of_the_distance() {
     for specimen in specimens() {
-        // Where cubics through the points are not exact anyway.
+        // Profiles for which cubics through the points are not exact.
         let points: Vec<(f64, f64)> = [16, 32, 64, 128]
             .map(|count| (f64::from(count).ln(), specimen.error(&specimen.table(count)).ln()))
             .to_vec();
@@ -88,7 +88,7 @@ fn the_error_of_g_falls_faster_than_the_third_power_of_the_distance() {
         let (x, y) = (mean(|p| p.0), mean(|p| p.1));
         let over: f64 = points.iter().map(|p| (p.0 - x) * (p.1 - y)).sum();
         let order = -over / points.iter().map(|p| (p.0 - x).powi(2)).sum::<f64>();
-        // Fitted: 3.77 and 3.61. Its theory is 3 for f′, and half an order or one more by the integral.
+        // Measured orders are 3.77 and 3.61. The theoretical order is 3 for f′, and higher by half an order or more for the integral.
         assert!(order > 3.5 && order < 4.1, "{}: {order}", specimen.name);
     }
 }
@@ -110,7 +110,7 @@ fn stiffness_force_and_energy_of_a_table_are_those_of_the_shape() {
             near(table.reduced_stiffness(h), exact.reduced_stiffness(h), "m");
             near(table.reduced_force(h), exact.reduced_force(h), "M");
             near(table.reduced_energy(h), exact.reduced_energy(h), "N");
-            // In step with each other to rounding, whatever the shape.
+            // m, M and N are consistent to rounding for any shape.
             let force = table.reduced_force(h);
             assert!((table.height_of_reduced_force(force) / h - 1.0).abs() < 1e-13, "{}", specimen.name);
             assert!((table.depth(table.radius(h)) / h - 1.0).abs() < 1e-12, "{}", specimen.name);
@@ -136,11 +136,11 @@ fn a_table_ends_at_its_last_point() {
     let reach = table.reach().unwrap();
     assert!((reach / paraboloid.exact.depth(paraboloid.end) - 1.0).abs() < 1e-12);
     assert_eq!(table.depth(1.001 * paraboloid.end), f64::INFINITY);
-    // Beyond it its functions still return numbers that go on.
+    // Beyond the end the functions continue with finite numbers.
     let force = table.reduced_force(2.0 * reach);
     assert!((force - table.reduced_force(reach) - 2.0 * paraboloid.end * reach).abs() < 1e-12 * force);
     assert!((table.height_of_reduced_force(force) / (2.0 * reach) - 1.0).abs() < 1e-14);
-    // A trial may look there, a move may not go there; it leaves everything as it was.
+    // A trial may exceed the end; a commit fails and leaves the memory unchanged.
     let law = Interface::new(Pair::from_moduli(1e11, 0.8e11).unwrap(), table.clone(), 0.3).unwrap();
     let mut curve = Curve::new(&law, Apex { d: 0.5 * reach, u: 0.0 });
     let (before, to) = (curve.clone(), Apex { d: 1.01 * reach, u: 0.0 });
@@ -199,7 +199,7 @@ fn a_row_pressed_beyond_the_points_says_so_and_one_outgrown_before_says_that() {
 
 #[test]
 fn uneven_points_and_hidden_flats_are_no_trouble() {
-    // A worn ball by points that crowd at its edge, twice as dense from cell to cell.
+    // Truncated paraboloid with points that are denser towards its edge.
     let mut points = vec![(0.0, 0.0), (0.5 * FLAT, 0.0), (FLAT, 0.0)];
     points.extend((0..60).map(|k| {
         let r = FLAT + 3e-4 * 0.8_f64.powi(59 - k);
@@ -211,7 +211,7 @@ fn uneven_points_and_hidden_flats_are_no_trouble() {
         assert!((table.depth(x) - exact.depth(x)).abs() < 1e-8 * exact.depth(4e-4), "{x:e}");
     }
     assert_eq!((table.depth(FLAT), table.radius(1e-30)), (0.0, FLAT));
-    // Three points, two, and a bend down that leaves g rising.
+    // Tables of three points, of two, and with a bend down for which g still increases.
     let cone = Profile::table(&[(0.0, 0.0), (1e-4, 1e-6)], &[]).unwrap();
     assert!((cone.depth(7e-5) / (0.7e-6 * std::f64::consts::FRAC_PI_2) - 1.0).abs() < 1e-12);
     assert!(Profile::table(&[(0.0, 0.0), (1e-4, 1e-6), (2e-4, 1.6e-6)], &[]).is_ok());
@@ -246,7 +246,7 @@ fn curve_and_row_of_a_table_agree_through_histories() {
     }
 }
 
-/// M of a ball of 5 mm at `count` + 1 depths up to 4 µm.
+/// M of a paraboloid of 5 mm radius at `count` + 1 indentations up to 4 µm.
 fn hertz(count: u32) -> Vec<(f64, f64)> {
     let ball = Profile::paraboloid(R).unwrap();
     let at = |k: u32| 4e-6 * f64::from(k) / f64::from(count);
@@ -279,7 +279,7 @@ fn a_normal_law_is_met_at_its_points_and_tends_to_the_profile() {
     }
     assert!(errors[1] < errors[0] / 3.0 && errors[2] < errors[1] / 3.0, "second order: {errors:?}");
     assert!(errors[2] < 1e-3, "{errors:?}");
-    // A flat punch: a straight law; a stiffness that begins above zero is a flat.
+    // A linear normal law is a flat punch; a stiffness above 0 at the start is a flat.
     let flat = Profile::normal_law(&[(0.0, 0.0), (1e-6, 4e-9), (2e-6, 8e-9)]).unwrap();
     assert_eq!((flat.radius(5e-7), flat.depth(1e-3), flat.is_strictly_convex()), (2e-3, 0.0, false));
     assert!((flat.reduced_energy(1.5e-6) / (0.5 * 4e-3 * 1.5e-6 * 1.5e-6) - 1.0).abs() < 1e-14);
@@ -287,7 +287,7 @@ fn a_normal_law_is_met_at_its_points_and_tends_to_the_profile() {
 
 #[test]
 fn the_stiffness_of_a_normal_law_jumps_only_where_two_straight_lines_meet() {
-    // Secants, and whether two pairs of them leave no other way.
+    // Secants, and whether they require a jump of the stiffness.
     let cases: [(&[f64], bool); 8] = [
         (&[1.0, 1.0, 2.0], false),
         (&[1.0, 2.0, 2.0], false),
@@ -311,7 +311,7 @@ fn the_stiffness_of_a_normal_law_jumps_only_where_two_straight_lines_meet() {
             let beside = [h * (1.0 - 1e-9), h * (1.0 + 1e-9)].map(|h| law.reduced_stiffness(h));
             largest = largest.max(beside[1] - beside[0]);
         }
-        // Straight lines as steep as 20 per unit move by 4e-7 at most.
+        // Linear parts with slopes up to 20 per unit change by at most 4e-7.
         assert_eq!(largest > 1e-6, has_kinks, "{secants:?}: {largest:e}");
     }
 }
@@ -329,7 +329,7 @@ fn what_is_no_profile_is_refused() {
     assert_eq!(table(&[(0.0, 0.0), (1.0, 2.0), (2.0, 1.0)]), ProfileError::Fall { index: 2 });
     assert_eq!(table(&[(0.0, 0.0), (1.0, f64::NAN)]), ProfileError::Fall { index: 1 });
     assert_eq!(table(&[(0.0, 0.0), (1.0, 0.0)]), ProfileError::NoRise);
-    // A cone that ends in a plane: behind its edge g falls.
+    // A cone that ends in a plane: beyond its edge g decreases.
     let edge: Vec<(f64, f64)> = (0..=20).map(|k| (f64::from(k), f64::from(k.min(10)))).collect();
     let error = Profile::table(&edge, &[10.0]).unwrap_err();
     assert_eq!(error, ProfileError::NotRising { index: 11, radius: 11.0 });
@@ -347,8 +347,7 @@ fn what_is_no_profile_is_refused() {
     assert_eq!(law(&[(0.0, 0.0), (1.0, 0.0), (2.0, 3.0)]), ProfileError::Fall { index: 1 });
 }
 
-/// A ball of 1 mm by points that are rounded, as those of an instrument: Hertz' pressure 2E\*d/(πa), to what rounding leaves of the shape
-/// about the middle. In tables of 50, 60 and, by nanometres, 20 parts the first points went as those of a cone.
+/// Points of a sphere of 1 mm, rounded like measured values, give the Hertz pressure 2E\*d/(πa) within the error of the rounding.
 #[test]
 fn a_ball_by_rounded_points_has_no_tip() {
     let pair = Pair::new(Material::new(210e9, 0.3).unwrap(), Material::new(210e9, 0.3).unwrap());
@@ -368,7 +367,7 @@ fn a_ball_by_rounded_points_has_no_tip() {
             assert!((peak / hertz - 1.0).abs() < 0.1, "{quantum:e} {parts}: {peak:e} {hertz:e}");
         }
     }
-    // What has a tip keeps it, by as many points and by few.
+    // A real tip is kept for any number of points.
     for parts in [6, 20, 21, 50, 200] {
         let point = |k: u32| {
             let r = 20e-6 * f64::from(k) / f64::from(parts);

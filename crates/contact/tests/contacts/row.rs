@@ -1,4 +1,4 @@
-//! The row of springs against closed forms and against reference histories found without springs.
+//! Tests of the row of springs against closed forms and independent reference histories.
 
 use serde_json::Value;
 use std::sync::Arc;
@@ -15,12 +15,12 @@ fn chord(d: f64, u: f64) -> Move {
     Move::Chord(Apex { d, u })
 }
 
-/// E* = 1, G* = 0.8, μ = 0.3, so κ = 0.375.
+/// Interface with E* = 1, G* = 0.8 and μ = 0.3, so κ = 0.375.
 fn law(profile: Profile) -> Interface {
     Interface::new(Pair::from_moduli(1.0, 0.8).unwrap(), profile, 0.3).unwrap()
 }
 
-/// A pseudo-random number in [0, 1) that is the same everywhere (Marsaglia's xorshift).
+/// Pseudo-random number in [0, 1), the same on every machine (Marsaglia's xorshift).
 fn random(state: &mut u64) -> f64 {
     *state ^= *state << 13;
     *state ^= *state >> 7;
@@ -28,7 +28,7 @@ fn random(state: &mut u64) -> f64 {
     (*state >> 11) as f64 / (1u64 << 53) as f64
 }
 
-/// Order of convergence: minus the slope of log error over log N by least squares.
+/// Order of convergence: minus the slope of log error over log N, by least squares.
 fn order(points: &[(f64, f64)]) -> f64 {
     let logs: Vec<(f64, f64)> = points.iter().map(|(n, e)| (n.ln(), e.ln())).collect();
     let count = logs.len() as f64;
@@ -42,7 +42,7 @@ fn powers() -> [(f64, Profile); 3] {
     [1.0, 2.0, 4.0].map(|n| (n, Profile::foundation_power(1.0, n).unwrap()))
 }
 
-/// A row over 1.37 times the contact's width at d = 1, so that its edge falls anywhere in a cell.
+/// Row over 1.37 times the contact width at d = 1, so that the contact edge lies anywhere in a cell.
 fn row(profile: &Profile, count: usize) -> (Springs, Row) {
     let springs = Springs::new(profile, count, 1.37 * 2.0 * profile.radius(1.0)).unwrap();
     let row = Row::new(&springs);
@@ -51,8 +51,8 @@ fn row(profile: &Profile, count: usize) -> (Springs, Row) {
 
 const COUNTS: [usize; 8] = [100, 200, 400, 800, 1600, 3200, 6400, 12800];
 
-/// Largest error over the row offsets near a count: where the contact's edge falls in a cell makes the error
-/// of one count alone erratic.
+/// Largest error over several numbers of springs near a count, because the position of the contact edge in its cell makes single
+/// errors erratic.
 fn convergence(error: impl Fn(usize) -> f64) -> Vec<(f64, f64)> {
     let worst = |count: usize| (0..8).map(|k| error(count + 2 * k)).fold(0.0, f64::max);
     COUNTS.iter().map(|&count| (count as f64, worst(count))).collect()
@@ -90,7 +90,7 @@ fn unloading_and_the_loop_follow_the_closed_forms() {
         go(0.0);
         let first = go(amplitude);
         assert!((first / (limit * u_c) - quarter).abs() < 1e-7, "n = {n}: {first}");
-        // Subdivided unevenly: a chord's work adds up.
+        // The works of unequal parts of a path add up.
         let cycle: f64 = [0.3, 0.1, -amplitude, -0.69, 0.2, amplitude].map(&mut go).iter().sum();
         assert!((cycle / (4.0 * limit * u_c) - quarter).abs() < 1e-7, "n = {n}: {cycle}");
         let u = 0.1;
@@ -131,7 +131,7 @@ fn lowering_and_raising_remembers() {
     for (force, exact) in forces.iter().zip([0.258579, 0.173254, 0.173254]) {
         assert!((force - exact).abs() < 6e-7, "{forces:?}");
     }
-    // Raised, then lowered: the old value exactly.
+    // After raising and lowering, the old value is restored exactly.
     row.commit(&springs, &law, to(1.2, u)).unwrap();
     row.commit(&springs, &law, to(1.0, u)).unwrap();
     assert_eq!(row.force(&springs, &law, Apex { d: 1.0, u }), forces[2]);
@@ -150,7 +150,7 @@ fn oblique_loading_sticks_or_slips_as_a_whole() {
         let ratio = beta.clamp(-1.0, 1.0) * law.friction();
         assert!((seen.force / law.normal_force(1.0) - ratio).abs() < 1e-7 && seen.state == state);
         let work = row.commit(&springs, &law, to(1.0, beta * kappa)).unwrap();
-        // The same sum in another order.
+        // The same sum in a different order.
         assert!((work - seen.friction).abs() <= 1e-13 * work.max(1e-4));
         if state == ContactState::Stick {
             assert!(work < 1e-17, "{work}");
@@ -164,7 +164,7 @@ fn oblique_loading_sticks_or_slips_as_a_whole() {
 
 #[test]
 fn a_spring_that_touches_inside_a_step_starts_where_it_touches() {
-    // From d = -1 to 1 with u from 0 to 2v: as from d = 0 with u from v to 2v.
+    // From d = -1 to 1 with u from 0 to 2v: the same as from d = 0 with u from v to 2v.
     let law = law(Profile::sphere(3.0).unwrap());
     let (springs, start) = row(law.profile(), 1000);
     let v = 0.3 * law.stick_slope();
@@ -179,8 +179,7 @@ fn a_spring_that_touches_inside_a_step_starts_where_it_touches() {
 
 #[test]
 fn lifting_off_in_one_step_dissipates_what_was_stored() {
-    // Lifted straight up at constant u: all the elastic energy left at liftoff is friction work and the work
-    // ∫F_x du is none, for any number of chords.
+    // Lift-off at constant u: the friction work equals the elastic energy, and the work ∫F_x du is 0, for any number of steps.
     let law = law(Profile::paraboloid(1.0).unwrap());
     let (springs, mut row) = row(law.profile(), 20_001);
     let u = 0.8 * law.gross_slip_displacement(1.0);
@@ -238,7 +237,7 @@ fn tangents_are_the_slopes_of_the_force() {
     row.commit(&springs, &law, to(1.0, 0.2)).unwrap();
     let mut seed = 3;
     for _ in 0..40 {
-        // d falls: no spring is new, so the end-of-move tangents are those of the chord's end.
+        // d decreases and no spring is new, so the derivatives are those at the end of the path.
         let end = Apex { d: 1.0 - 0.5 * random(&mut seed), u: 0.2 - 0.5 * random(&mut seed) };
         let response = row.trial(&springs, &law, Move::Chord(end));
         assert!((response.force - row.force(&springs, &law, end)).abs() < 1e-15);
@@ -253,7 +252,7 @@ fn tangents_are_the_slopes_of_the_force() {
 
 #[test]
 fn states_show_stick_inside_and_slip_outside() {
-    // c/a = (1-u/u_c)^{1/n} at first loading; after a reversal the rim slips the other way.
+    // c/a = (1-u/u_c)^{1/n} at first loading; after a reversal the edge slips in the opposite direction.
     let law = law(Profile::paraboloid(1.0).unwrap());
     let springs = Springs::new(law.profile(), 1001, 3.0).unwrap();
     let u_c = law.gross_slip_displacement(1.0);
@@ -272,7 +271,7 @@ fn states_show_stick_inside_and_slip_outside() {
     }
     let seen = row.preview(&springs, &law, chord(1.0, 0.75 * u_c));
     assert!((seen.stick_radius - 0.5).abs() < 3e-3 && seen.state == ContactState::Partial);
-    // The same move again changes nothing: still at the limit after the last move that was not zero.
+    // Repeating the move changes nothing: the springs remain at their limit.
     row.commit(&springs, &law, to(1.0, 0.75 * u_c)).unwrap();
     assert!(row.states(&springs, &law).any(|s| s == SpringState::SlipForward));
     row.commit(&springs, &law, to(1.0, 0.75 * u_c * (1.0 - 1e-9))).unwrap();
@@ -381,7 +380,7 @@ fn what_is_out_of_range_is_refused() {
     assert_eq!(narrow, Err(SpringsError::Narrow { span: 1.0, width: 2.0 }));
 }
 
-/// A reference history: the profile, the interface and the rows (d, u, `F_N`, `F_x`, elastic, friction).
+/// Reference history: profile, interface and rows (d, u, `F_N`, `F_x`, elastic energy, friction work).
 struct History {
     law: Interface,
     smooth: bool,
@@ -419,8 +418,8 @@ fn history(value: &Value) -> History {
     }
 }
 
-/// Largest error of `F_N`, `F_x` (both over the largest `F_N` or `μF_N`) and of the elastic and friction energies (over
-/// the largest of each). The friction work of the reference counts from the start.
+/// Largest errors of `F_N`, `F_x` (relative to the largest `F_N` or `μF_N`), elastic energy and friction work (relative to their
+/// largest value).
 fn errors(history: &History, count: usize) -> [f64; 4] {
     let History { law, rows, .. } = history;
     let largest = |column: usize| rows.iter().map(|row| row[column].abs()).fold(0.0, f64::max);
@@ -490,8 +489,7 @@ fn equal_rows_give_equal_bits() {
     assert_eq!(run(), run());
 }
 
-/// F_N of a row was the closed form of its profile: with 16 springs 2e-3 away from the sum of its own. Here that sum is
-/// written out, spring by spring, from the midpoints of the cells.
+/// F_N of a row is the sum over its own springs, computed here from the midpoints of the cells.
 #[test]
 fn the_normal_force_of_a_row_is_the_sum_over_its_springs() {
     let profile = Profile::paraboloid(1.0).unwrap();
@@ -519,8 +517,7 @@ fn the_normal_force_of_a_row_is_the_sum_over_its_springs() {
     }
 }
 
-/// Until a spring changes the row's own force and the two straight lines of its lull are the same, wherever it goes; the row
-/// asks every spring.
+/// Until a spring changes, the force of the row equals the linear law of its interval for any motion.
 #[test]
 fn a_lull_is_the_row_until_its_end() {
     let profile = Profile::paraboloid(1.0).unwrap();
@@ -535,7 +532,7 @@ fn a_lull_is_the_row_until_its_end() {
         let from = row.apex();
         let at = Motion { d: from.d, u: from.u, dd, du };
         let lull = row.lull(&springs, &law, (&at, Change::Any), slack, None);
-        // Along a straight way until just before its first end.
+        // Positions on a straight path before its first change.
         let inside = |t: f64| {
             let to = Apex { d: from.d + t * dd, u: from.u + t * du };
             let sticks = lull.left(1.0, to).min(lull.left(-1.0, to)) > 0.0;
@@ -557,8 +554,8 @@ fn a_lull_is_the_row_until_its_end() {
     assert!(looked > 1500, "{looked}");
 }
 
-/// A spring that touched while the contact stood still has no stretch: where the indentation falls it comes to both limits and parts
-/// at one moment. Whichever of these is found first, the springs below it bear what they bore; the row asks every spring.
+/// A spring that touched while the contact was at rest has no stretch. When the indentation decreases it reaches both limits and
+/// lifts off at the same time. The order in which these events are found must not change the forces of the springs below.
 #[test]
 fn a_spring_that_parts_unstretched_moves_no_other() {
     let profile = Profile::paraboloid(1.0).unwrap();
@@ -568,7 +565,7 @@ fn a_spring_that_parts_unstretched_moves_no_other() {
     let slack = Slack { d: 1e-9, u: 1e-9 };
     let mut looked = 0;
     for height in springs.heights_by_position().filter(|height| (0.1..0.9).contains(height)) {
-        // All that touch below 0.1 are stretched, all above are not.
+        // All springs in contact below 0.1 are stretched, and none above.
         let mut row = Row::at(&springs, Apex { d: 0.1, u: 0.0 });
         for to in [Apex { d: 0.1, u: 0.01 }, Apex { d: 0.95, u: 0.01 }, Apex { d: height + 1e-10, u: 0.01 }] {
             row.commit(&springs, &law, Segment::Straight(to)).unwrap();
@@ -588,7 +585,7 @@ fn a_spring_that_parts_unstretched_moves_no_other() {
     assert!(looked > 100, "{looked}");
 }
 
-/// Along drawn paths a row slips as a whole where its lowest spring does, and nowhere else.
+/// On random paths a row is in gross slip exactly when its lowest spring slips.
 #[test]
 fn the_lowest_spring_is_the_last_to_slip() {
     let mut seed = 0x1d0_5eed;

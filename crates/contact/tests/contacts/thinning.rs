@@ -1,11 +1,11 @@
-//! A full memory: many moves for one look through it, and nothing given up that is not booked.
+//! Tests of the reduction of a full memory: constant cost per move, and recorded errors.
 
 use stickslip_contact::{Apex, Curve, Engine, Interface, Memory, Move, Pair, Profile, Segment, Words};
 
 const G: f64 = 0.95e11;
 /// Radius of the paraboloid, m.
 const RADIUS: f64 = 1e-3;
-/// Deepest indentation, m.
+/// Largest indentation, m.
 pub(super) const DEPTH: f64 = 1e-6;
 
 pub(super) fn paraboloid() -> Interface {
@@ -13,8 +13,9 @@ pub(super) fn paraboloid() -> Interface {
     Interface::new(Pair::from_moduli(1.15e11, G).unwrap(), profile, 0.3).unwrap()
 }
 
-/// Growth along u = βd₁(x + εx²/2), x = d/d₁: with ν = d₁^{3/2}, m = 2√(Rd),
-/// F_x = G\*∫u'm dd = 2G\*β√R ν (2x^{3/2}/3 + 2εx^{5/2}/5), E = ∫F_x u' dd by the same powers.
+/// Growth along u = βd₁(x + εx²/2), x = d/d₁.
+///
+/// With ν = d₁^{3/2} and m = 2√(Rd), F_x = G\*∫u'm dd = 2G\*β√R ν (2x^{3/2}/3 + 2εx^{5/2}/5). The energy is E = ∫F_x u' dd.
 pub(super) struct Path {
     pub(super) beta: f64,
     pub(super) bend: f64,
@@ -30,7 +31,7 @@ impl Path {
         unit * (2.0 / 3.0 * x.powf(1.5) + 0.4 * self.bend * x.powf(2.5))
     }
 
-    /// ∫F_x u̇ dt = unit·βd₁ ∫(2x^{3/2}/3 + 2εx^{5/2}/5)(1 + εx) dx.
+    /// Energy ∫F_x u̇ dt = unit·βd₁ ∫(2x^{3/2}/3 + 2εx^{5/2}/5)(1 + εx) dx.
     fn energy(&self, x: f64) -> f64 {
         let unit = 2.0 * G * self.beta * RADIUS.sqrt() * DEPTH.powf(1.5) * self.beta * DEPTH;
         let e = self.bend;
@@ -45,7 +46,7 @@ impl Path {
     }
 }
 
-/// Laid down in equal pieces; how often the memory gave up knots on the way.
+/// Curve that has grown in equal pieces, and the number of reductions during the growth.
 pub(super) fn grown(law: &Interface, path: &Path, pieces: u32, capacity: usize) -> (Curve, u32) {
     let mut curve = Curve::with_capacity(law, Apex::default(), capacity);
     let mut looks = 0;
@@ -58,14 +59,14 @@ pub(super) fn grown(law: &Interface, path: &Path, pieces: u32, capacity: usize) 
     (curve, looks)
 }
 
-/// It was looked through at every move.
+/// The number of reductions is small compared with the number of moves.
 #[test]
 fn a_full_memory_is_looked_through_once_in_many_moves() {
     let law = paraboloid();
     let path = Path { beta: 0.4 * law.stick_slope(), bend: 0.8 };
     for capacity in [256, 1024, 16_384] {
         let moves = 4 * u32::try_from(capacity).unwrap();
-        // A knot per move: a sixteenth of the stack, or half of that where neighbours have to stay.
+        // One knot per move; a reduction removes a sixteenth of the stack, or half of that if neighbours must stay.
         let most = 32 * moves / u32::try_from(capacity).unwrap();
         let (_, looks) = grown(&law, &path, moves, capacity);
         println!("growth, {capacity} knots: {looks} looks in {moves} moves");
@@ -86,7 +87,7 @@ fn a_full_memory_is_looked_through_once_in_many_moves() {
     }
 }
 
-/// Force and energy at the apex stay those that were integrated; wherever an edge stops, the memory is off by less than was booked.
+/// Force and energy at the apex remain those that were integrated. For any later slip front the error is below the recorded one.
 #[test]
 fn what_a_full_memory_forgets_of_growth_is_booked() {
     let law = paraboloid();
@@ -104,7 +105,7 @@ fn what_a_full_memory_forgets_of_growth_is_booked() {
         let slack = 1e-12 * limit;
         for k in 1..1000 {
             let x = f64::from(k) / 1000.0;
-            // Back along its own path, and by either edge at this depth.
+            // Back along its own path, and by either limit line at this indentation.
             let back = Apex { d: DEPTH * x, u: path.u(x) };
             let off = (small.preview(&law, back).force - path.force(x)).abs();
             assert!(off <= booked.force + slack, "{bend:e}, {x}: {off:e} of {booked:?}");
@@ -130,7 +131,7 @@ fn what_a_full_memory_forgets_of_growth_is_booked() {
     }
 }
 
-/// Corners between paths of growth are forgotten where they matter least, and sums above follow.
+/// Corners between growth paths with the smallest effect are removed, and the integrals above change accordingly.
 #[test]
 fn a_full_memory_of_zigzags_is_off_by_less_than_is_booked() {
     let law = paraboloid();
@@ -162,7 +163,7 @@ fn a_full_memory_of_zigzags_is_off_by_less_than_is_booked() {
     assert!(large.merged().knots == 0 && booked.knots > 5_000 && booked.force < 0.02 * limit, "{booked:?}");
 }
 
-/// In the middle of a fill, and over the next times that room is made.
+/// Serialization of a full memory, in the middle of filling the stack and during the following reductions.
 #[test]
 fn a_full_memory_read_from_its_words_goes_on_to_the_same_bits() {
     let law = paraboloid();
@@ -192,8 +193,8 @@ fn a_full_memory_read_from_its_words_goes_on_to_the_same_bits() {
     }
 }
 
-/// A million steps of smooth oblique loading, as chords and as pieces of growth: the force of the path is that of its closed
-/// form, and what was merged is booked.
+/// A million steps of smooth oblique loading, as straight paths and as growth segments. The force agrees with the closed form, and
+/// merge errors are recorded.
 #[test]
 fn a_million_steps_of_oblique_loading_stay_within_the_capacity() {
     let law = paraboloid();
@@ -234,7 +235,7 @@ fn a_million_random_corners_stay_within_the_capacity() {
     let mut whole = Curve::new(&law, Apex { d: DEPTH, u: 0.0 });
     let mut worst: f64 = 0.0;
     for k in 0..1_000_000_u32 {
-        // Zigzags that shrink and begin anew: corners are kept, and cut.
+        // Repeated oscillations of decreasing amplitude: reversals are stored and erased.
         let swing = u_c * (1.0 - f64::from(k % 500) / 500.0);
         let to = Apex { d: DEPTH * (0.8 + 0.2 * unit()), u: swing * (2.0 * unit() - 1.0) };
         curve.commit(&law, Segment::Straight(to)).unwrap();

@@ -1,4 +1,4 @@
-//! Memories and branches as words: what is read is what was written, and no words are bad enough to stumble over.
+//! Tests of serialization: memories and branches are restored exactly, and invalid words cause no failure.
 
 use proptest::prelude::*;
 use std::sync::Arc;
@@ -35,7 +35,7 @@ fn engines(law: &Interface) -> [Engine; 2] {
     [Engine::Curve, Engine::Row(Arc::new(Springs::new(law.profile(), 37, span).unwrap()))]
 }
 
-/// Moves: a kind, and where it goes.
+/// Moves: a kind and a target.
 type Throws = Vec<(u8, f64, f64)>;
 
 fn throws() -> impl Strategy<Value = Throws> {
@@ -60,7 +60,7 @@ fn segment(law: &Interface, memory: &Memory, (kind, x, y): (u8, f64, f64)) -> Se
     }
 }
 
-/// The memory after a history; what outgrows a row is passed over.
+/// Memory after a history; moves that exceed a row are skipped.
 fn remembered(law: &Interface, mut memory: Memory, throws: &Throws) -> Memory {
     for throw in throws {
         let segment = segment(law, &memory, *throw);
@@ -75,7 +75,7 @@ fn written(memory: &Memory) -> Vec<u64> {
     words
 }
 
-/// Asks a memory everything and moves it on, through merges of its stack.
+/// Calls all methods of a memory and moves it, with merges of its stack.
 fn use_it(law: &Interface, mut memory: Memory) {
     let d = memory.apex().d.clamp(-SCALE, SCALE);
     memory.shift(1e-9);
@@ -112,7 +112,7 @@ proptest! {
             let read = Memory::read(&law, &engine, &mut reader).unwrap();
             prop_assert!(read == memory && reader.left() == 1);
             prop_assert_eq!(&written(&read)[..], &words[..words.len() - 1]);
-            // And goes the same ways, to the last bit.
+            // The restored memory gives identical results for further moves.
             let (there, here) = (remembered(&law, read, &more), remembered(&law, memory, &more));
             prop_assert_eq!(written(&there), written(&here));
         }

@@ -1,32 +1,31 @@
-//! What a contact exerts along the slide under its law.
+//! Tangential force of a contact under its present law.
 //!
-//! Elastic and friction force by the mode's law, viscous resistance of the springs that stick, and the rates
-//! of what a growing contact carries as states. All of one contact; whoever adds them up multiplies by the
-//! count. Nothing is remembered: the memory is read as committed last.
+//! Contains elastic and friction force, viscous force of sticking springs, and the slopes of the states of a growing contact. All
+//! values are for one contact; the caller multiplies by the count. The memory is read only.
 
 use super::{Contact, Mode, Motion, Press};
 use stickslip_contact::{Apex, Branch, Dragged, Memory, Move};
 
-/// How far ahead the whole law is asked which springs stick, in radians of the contact's own swing.
-// With 1e-8 or 1e-4 a damped flat punch under a falling load ends at the same place to the error of its steps.
+/// Time ahead at which the full force law determines the sticking springs, in radians of the contact's natural oscillation.
 const AHEAD: f64 = 1e-6;
 
-/// Slopes of the states of a contact that grows, and of the integrals beside them.
+/// Slopes of the states and integrals of a growing contact.
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct GrowthRates {
     /// Ḟ = G\*m(d)u̇ in full stick, N/s.
     pub(crate) force: f64,
     /// Ė = Fu̇ in full stick, W.
     pub(crate) elastic: f64,
-    /// Friction power where an edge drags, W.
+    /// Friction power at a slipping edge, W.
     pub(crate) friction: f64,
 }
 
 impl Contact {
-    /// F_x of one contact, N, under its law; `grown` is what a contact that grows in full stick carries as a state.
+    /// Returns F_x of one contact under its law, N. `grown` returns the force of a contact that grows in full stick, which is a
+    /// state.
     ///
-    /// A branch is asked beyond the height that it covers only where it cuts through a path of growth; the
-    /// memory then answers, so that the law goes on smoothly to the event that ends the step.
+    /// A branch does not cover motions that cross the path of growth. The memory computes the force there, so that the law is
+    /// smooth up to the event that ends the step.
     #[inline(always)]
     pub(crate) fn force(
         &self,
@@ -39,14 +38,14 @@ impl Contact {
                 self.dragged(memory, branch, motion).force
             }
             Mode::Slip(branch) => {
-                // At a constant indentation M(d) is known since the model was built.
+                // At constant indentation M(d) is precomputed.
                 let reduced_force = match &self.press {
                     Press::Constant { reduced_force, .. } => *reduced_force,
                     _ => self.interface.reduced_force(motion.d),
                 };
                 branch.force(&self.interface, motion.d, motion.u, reduced_force)
             }
-            // Without friction the memory need not be asked.
+            // Without friction the force is zero.
             Mode::Whole { .. } if self.inert => 0.0,
             Mode::Whole { .. } => self.whole(memory, motion),
             Mode::Lull { lull, .. } => lull.force(&self.interface, motion.apex()),
@@ -55,10 +54,10 @@ impl Contact {
         }
     }
 
-    /// F_x of one contact, N, with ∂F_x/∂u and ∂F_x/∂d, N/m, under its law, for whoever solves for u.
+    /// Returns F_x of one contact under its law, N, with ∂F_x/∂u and ∂F_x/∂d, N/m, to solve for u.
     ///
-    /// Beyond gross slip a branch goes on with the stiffness of full stick, so that every force has its place and the moment
-    /// at which the contact gives way is found as any event is. `grown` as in [`Self::force`].
+    /// Beyond gross slip a branch continues with the stiffness of full stick. Every force then has a displacement, and the
+    /// beginning of gross slip is an ordinary event. `grown` as in [`Self::force`].
     pub(crate) fn tangents(
         &self,
         (memory, mode): (&Memory, &Mode),
@@ -93,15 +92,15 @@ impl Contact {
             }
             Mode::Lull { lull, .. } => {
                 let force = |d: f64| lull.force(law, Apex { d, u });
-                // Straight in d: any difference is its slope.
+                // Linear in d: any difference gives the slope.
                 let step = self.natural.depth;
                 [force(d), lull.stiffness(law), (force(d + step) - force(d)) / step]
             }
         }
     }
 
-    /// F_N of one contact, N, and ∂F_N/∂d, N/m, under its law; that of a pressed contact goes on straight, as a pull, beyond
-    /// the moment at which it parts.
+    /// Returns F_N of one contact under its law, N, and ∂F_N/∂d, N/m. Beyond lift-off the law of a pressed contact continues
+    /// linearly as a tensile force until the event.
     pub(crate) fn press(&self, mode: &Mode, d: f64) -> [f64; 2] {
         let modulus = self.interface.normal_modulus();
         match mode {
@@ -109,7 +108,7 @@ impl Contact {
                 let reduced = lull.reduced_force(d);
                 [modulus * reduced, modulus / lull.depth(reduced).1]
             }
-            // What is apart pulls at nothing, and presses from where it touches: another holds the body until then.
+            // An open contact exerts no force until it touches; another contact holds the body.
             Mode::Open | Mode::Whole { .. } if d <= 0.0 => [0.0; 2],
             _ if d > 0.0 => [self.interface.normal_force(d), self.interface.normal_stiffness(d)],
             _ => {
@@ -119,7 +118,7 @@ impl Contact {
         }
     }
 
-    /// d at which one contact presses with a force (N), the inverse of [`Self::press`], m.
+    /// Returns the indentation of one contact under a normal force (N), m: the inverse of [`Self::press`].
     pub(crate) fn depth(&self, mode: &Mode, force: f64) -> f64 {
         match mode {
             Mode::Lull { lull, .. } => lull.depth(force / self.interface.normal_modulus()).0,
@@ -128,22 +127,20 @@ impl Contact {
         }
     }
 
-    /// Force by the whole law on the committed memory.
+    /// Returns the force by the full force law on the committed memory, N.
     #[inline(never)]
     fn whole(&self, memory: &Memory, motion: &Motion) -> f64 {
         memory.force(&self.interface, motion.apex())
     }
 
-    /// Force and slip front where the edge cuts through a path of growth, found on the committed memory.
+    /// Returns force and slip front where the edge crosses a path of growth, from the committed memory.
     #[inline(never)]
     fn dragged(&self, memory: &Memory, branch: &Branch, motion: &Motion) -> Dragged {
         let branching = memory.branching();
         branching.map(|it| it.dragged(&self.interface, branch.sense(), motion.apex())).unwrap_or_default()
     }
 
-    /// Height of the slip front, m.
-    ///
-    /// Springs of heights below it stick, those above slip.
+    /// Returns the height of the slip front, m. Springs of smaller height stick, others slip.
     pub(crate) fn front(&self, memory: &Memory, branch: &Branch, motion: &Motion) -> f64 {
         if branch.covers(motion.d, motion.u) {
             branch.front(motion.d, motion.u)
@@ -152,46 +149,45 @@ impl Contact {
         }
     }
 
-    /// What the springs that stick oppose to u̇, N s/m.
+    /// Returns the viscosity of the sticking springs, N s/m.
     ///
-    /// β times the stiffness of the springs that stick: G\*m(d) in full stick, G\*m(h) below a slip front at
-    /// height h, nothing in gross slip or apart. β is the contact's damping time, s.
+    /// It is β times their stiffness: G\*m(d) in full stick, G\*m(h) below a slip front at height h, and 0 in gross slip or
+    /// without contact. β is the damping time of the contact, s.
     pub(crate) fn viscosity(&self, (memory, mode): (&Memory, &Mode), motion: &Motion) -> f64 {
         let stuck = match mode {
             Mode::Open => 0.0,
             Mode::Grow => self.interface.stick_stiffness(motion.d),
-            // All springs slip: none is left to resist.
+            // All springs slip: no damping.
             Mode::Slip(branch) if branch.is_gross() => 0.0,
-            // Above d, too, where a shrinking apex has crossed the old curve, and below the centre: a step that oversteps an event
-            // meets no kink. That of a flat punch would be a jump.
+            // The front may lie above d where a shrinking contact has crossed the old curve, or below the centre. Limiting it
+            // avoids a kink in a step that oversteps an event.
             Mode::Slip(branch) => {
                 self.interface.stick_stiffness(self.front(memory, branch, motion).max(Branch::CENTRE))
             }
             Mode::Lull { lull, .. } => lull.stiffness(&self.interface),
-            // The whole law knows only from a trial which springs stick, and a trial that goes nowhere slips nowhere: at the
-            // start of a step a sliding contact would resist with all its springs.
+            // The full force law determines sticking springs by a trial displacement; at the start of a step a trial of zero
+            // length would find all of them sticking.
             Mode::Whole { .. } => {
                 let ahead = |times: f64| {
                     let ahead = times * AHEAD / self.natural.frequency;
                     let to = Apex { d: motion.d + ahead * motion.dd, u: motion.u + ahead * motion.du };
                     memory.trial(&self.interface, Move::Chord(to)).stiffness
                 };
-                // What has begun to slip on that way is none of this moment: forces of fixed steps were 1e-8 of βω off by it.
+                // Extrapolation to zero time removes the springs that begin to slip within the trial.
                 2.0 * ahead(1.0) - ahead(2.0)
             }
         };
         self.interface.viscosity(stuck)
     }
 
-    /// Friction work of a chord, J, besides what [`Self::growth_rates`] add up to, where it gives up a path of growth.
+    /// Returns the friction work of a chord that [`Self::growth_rates`] do not contain, J, where it leaves a path of growth.
     pub(crate) fn beside_growth(&self, memory: &Memory, to: Apex) -> f64 {
         memory.branching().map_or(0.0, |branching| branching.beside_growth(&self.interface, to))
     }
 
-    /// Slopes of what a growing contact carries beside its motion.
+    /// Returns the slopes of the states of a growing contact.
     ///
-    /// In full stick G\*m(d)u̇ and F_x u̇, without friction; along a branch only the friction power, by the
-    /// position of its front; nothing otherwise.
+    /// In full stick they are G\*m(d)u̇ and F_x u̇, without friction. Along a branch only the friction power is nonzero.
     #[inline(never)]
     pub(crate) fn growth_rates(
         &self,

@@ -1,30 +1,29 @@
-//! What a contact is doing.
+//! Laws (modes) of a contact.
 //!
-//! A mode is a law and not a state of slip: at constant indentation partial slip and gross slip are both a
-//! branch. It is set at events alone, from the committed memory, and stays smooth beyond the event that ends
-//! it.
+//! A mode is a smooth law, not a state of slip: under constant indentation partial slip and gross slip are the same branch. It
+//! changes at events only, follows from the committed memory, and stays smooth beyond the event that ends it.
 
 use super::{Contact, Guard, Motion, Press};
 use stickslip_contact::{Branch, Change, Course, Lull, Memory, Slack, SpringRow};
 
-/// What a contact is doing, set at the last event: the smooth law that is integrated until the next one.
+/// Law of a contact between two events.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Mode {
     /// No contact.
     Open,
-    /// Grows in full stick; its force is a state.
+    /// Growth in full stick; the force is a state.
     Grow,
-    /// Slip spreads along one branch of the curve.
+    /// Slip that spreads along one branch of the memory curve.
     Slip(Branch),
-    /// A row of springs until the next of them touches, parts, slips or sticks.
+    /// Linear law of a row of springs until the next spring touches, separates, slips or sticks.
     Lull {
-        /// Its law.
+        /// Coefficients of the law.
         lull: Lull,
         /// Sense of sliding.
         sense: f64,
     },
-    /// The whole law from the committed memory, kinks and all, in one sense of sliding: a stepper without events, or a
-    /// contact without friction.
+    /// Full force law of the committed memory with its kinks, in one sense of sliding. Used without event location, and without
+    /// friction.
     Whole {
         /// Sense of sliding.
         sense: f64,
@@ -32,7 +31,7 @@ pub(crate) enum Mode {
 }
 
 impl Mode {
-    /// +1 forward, -1 backward, 0 otherwise.
+    /// Returns +1 for forward, -1 for backward sliding, 0 otherwise.
     pub(crate) fn sense(&self) -> f64 {
         match self {
             Self::Open | Self::Grow => 0.0,
@@ -41,7 +40,7 @@ impl Mode {
         }
     }
 
-    /// Counts displacements from another origin, `by` (m) further back: a law lies where the memory that it was made of does.
+    /// Shifts the origin of displacements back by `by` (m).
     pub(crate) fn shift(&mut self, by: f64) {
         match self {
             Self::Slip(branch) => branch.shift(by),
@@ -55,7 +54,7 @@ impl Mode {
         matches!(self, Self::Slip(branch) if branch.is_gross())
     }
 
-    /// Whether a contact in this mode holds nothing more: apart, or all springs slip.
+    /// Whether the contact has no tangential stiffness left: open, or in gross slip.
     pub(crate) fn has_given_way(&self, contact: &Contact) -> bool {
         match self {
             Self::Open => true,
@@ -65,14 +64,14 @@ impl Mode {
         }
     }
 
-    /// Whether a contact in this mode has springs that stick.
+    /// Whether some springs stick.
     pub(crate) fn holds(&self) -> bool {
         !self.is_gross() && *self != Self::Open
     }
 
-    /// The mode of a course from the committed memory. `slack` as in [`stickslip_contact::Curve::branch`].
+    /// Returns the law for a motion ("course") of the contact, from the committed memory.
     ///
-    /// `slack`, m: a piece of memory of which no more is left counts as used up.
+    /// `slack` (m): a piece of memory with less left counts as used up; see [`stickslip_contact::Curve::branch`].
     pub(crate) fn of(
         contact: &Contact,
         memory: &Memory,
@@ -81,15 +80,15 @@ impl Mode {
         tolerance: f64,
     ) -> Self {
         match (memory.branching(), course) {
-            // Nothing to press and nothing to hold: it is as good as apart for ever.
+            // Without load and tangential force it counts as open.
             _ if contact.inert && contact.coupling().is_none() => Self::Open,
-            // Whatever is remembered: apart, springs are unstretched.
+            // The springs of an open contact are unstretched.
             (_, Course::Open) => Self::Open,
-            // A row of springs has no branches, but lulls.
+            // A row of springs has linear laws instead of branches.
             (None, course) => {
                 Self::Whole { sense: course.sense() }.lull(contact, memory, (at, Change::Any, 0.0), tolerance)
             }
-            // Without friction there is nothing to remember, but the bodies still press on each other.
+            // Without friction there is no memory, but the bodies still press.
             _ if contact.inert => Self::Whole { sense: 0.0 },
             (Some(_), Course::Grow) => Self::Grow,
             (Some(branching), Course::Forward | Course::Backward) => {
@@ -98,9 +97,8 @@ impl Mode {
         }
     }
 
-    /// The mode of a row that moves as `at` by this mode, after a change of its springs. Where rounding, of time or of a
-    /// displacement that has travelled far, has stopped short of the change, what is `left` (m) counts as gone.
-    // Without `left` a foot on two rows that slides at 20 mm/s finds 3e-19 m left, in less than the last place of t, for ever.
+    /// Returns the law of a row with the motion `at` after a change of its springs. Rounding may stop the motion short of the
+    /// change; a distance `left` (m) then counts as covered.
     pub(crate) fn lull(
         &self,
         contact: &Contact,

@@ -1,11 +1,10 @@
-//! Places of coordinates without mass, solved for where they are asked for.
+//! Positions of balanced (massless) coordinates, from the balance of forces.
 //!
-//! k q + Σ a F(a q + rest) = P: where one contact alone holds, its branch is inverted in closed form; otherwise Newton's
-//! steps between bounds go on to rounding. Every F goes on beyond the event that will end its law, and rises with q, so there
-//! is one place for every pull, and guards find events by it as they do by any other motion. Rates follow from the same
-//! balance, differentiated: q̇ vanishes where the pull's rate does.
+//! k q + Σ a F(a q + rest) = P. The branch of a single contact is inverted in closed form; otherwise bracketed Newton iterations
+//! reach rounding. Every F continues beyond the event that ends its law and increases with q, so the position is unique. Rates
+//! follow from the differentiated balance.
 //!
-//! Along x the depths of the contacts are known first: normal forces do not depend on x.
+//! Along x the depths of the contacts are known, because normal forces do not depend on x.
 
 mod books;
 
@@ -15,35 +14,34 @@ use crate::contact::{Contact, Mode, Motion};
 use crate::model::{Balanced, Link, Pull};
 use crate::scene::Axis;
 
-/// Newton's steps, and halvings of the bounds, of one place.
+/// Largest number of iterations for one position.
 const STEPS: u32 = 200;
-/// Steps after which bounds are halved: a row of springs has kinks, between which Newton's steps may go to and fro.
+/// Iterations after which bisection replaces Newton's method, which may cycle between the kinks of a row of springs.
 const NEWTON: u32 = 40;
-/// Farthest that bounds are looked for, in natural lengths: beyond it nothing holds.
-// A gap of a metre between contacts pressed by a nanometre is 1e9 of them.
+/// Largest search distance, in natural lengths; beyond it nothing holds.
 const FARTHEST: f64 = 1e15;
 
-/// Part of what is left to the end of a law over which rates are compared, and least of the time.
+/// Time step of numerical differentiation: fraction of the time to the end of a law, and relative minimum.
 const NEAR: f64 = 1e-3;
 const NOISE: f64 = 1e-13;
 
-/// A moment, read in one way by all that is asked of a balance.
-// A type of its own: asked of whatever view each asks of another, the compiler would never see the end of them.
+/// A moment with type-erased access to components.
+// A fixed type limits the recursion of generic instances.
 pub(crate) type Instant<'a> = Components<&'a dyn Fn(usize) -> f64>;
 
-/// What a contact adds to the balance of a coordinate.
+/// Contribution of a contact to the balance of a coordinate.
 #[derive(Clone, Copy)]
 struct Share {
-    /// Force along the coordinate, N, of all identical contacts.
+    /// Force along the coordinate of all identical contacts, N.
     force: f64,
-    /// Its derivative by the coordinate, N/m.
+    /// Derivative of the force by the coordinate, N/m.
     stiffness: f64,
-    /// Its rate at a resting coordinate, N/s.
+    /// Rate of the force at constant coordinate, N/s.
     drift: f64,
 }
 
 impl Equations<'_> {
-    /// The place of balanced coordinate `b`, m, and its derivatives.
+    /// Returns the position of balanced coordinate `b`, m, and its derivatives.
     #[inline(never)]
     pub(super) fn balanced(&self, b: usize, at: &impl View) -> Sample {
         let read = |i: usize| at.component(i);
@@ -71,8 +69,8 @@ impl Equations<'_> {
         Sample { value, rate: finite(rate), acceleration: finite(acceleration) }
     }
 
-    /// How far ahead and back its rate is compared for q̈, s: so short that no contact comes much nearer to gross slip, or to
-    /// its end, where rates grow without bound.
+    /// Returns the time step for the numerical derivative q̈, s. It is small compared with the time to gross slip or to the end
+    /// of the contact, where rates diverge.
     fn moment(&self, balanced: &Balanced, (place, rate): (f64, f64), at: &Instant<'_>) -> f64 {
         let left = |(c, a): &(usize, f64)| {
             let along = a * place + self.rest(*c, balanced.axis, at).0;
@@ -90,7 +88,7 @@ impl Equations<'_> {
         self.model.moment.min((NEAR * left / rate.abs()).max(rounding))
     }
 
-    /// The balanced coordinate's place, m.
+    /// Returns the position of balanced coordinate `b`, m.
     pub(crate) fn place_of(&self, b: usize, at: &Instant<'_>) -> f64 {
         let balanced = &self.model.balanced[b];
         if let Some(slot) = balanced.slot.filter(|_| self.carries(balanced)) {
@@ -105,19 +103,19 @@ impl Equations<'_> {
         self.solve(balanced, pull, at)
     }
 
-    /// Whether the place of a coordinate is a state of the run: while a contact grows in full stick its force is one, and
-    /// says nothing of u.
+    /// Whether the position of a coordinate is a state of the run. This is the case while a contact grows in full stick: its
+    /// force is a state and does not depend on u.
     pub(crate) fn carries(&self, balanced: &Balanced) -> bool {
         let grows = |(c, _): &(usize, f64)| self.grows(*c);
         self.layout.growing > 0 && balanced.contacts.iter().any(grows)
     }
 
-    /// Whether the force of contact `c` is a state now.
+    /// Whether the force of contact `c` is a state at present.
     fn grows(&self, c: usize) -> bool {
         self.modes[c] == Mode::Grow && self.model.contacts[c].slot.is_some()
     }
 
-    /// The place at which a single contact holds a pull, in closed form; none where its law has no inverse.
+    /// Returns the position at which a single contact balances a load, in closed form. None if its law has no inverse.
     fn invert(&self, (c, a): (usize, f64), axis: Axis, pull: f64, at: &Instant<'_>) -> Option<f64> {
         let contact = &self.model.contacts[c];
         let force = pull / (a * contact.count);
@@ -129,11 +127,11 @@ impl Equations<'_> {
         let (d, _) = self.depth_of(contact, at);
         let law = &contact.interface;
         let u = branch.displacement(law, d, force, law.reduced_force(d))?;
-        // Where the edge cuts through a path of growth only the memory knows the force.
+        // Where the edge crosses a path of growth, only the memory has the force.
         branch.covers(d, u).then_some(a * (u - rest))
     }
 
-    /// The root of the balance between bounds.
+    /// Returns the position at which the forces balance, m, by bracketed Newton iterations.
     fn solve(&self, balanced: &Balanced, pull: f64, at: &Instant<'_>) -> f64 {
         let (c, a) = balanced.contacts[0];
         let contact = &self.model.contacts[c];
@@ -147,7 +145,7 @@ impl Equations<'_> {
         let mut reach = scale;
         for step in 0..STEPS {
             let [excess, stiffness] = self.excess(balanced, pull, place, at);
-            // Where all slips and nothing holds any place is as good: it stays where it is.
+            // Without any stiffness every position is equivalent: keep it.
             if excess == 0.0 || step == 0 && stiffness == 0.0 {
                 break;
             }
@@ -178,7 +176,7 @@ impl Equations<'_> {
         place
     }
 
-    /// What a place is off balance by, N, and the stiffness there, N/m.
+    /// Returns the imbalance of a position, N, and the stiffness there, N/m.
     fn excess(&self, balanced: &Balanced, pull: f64, place: f64, at: &Instant<'_>) -> [f64; 2] {
         let mut sum = [balanced.stiffness * place - pull, balanced.stiffness];
         for contact in &balanced.contacts {
@@ -188,7 +186,7 @@ impl Equations<'_> {
         sum
     }
 
-    /// q̇ = (Ṗ - Σ drift)/(k + Σ stiffness) at a place.
+    /// Returns q̇ = (Ṗ - Σ drift)/(k + Σ stiffness) at a position.
     fn rate_of(&self, b: usize, at: &Instant<'_>, place: f64) -> f64 {
         let balanced = &self.model.balanced[b];
         let mut pull = self.pull(&balanced.pull, at).rate;
@@ -201,7 +199,7 @@ impl Equations<'_> {
         pull / stiffness
     }
 
-    /// What a contact adds to the balance of a coordinate at a place.
+    /// Returns the contribution of a contact to the balance of a coordinate at a position.
     fn share(&self, (c, a): (usize, f64), axis: Axis, at: &Instant<'_>, place: f64) -> Share {
         let contact = &self.model.contacts[c];
         let (rest, drift) = self.rest(c, axis, at);
@@ -224,7 +222,7 @@ impl Equations<'_> {
         }
     }
 
-    /// What the u (along x) or d (along z) of a contact is without balanced coordinates of that axis, and its rate.
+    /// Returns u (axis x) or d (axis z) of a contact without balanced coordinates of that axis, and its rate.
     fn rest(&self, c: usize, axis: Axis, at: &Instant<'_>) -> (f64, f64) {
         let contact = &self.model.contacts[c];
         let measure = match (axis, contact.coupling()) {
@@ -241,12 +239,12 @@ impl Equations<'_> {
         (measure.constant + value, rate)
     }
 
-    /// u of a contact without balanced coordinates, m.
+    /// Returns u of a contact without balanced coordinates, m.
     pub(crate) fn rest_along(&self, c: usize, at: &Instant<'_>) -> f64 {
         self.rest(c, Axis::X, at).0
     }
 
-    /// d and ḋ of a contact.
+    /// Returns d (m) and ḋ (m/s) of a contact.
     fn depth_of(&self, contact: &Contact, at: &Instant<'_>) -> (f64, f64) {
         match contact.coupling() {
             Some(measure) => {
@@ -257,7 +255,7 @@ impl Equations<'_> {
         }
     }
 
-    /// A sum of loads and ends of springs.
+    /// Returns the sum of loads and link forces on a balanced coordinate, N.
     fn pull(&self, pull: &Pull, at: &Instant<'_>) -> Sample {
         let mut sum = Sample { value: pull.force, rate: 0.0, acceleration: 0.0 };
         let mut add = |sample: Sample, a: f64| {
@@ -272,7 +270,7 @@ impl Equations<'_> {
         sum
     }
 
-    /// Force of a link whose balanced ends rest at 0, N.
+    /// Returns the force of a link with its balanced ends at 0, N.
     fn end_of(&self, link: &Link, at: &Instant<'_>) -> Sample {
         let mut force = self.stroke(link, at);
         force.value -= link.elongation.constant;

@@ -1,13 +1,8 @@
-//! What blocks read and make.
+//! Inputs and outputs of blocks.
 //!
-//! A signal is asked for where it is read: a waveform by its piece, a block by its inputs and states at that moment. Blocks
-//! have states, so their scenes are stepped by the method that knows states; a scene without blocks comes here for one
-//! comparison per signal.
-//!
-//! A block reads waveforms, lengths and other blocks' signals, has states in y, and makes one signal that
-//! bodies and strokes may follow, and efforts along the lengths it reads. All of it is worked out anew
-//! whenever it is asked for: an evaluation keeps nothing, and inputs and states of a block lie on the stack,
-//! at most [`MOST_OF_A_BLOCK`] of each.
+//! A block reads waveforms, lengths and signals of other blocks. It has states in y, one output signal, and efforts along the
+//! lengths. Everything is computed on request; inputs and states of a block are on the stack, at most [`MOST_OF_A_BLOCK`] of
+//! each. Models with blocks are integrated by methods that evaluate all states.
 
 use super::sum::{Sum, View};
 use super::{Components, Equations};
@@ -17,19 +12,19 @@ use crate::state::State;
 use crate::{EventKind, Sample};
 use arrayvec::ArrayVec;
 
-/// What a block reads.
+/// Samples of the inputs of a block.
 pub(crate) type Inputs = ArrayVec<Sample, MOST_OF_A_BLOCK>;
 
 impl Equations<'_> {
-    /// A signal: a waveform, what a block makes, or a balanced coordinate; `y` reads a component.
+    /// Returns a signal: a waveform, the output of a block, or a balanced coordinate.
     #[inline(always)]
     pub(crate) fn signal(&self, signal: usize, at: &impl View) -> Sample {
         if signal < self.pieces.len() { self.sample(signal, at.time()) } else { self.made(signal, at) }
     }
 
-    /// What a block makes, or the place of a balanced coordinate.
+    /// Returns the output of a block, or the position of a balanced coordinate.
     ///
-    /// Blocks read only signals before their own, as the scene's check has seen to: the recursion ends.
+    /// Blocks read only signals with a smaller index, as the model check ensures, so the recursion ends.
     #[inline(never)]
     fn made(&self, signal: usize, at: &impl View) -> Sample {
         let made = signal - self.pieces.len();
@@ -39,7 +34,7 @@ impl Equations<'_> {
         }
     }
 
-    /// Asks block `k` something about a moment.
+    /// Calls `ask` with block `k`, its law, memory, inputs and states.
     pub(crate) fn ask_block<R>(
         &self,
         k: usize,
@@ -53,44 +48,44 @@ impl Equations<'_> {
         ask(wired.block(), self.blocks[k].standing(), &moment)
     }
 
-    /// What a block reads at a moment; the scene's check has seen to it that there is room.
+    /// Returns the inputs of a block. The model check limits their number.
     pub(crate) fn block_inputs(&self, wired: &Wired, at: &impl View) -> Inputs {
         let read = |wire: &Wire| match wire {
             Wire::Signal(signal) => self.signal(*signal, at),
             Wire::Length(measure) => {
                 let reading = self.read(measure, at);
-                // The acceleration of a length is what is being worked out: a block does not get it.
+                // The acceleration of a length depends on this evaluation and is not available.
                 Sample { value: reading.value, rate: reading.rate, acceleration: 0.0 }
             }
         };
         wired.wires.iter().map(read).collect()
     }
 
-    /// The states of block `k` at a moment.
+    /// Returns the states of block `k`.
     pub(crate) fn block_states(&self, k: usize, at: &impl View) -> ArrayVec<f64, MOST_OF_A_BLOCK> {
         let wired = &self.model.blocks[k];
         let from = self.layout.block(wired.first);
         (from..from + wired.count()).map(|i| at.component(i)).collect()
     }
 
-    /// Value of a guard of block `k` at time t, s; `y` reads a component.
+    /// Returns an event function of block `k` at time t (s); `y` returns a component of the state.
     pub(crate) fn block_guard(&self, k: usize, guard: usize, t: f64, y: impl Fn(usize) -> f64) -> f64 {
         self.ask_block(k, &Components { t, y }, |block, standing, at| block.guard(guard, standing, at))
     }
 
-    /// What follows when a guard of block `k` has fallen in a state.
+    /// Returns event and law after a zero crossing of an event function of block `k`.
     pub(crate) fn block_next(&self, k: usize, guard: usize, state: &State) -> (EventKind, usize) {
         let at = Components { t: state.t, y: |i: usize| state.y[i] };
         self.ask_block(k, &at, |block, standing, at| block.next(guard, standing, at))
     }
 
-    /// The law of block `k` where it is decided afresh.
+    /// Returns event and law of block `k` where its law is chosen anew.
     pub(crate) fn block_turn(&self, k: usize, state: &State) -> Option<(EventKind, usize)> {
         let at = Components { t: state.t, y: |i: usize| state.y[i] };
         self.ask_block(k, &at, |block, standing, at| block.turn(standing, at))
     }
 
-    /// Moves the states of block `k` along a jump of its inputs to what these are now.
+    /// Returns the states of block `k` after a jump of its inputs.
     pub(crate) fn block_jump(&self, k: usize, state: &State) -> ArrayVec<f64, MOST_OF_A_BLOCK> {
         let at = Components { t: state.t, y: |i: usize| state.y[i] };
         let mut states = self.block_states(k, &at);
@@ -98,7 +93,7 @@ impl Equations<'_> {
         states
     }
 
-    /// Energy that block `k` stores, J; its columns are added to the row.
+    /// Returns the stored energy of block `k`, J, and appends its columns to the row.
     pub(crate) fn block_columns(
         &self,
         k: usize,
@@ -112,10 +107,9 @@ impl Equations<'_> {
         })
     }
 
-    /// Slopes of the states of all blocks, and what they exert. `extra` begins after the velocities.
+    /// Adds slopes of the states and forces of all blocks. `extra` begins after the velocities.
     ///
-    /// Powers (W) go into the sum: what the block takes in, and what it loses. Efforts (N) act along lengths
-    /// only.
+    /// Supplied and dissipated power (W) are added to the sum. Efforts (N) act along lengths only.
     #[inline(never)]
     pub(super) fn blocks(&self, at: &impl View, sum: &mut Sum<'_>, extra: &mut [f64]) {
         for (k, wired) in self.model.blocks.iter().enumerate().filter(|(_, wired)| wired.acts()) {

@@ -1,9 +1,7 @@
 //! Forces of contacts and links.
 //!
-//! Contacts of closed form and all others go two ways: on nearly every evaluation of a drive a contact is a
-//! branch under constant load, and one closed form of u, F_x = F₀ + αM(h), spares it the rare cases. Kept
-//! apart, a run took a tenth fewer instructions. The forces of both are the same law, and so are their signs:
-//! F_x opposes u, and acts on the coordinates by -count·F_x along the row of u.
+//! Closed-form contacts, with F_x = F₀ + αM(h) under constant load, have a separate fast path. Both paths have the same law and
+//! sign: F_x opposes u, and the coordinates receive -count·F_x along u.
 
 use super::sum::{Sum, View};
 use super::{Equations, Sample};
@@ -11,10 +9,10 @@ use crate::contact::{Mode, Motion, Press};
 use crate::model::{Link, Stroke};
 
 impl Equations<'_> {
-    /// Forces of all contacts, and the slopes of their extra components.
+    /// Adds forces of all contacts and the slopes of their additional components.
     ///
-    /// Without an interval every contact goes by the general law. Contacts that are apart, and those never
-    /// pressed, are in neither list of an interval.
+    /// Without an interval every contact uses the general law. Open contacts and those never pressed are in neither list of an
+    /// interval.
     #[inline(always)]
     pub(super) fn contacts(&self, at: &impl View, sum: &mut Sum<'_>, extra: &mut [f64]) {
         let Some(interval) = self.interval else {
@@ -23,7 +21,7 @@ impl Equations<'_> {
         };
         for steady in &interval.closed {
             let followed = steady.followed(at.time());
-            // The slider's way and the followers' apart: the latter has a rate, which is the power put in.
+            // Free and prescribed displacements are separate: the rate of the prescribed ones gives the input power.
             let force = steady.force(steady.own(|i| at.component(i)) + followed.value);
             sum.apply(&steady.contact.u.free, followed.rate, force);
         }
@@ -32,10 +30,10 @@ impl Equations<'_> {
         }
     }
 
-    /// Any contact in any mode: its forces, and the slopes of its extra components.
+    /// Adds the forces of a contact under any law, and the slopes of its additional components.
     ///
-    /// Normal: -count·E\*M(d) along d, where the bodies press it. Tangential: -count·(F_x + βG\*m u̇) along
-    /// u, the second term of the springs that stick.
+    /// The normal force is -count·E\*M(d) along d, if bodies press the contact. The tangential force is -count·(F_x + βG\*m u̇)
+    /// along u; its second term is the damping of sticking springs.
     #[inline(never)]
     fn contact(&self, c: usize, at: &impl View, sum: &mut Sum<'_>, extra: &mut [f64]) {
         let contact = &self.model.contacts[c];
@@ -47,9 +45,9 @@ impl Equations<'_> {
                     Mode::Lull { lull, .. } => lull.reduced_force(d.value),
                     _ => contact.interface.reduced_force(d.value),
                 };
-                // Apart by its law, it is so beyond the touch that will end the step.
+                // An open contact exerts no force, even beyond the touch that ends the step.
                 if self.modes[c] != Mode::Open {
-                    // M(d) is asked for once, for normal force and branch alike.
+                    // M(d) serves both normal force and branch.
                     let press = contact.count * (contact.interface.normal_modulus() * reduced_force);
                     sum.apply(&measure.free, d.driven, -press);
                 }
@@ -61,12 +59,11 @@ impl Equations<'_> {
             }
         };
         let motion = Motion { d, u: u.value, dd, du: u.rate };
-        // Runs by chords carry no extra components, whatever slots the model has; on a straight path the memory has all.
+        // On a straight path the memory has all quantities; additional components are not used.
         let straight = contact.goes_straight(self.pieces);
         let slot = contact.slot.filter(|_| self.layout.growing > 0 && !straight);
         let mut force = match (&self.modes[c], slot) {
-            // Force and friction power of one slip front, found once; beyond what the branch covers the
-            // memory is asked.
+            // Force and friction power share one slip front; the memory computes them where the branch does not apply.
             (Mode::Slip(branch), Some(slot)) if branch.covers(d, u.value) => {
                 let [force, friction, _] = branch.drag(&contact.interface, &motion, reduced_force);
                 extra[self.layout.friction(slot) - 2 * self.layout.free] = friction;
@@ -84,16 +81,16 @@ impl Equations<'_> {
         };
         if contact.interface.damping() > 0.0 {
             let damping = contact.viscosity(self.law(c), &motion);
-            // A power of its own, not friction: it is lost where springs stick.
+            // Dissipated in sticking springs, separate from friction.
             sum.damping += contact.count * damping * motion.du * motion.du;
             force += damping * motion.du;
         }
         sum.apply(&contact.u.free, u.driven, -contact.count * force);
     }
 
-    /// Slopes of the extra components of a growing contact. `extra` begins after the velocities.
+    /// Writes the slopes of the additional components of a growing contact; `extra` begins after the velocities.
     ///
-    /// Ḟ in N/s, elastic and friction power in W, each of one contact.
+    /// They are Ḟ in N/s, elastic and friction power in W, each of one contact.
     fn grow(&self, (c, slot): (usize, usize), motion: &Motion, force: f64, extra: &mut [f64]) {
         let rates = self.model.contacts[c].growth_rates(self.law(c), motion, force);
         let from = 2 * self.layout.free;
@@ -102,11 +99,10 @@ impl Equations<'_> {
         extra[self.layout.friction(slot) - from] = rates.friction;
     }
 
-    /// Springs, dampers and actuators: k(s - e) + c(ṡ - ė) + preload along the elongation e, with the free
+    /// Adds the forces of springs, dampers and actuators: k(s - e) + c(ṡ - ė) + preload along the elongation e, with the free
     /// stroke s.
     ///
-    /// The stroke puts in (k(s - e) + c(ṡ - ė))ṡ; the preload's work is read off the length, as potential
-    /// energy.
+    /// The input power of the stroke is (k(s - e) + c(ṡ - ė))ṡ. The work of the preload is a potential energy.
     #[inline(never)]
     pub(super) fn links(&self, at: &impl View, sum: &mut Sum<'_>) {
         for link in &self.model.links {
@@ -120,7 +116,7 @@ impl Equations<'_> {
         }
     }
 
-    /// Free stroke of a link.
+    /// Returns the free stroke of a link, m.
     pub(crate) fn stroke(&self, link: &Link, at: &impl View) -> Sample {
         match link.stroke {
             Stroke::Constant(value) => Sample { value, rate: 0.0, acceleration: 0.0 },

@@ -1,27 +1,26 @@
-//! What an evaluation reads and what it adds up.
+//! Access to the state during an evaluation, and sums of forces.
 //!
-//! A [`View`] is how an evaluation reads a moment, with velocities or without; compiled for each, so that
-//! Nyström's method pays for no rate. A [`Sum`] is where forces meet: by the row of a measure's Jacobian, so
-//! that forces along u, d or an elongation need no cases.
+//! A [`View`] reads time and components, with or without velocities; code is compiled for each. A [`Sum`] collects forces and
+//! powers by the Jacobian of a measure.
 
 use crate::Model;
 use crate::model::Terms;
 
-/// Where an evaluation finds the moment it is asked about.
+/// Access to time and state for an evaluation.
 pub(crate) trait View {
-    /// Whether velocities of free coordinates are known; otherwise rates are those of followers alone.
+    /// Whether velocities of free coordinates are known. Otherwise rates contain prescribed motions only.
     const MOVES: bool;
-    /// Time, s.
+    /// Returns the time, s.
     fn time(&self) -> f64;
-    /// Component `i` of the state.
+    /// Returns component `i` of the state.
     fn component(&self, i: usize) -> f64;
 }
 
-/// All components of the state.
+/// View of all components of the state.
 pub(crate) struct Components<Y> {
-    /// s.
+    /// Time, s.
     pub(crate) t: f64,
-    /// Reads a component by its place.
+    /// Function that returns a component by index.
     pub(crate) y: Y,
 }
 
@@ -37,7 +36,7 @@ impl<Y: Fn(usize) -> f64> View for Components<Y> {
     }
 }
 
-/// Positions alone.
+/// View of positions only.
 pub(super) struct Positions<'a> {
     pub(super) t: f64,
     pub(super) x: &'a [f64],
@@ -55,29 +54,29 @@ impl View for Positions<'_> {
     }
 }
 
-/// A measure at one moment.
+/// Value of a measure at one time.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Reading {
-    /// m.
+    /// Value, m.
     pub(crate) value: f64,
-    /// m/s.
+    /// Rate, m/s.
     pub(crate) rate: f64,
-    /// The part of the rate that followers make, m/s.
+    /// Part of the rate from prescribed motions, m/s.
     pub(crate) driven: f64,
 }
 
-/// Forces on the free coordinates, and powers, as they add up.
+/// Sums of forces on the free coordinates and of powers.
 pub(super) struct Sum<'a> {
-    /// On each free coordinate, N or N m; in the end its acceleration.
+    /// Forces on free coordinates, N or N m; accelerations after [`Sum::accelerate`].
     pub(super) dv: &'a mut [f64],
-    /// Power that followers and loads put in, W.
+    /// Power of prescribed motions and loads, W.
     pub(super) input: f64,
-    /// Power that dampers take, W.
+    /// Power of dampers, W.
     pub(super) damping: f64,
 }
 
 impl<'a> Sum<'a> {
-    /// Begins with gravity and constant loads, whose work is read off the positions and is no power here.
+    /// Begins with gravity and constant loads; their work is a potential energy and not part of the powers.
     #[inline(always)]
     pub(super) fn new(model: &Model, dv: &'a mut [f64]) -> Self {
         for (dv, free) in dv.iter_mut().zip(&model.free) {
@@ -86,9 +85,7 @@ impl<'a> Sum<'a> {
         Self { dv, input: 0.0, damping: 0.0 }
     }
 
-    /// From forces to accelerations; gives the powers.
-    ///
-    /// Input and damping, W.
+    /// Converts forces to accelerations. Returns input and damping power, W.
     #[inline(always)]
     pub(super) fn accelerate(self, model: &Model) -> (f64, f64) {
         for (dv, free) in self.dv.iter_mut().zip(&model.free) {
@@ -97,9 +94,10 @@ impl<'a> Sum<'a> {
         (self.input, self.damping)
     }
 
-    /// Adds a force along a measure. What drives its followers supplies the opposite force: its power is input.
+    /// Adds a force along a measure. The source of the prescribed motion provides the opposite force, so the input power is
+    /// -force·driven.
     ///
-    /// `driven` is the part of the measure's rate that followers make, m/s: the input is -force·driven.
+    /// `driven` is the part of the measure's rate from prescribed motions, m/s.
     #[inline(always)]
     pub(super) fn apply(&mut self, free: &Terms, driven: f64, force: f64) {
         for &(i, a) in free {

@@ -1,4 +1,4 @@
-//! The search for a balance of forces.
+//! Newton search for a balance of forces.
 
 use super::statics::Statics;
 use super::{Settling, elimination};
@@ -8,76 +8,70 @@ use nalgebra::DVector;
 use std::collections::VecDeque;
 use std::rc::Rc;
 
-/// Most iterations.
-// Bounds the search where there is no equilibrium: no start differs with 40.
+/// Largest number of iterations.
 const ITERATIONS: u32 = 400;
-/// Most iterations without progress: the rest is rounding.
-// Half of it moves one example by rounding; with 1 a climber and rows begin otherwise, by less than another path of steps makes of it.
+/// Largest number of iterations without progress; further changes are rounding.
 const PATIENCE: u32 = 8;
-/// Pseudo-time from which on an iteration is Newton's but for the rounding of its step, and with which a search begins beside a balance.
-// Begun with much more, a body that the next part of the loads sets free is gone at once.
+/// Pseudo-time above which an iteration is a Newton step; initial value near a known equilibrium.
 pub(super) const NEWTON: f64 = 1e4;
-/// Most halvings of a step that goes too far.
+/// Largest number of halvings of a step.
 const HALVINGS: u32 = 40;
-/// Largest imbalance of an equilibrium, in units of what acts on a coordinate.
-// Decides only whether there is one: Newton's method goes on to rounding, and no start differs at 1e-8 or 1e-10.
+/// Largest imbalance of an equilibrium, relative to the acting forces.
 const BALANCED: f64 = 1e-9;
-/// Forces that are added up on a coordinate, about.
+/// Typical number of forces on a coordinate, for their rounding.
 const ROUNDED: f64 = 4.0;
-/// A step this long finds nothing that holds a body any more, m or rad.
-// With 1e12 natural lengths instead a body that nothing holds finds a rest far away.
+/// Step length that means that nothing holds the body, m or rad.
 const LOST: f64 = 1e3;
 
-/// Places that a search remembers. Where only rounding is left it comes to the same few over and over.
-// A stage on 1 000 contacts asks 11 000 times what is left at a place, of 1 370 places.
+/// Number of cached positions; near rounding the search revisits the same ones.
 const REMEMBERED: usize = 32;
 
-/// A place of the free coordinates, and what is left unbalanced there.
+/// Positions of the free coordinates and the imbalance there.
 #[derive(Debug)]
 pub(super) struct Balance {
     /// Components of the state.
     pub(super) y: Vec<f64>,
-    /// Forces that are left, N or N m.
+    /// Remaining forces, N or N m.
     pub(super) residual: DVector<f64>,
-    /// Whether that is nothing, at small angles.
+    /// Whether the forces are balanced at small angles.
     pub(super) holds: bool,
-    /// A coordinate beyond them, where that is nothing.
+    /// Pitch coordinate beyond small angles at which the forces are balanced.
     pub(super) turned: Option<usize>,
-    /// Largest of them in parts of what acts on the coordinate.
+    /// Largest imbalance relative to the acting forces.
     size: f64,
     statics: Statics,
 }
 
-/// What is to be balanced.
+/// Search for an equilibrium.
 pub(super) struct Search<'a> {
     settling: &'a Settling<'a>,
     state: &'a State,
-    /// Forces that are still to be put on, N or N m.
+    /// Loads not yet applied, N or N m.
     missing: &'a DVector<f64>,
-    /// Coordinates that stay where they are and ask for no balance.
+    /// Coordinates that are held and need no balance.
     held: &'a [bool],
-    /// Places looked at last, the next one to be forgotten first.
+    /// Cached positions, oldest first.
     seen: VecDeque<Rc<Balance>>,
-    /// How many places have been looked at.
+    /// Number of evaluated positions.
     looked: u32,
 }
 
 impl Balance {
-    /// Whether what is left on a coordinate is more than rounding.
+    /// Whether the imbalance of a coordinate exceeds rounding.
     pub(super) fn is_off(&self, i: usize) -> bool {
         self.residual[i].abs() > BALANCED * self.statics.acting[i]
     }
 
-    /// The coordinate, of those that are not held, that is farthest from balance, by what acts on it.
+    /// Returns the released coordinate with the largest relative imbalance.
     pub(super) fn farthest(&self, held: &[bool]) -> Option<usize> {
         let share = |i: usize| self.residual[i].abs() / self.statics.acting[i];
         let off = (0..self.residual.len()).filter(|i| !held[*i] && self.is_off(*i));
         off.max_by(|a, b| share(*a).total_cmp(&share(*b)))
     }
 
-    /// Whether part of a step from here comes to a place, to the last bit.
+    /// Whether a fraction of a step leads exactly to a position.
     fn leads_to(&self, place: &Self, (step, share): (&DVector<f64>, f64)) -> bool {
-        // Coordinates come first, the rest stays as it is.
+        // Coordinates come first; all other components stay.
         let moved = self.y.iter().zip(step).map(|(y, step)| y + share * step);
         moved.zip(&place.y).all(|(a, b)| a.to_bits() == b.to_bits())
     }
@@ -92,18 +86,16 @@ impl<'a> Search<'a> {
         Self { settling, state, missing, held, seen: VecDeque::with_capacity(REMEMBERED), looked: 0 }
     }
 
-    /// Looks for forces = missing from y on, by Newton's method with a pseudo-time: (K + D/τ)·Δq = forces - missing,
-    /// where D is the natural stiffness of each coordinate. A body that nothing holds falls along its load, faster and
-    /// faster, until something does, and the method becomes Newton's.
+    /// Solves forces = missing from y by Newton's method with a pseudo-time: (K + D/τ)·Δq = forces - missing. D is the natural
+    /// stiffness of each coordinate. For small τ a body moves along its load until it is held; for large τ the step is Newton's.
     ///
-    /// Where it ends is the best place if all balances there, or else the last. A search from a balance under nearly the same loads may
-    /// begin as [`NEWTON`] says.
+    /// Returns the best balance, or the last position if there is none. Near a known equilibrium the search may begin with τ =
+    /// [`NEWTON`].
     pub(super) fn from(mut self, y: &[f64], mut tau: f64) -> Rc<Balance> {
         let mut now = self.at(y.to_vec());
         let (mut best, mut idle) = (Rc::clone(&now), 0);
         for _ in 0..ITERATIONS {
-            // A balance that holds is still bettered until only rounding is left: it is where a run starts
-            // from.
+            // A balance is improved until only rounding is left.
             if best.size == 0.0 || best.holds && idle > PATIENCE {
                 break;
             }
@@ -111,12 +103,11 @@ impl<'a> Search<'a> {
             idle += 1;
             let looked = self.looked;
             let (whole, push) = (self.along(&now, &step, 1.0), now.residual.dot(&step));
-            // Where Newton's method comes back to where it has been it goes round among the same few places.
+            // A step to a cached position shows a cycle.
             if best.holds && tau > NEWTON && looked == self.looked {
                 break;
             }
-            // Less imbalance, or still pushed on along the step: a body that falls towards what will hold it
-            // is no nearer to balance yet.
+            // Progress is less imbalance, or a force that still acts along the step.
             let good = whole.size < now.size || push > 0.0 && !overshoots(&now, &whole, &step);
             tau = (tau * if good { 3.0 } else { 0.3 }).clamp(1e-6, 1e18);
             if good {
@@ -131,15 +122,14 @@ impl<'a> Search<'a> {
         if best.holds { best } else { now }
     }
 
-    /// The step of an iteration; none where the matrix has no inverse.
+    /// Returns the step of an iteration. None if the matrix is singular.
     fn step(&self, now: &Balance, tau: f64) -> Option<DVector<f64>> {
         let (mut matrix, mut residual) = (now.statics.stiffness.clone(), now.residual.clone());
         for (i, free) in self.settling.model.free.iter().enumerate() {
-            // mω² is the natural stiffness: for large τ the step is Newton's, for small τ it follows the
-            // force.
+            // mω² is the natural stiffness.
             matrix[(i, i)] += free.mass * (free.scale.1 / free.scale.0).powi(2) / tau;
             if self.held[i] {
-                // A held coordinate keeps its row of the identity: its step is 0 whatever the others do.
+                // A held coordinate has a row of the identity, so its step is 0.
                 matrix.row_mut(i).fill(0.0);
                 (matrix[(i, i)], residual[i]) = (1.0, 0.0);
             }
@@ -147,14 +137,14 @@ impl<'a> Search<'a> {
         elimination::solve(matrix, residual).filter(|step| step.iter().all(|x| x.is_finite()))
     }
 
-    /// A step that goes too far is halved towards the place where nothing pushes along it any more. Without friction that
-    /// is the lowest energy along the step, so that the energy falls from iteration to iteration.
+    /// Shortens a step by bisection to the position where no force acts along it. Without friction this minimises the energy
+    /// along the step.
     fn shorter(&mut self, now: &Rc<Balance>, whole: Rc<Balance>, step: &DVector<f64>) -> Rc<Balance> {
         let (mut near, mut far) = ((0.0, Rc::clone(now)), (1.0, whole));
         let mut place = Rc::clone(now);
         for _ in 0..HALVINGS {
             let middle = 0.5 * (near.0 + far.0);
-            // Where only rounding is left it comes back to one of both ends, of which is known on which side they are.
+            // Near rounding the middle may equal one end.
             if now.leads_to(&near.1, (step, middle)) {
                 (near.0, place) = (middle, Rc::clone(&near.1));
                 continue;
@@ -164,8 +154,7 @@ impl<'a> Search<'a> {
                 continue;
             }
             place = self.along(now, step, middle);
-            // Between half of the push gone and half of it turned round a step is good enough: the next one
-            // is Newton's again.
+            // Accepts positions where the force along the step is between half and minus half of its initial value.
             if overshoots(now, &place, step) {
                 far = (middle, Rc::clone(&place));
             } else if place.residual.dot(step) > 0.5 * now.residual.dot(step) {
@@ -177,14 +166,14 @@ impl<'a> Search<'a> {
         place
     }
 
-    /// Part of a step.
+    /// Returns the balance after a fraction of a step.
     fn along(&mut self, now: &Balance, step: &DVector<f64>, share: f64) -> Rc<Balance> {
         let mut y = now.y.clone();
         y.iter_mut().zip(step).for_each(|(y, step)| *y += share * step);
         self.at(y)
     }
 
-    /// What is left at a place, looked up where it was looked at before: there it is the same to the last bit.
+    /// Returns the balance at a position, from the cache if possible.
     fn at(&mut self, y: Vec<f64>) -> Rc<Balance> {
         let same = |seen: &&Rc<Balance>| seen.y.iter().zip(&y).all(|(a, b)| a.to_bits() == b.to_bits());
         if let Some(seen) = self.seen.iter().rev().find(same) {
@@ -199,7 +188,7 @@ impl<'a> Search<'a> {
         balance
     }
 
-    /// Coordinates along one axis that forces tie to each other, those alone left out.
+    /// Returns groups of at least two coupled coordinates along one axis.
     fn groups<'s>(&'s self, statics: &'s Statics) -> impl Iterator<Item = Vec<usize>> + 's {
         let free = &self.settling.model.free;
         let mut seen = self.held.to_vec();
@@ -224,15 +213,14 @@ impl<'a> Search<'a> {
         })
     }
 
-    /// What is left at a place: the static forces less what is still missing. It holds where every free
-    /// coordinate's rest is at most 1e-9 of what acts on it, beside rounding. What bodies do to each other has none for all of them
-    /// together: a pair that slides away would find a balance where rounding of its way is as much as what pulls.
+    /// Returns the balance at a position: static forces minus missing loads. It holds if the imbalance of every released
+    /// coordinate is at most 1e-9 of the acting forces, plus rounding. For groups of coupled coordinates the sum must hold, too,
+    /// because rounding of large distances would hide a net force.
     fn left(&self, y: Vec<f64>) -> Balance {
         let statics = self.settling.statics(self.state, &y);
         let residual = &statics.net - self.missing;
         let (mut size, mut holds, mut is_noise) = (0.0_f64, true, false);
-        // What acts on one coordinate is rounded, and a link hands that on to another on which nothing else acts: by works
-        // along natural lengths they are of one kind.
+        // Rounding of one force acts on all coordinates that links connect; natural lengths convert it.
         let free = &self.settling.model.free;
         let works = free.iter().zip(&statics.acting).map(|(free, acting)| free.scale.0 * acting);
         let rounding = ROUNDED * f64::EPSILON * works.fold(0.0, f64::max);
@@ -241,8 +229,7 @@ impl<'a> Search<'a> {
         for i in (0..residual.len()).filter(|i| !self.held[*i] && residual[*i] != 0.0) {
             let (left, acting) = (residual[i].abs(), statics.acting[i] + self.missing[i].abs());
             size = size.max(left / acting);
-            // Rounding of a place far away is a force of a stiff contact: it is allowed beside the share of
-            // what acts.
+            // Rounding of large positions is a force in stiff contacts.
             holds &= left <= allowed(i) + statics.noise[i];
             is_noise |= left > allowed(i);
         }
@@ -252,7 +239,7 @@ impl<'a> Search<'a> {
                 left.abs()
                     <= group.iter().map(|i| allowed(*i)).sum::<f64>() + statics.noise_together(&group, &y)
             });
-        // Far round, rounding of places holds what tips a body.
+        // At large angles rounding could hold a tilting body.
         let is_turned =
             |i: &usize| free[*i].axis == Axis::Pitch && !self.held[*i] && y[*i].abs() > SMALL_ANGLE;
         let turned = (0..free.len()).find(is_turned).filter(|_| holds);
@@ -261,9 +248,7 @@ impl<'a> Search<'a> {
     }
 }
 
-/// Whether what is left after a step pushes back along it, half as hard as it pushed before.
-///
-/// Half as hard: Newton's step on a force that bends overshoots a little and is a good one all the same.
+/// Whether the force along a step has reversed and exceeds half of its initial value. A Newton step may overshoot slightly.
 fn overshoots(from: &Balance, to: &Balance, step: &DVector<f64>) -> bool {
     to.residual.dot(step) < -0.5 * from.residual.dot(step)
 }

@@ -1,7 +1,7 @@
-//! The places of coordinates without mass at t = 0.
+//! Positions of balanced (massless) coordinates at t = 0.
 //!
-//! Bodies are drawn, and contacts loaded to what they start with, as if no load acted. Then all that acts at t = 0 is put
-//! on, and every contact goes straight to where it balances: no time passes, and the books begin after it.
+//! Bodies are placed and contacts loaded as without loads. Then all loads of t = 0 act, and every contact moves on a straight
+//! path to its balance in zero time. The energy balance begins afterwards.
 
 use crate::contact::Contact;
 use crate::equations::{Equations, Instant};
@@ -12,9 +12,9 @@ use crate::{Field, Part, SceneError, SceneFault};
 use stickslip_contact::Segment;
 
 impl Model {
-    /// Moves balanced bodies to where they balance at t = 0.
+    /// Moves balanced bodies to their balance at t = 0.
     ///
-    /// Fails where nothing balances what acts then.
+    /// Fails with [`SceneFault::Unbalanced`] if nothing balances the loads.
     pub(super) fn balance_first(&self, state: &mut State) -> Result<(), SceneError> {
         if self.balanced.is_empty() {
             return Ok(());
@@ -38,8 +38,7 @@ impl Model {
 }
 
 impl Equations<'_> {
-    /// The first balanced coordinate that more pulls at than its contacts can hold, whatever they are doing now, with what
-    /// pulls and what they hold, N.
+    /// Returns the first balanced coordinate whose load exceeds the limit of its contacts, with load and limit, N.
     pub(crate) fn overloaded(&self, t: f64, y: &dyn Fn(usize) -> f64) -> Option<(usize, [f64; 2])> {
         let at = Instant { t, y };
         (0..self.model.balanced.len()).find_map(|b| {

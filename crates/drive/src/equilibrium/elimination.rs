@@ -1,12 +1,10 @@
-//! Linear equations of coordinates of which few depend on one another.
+//! Linear systems of weakly coupled coordinates.
 
 use nalgebra::{DMatrix, DVector};
 
-/// The solution of A x = b; none where A has no inverse.
+/// Returns the solution of A x = b. None if A is singular.
 ///
-/// Gauss's elimination with the largest pivot of each column, as `nalgebra`'s LU has it and with its digits; zeros are left out.
-/// A chain of 200 bodies has three entries in a row, and 200 sliders have one. A solver for sparse matrices would order their
-/// rows, and sum in another order.
+/// Uses Gaussian elimination with partial pivoting. Results are identical to `nalgebra`'s LU; zeros are skipped.
 pub(super) fn solve(mut a: DMatrix<f64>, mut b: DVector<f64>) -> Option<DVector<f64>> {
     let n = b.len();
     let (mut rows, mut columns) = (Vec::with_capacity(n), Vec::with_capacity(n));
@@ -42,7 +40,7 @@ pub(super) fn solve(mut a: DMatrix<f64>, mut b: DVector<f64>) -> Option<DVector<
     Some(b)
 }
 
-/// The first of the largest entries of column `k` on or below the diagonal.
+/// Returns the row of the largest entry of column `k` on or below the diagonal, the first of equal ones.
 fn largest(a: &DMatrix<f64>, k: usize) -> usize {
     let mut pivot = k;
     for i in k + 1..a.nrows() {
@@ -53,7 +51,7 @@ fn largest(a: &DMatrix<f64>, k: usize) -> usize {
     pivot
 }
 
-/// L x = b with ones on the diagonal.
+/// Solves L x = b with ones on the diagonal.
 fn forward(a: &DMatrix<f64>, b: &mut DVector<f64>) {
     let n = b.len();
     for k in 0..n {
@@ -64,7 +62,7 @@ fn forward(a: &DMatrix<f64>, b: &mut DVector<f64>) {
     }
 }
 
-/// U x = b.
+/// Solves U x = b.
 fn backward(a: &DMatrix<f64>, b: &mut DVector<f64>) {
     for k in (0..b.len()).rev() {
         b[k] /= a[(k, k)];
@@ -81,7 +79,7 @@ mod tests {
     use proptest::prelude::*;
 
     proptest! {
-        /// Whatever zeros it has, a matrix is solved to the bits of a solver that knows nothing of them.
+        /// The solution has the same bits as that of a dense solver.
         #[test]
         fn it_has_the_digits_of_a_dense_solver(
             n in 1_usize..9,
@@ -96,7 +94,7 @@ mod tests {
             let (own, dense) = (solve(a.clone(), b.clone()), a.lu().solve(&b));
             prop_assert_eq!(own.is_some(), dense.is_some());
             if let (Some(own), Some(dense)) = (own, dense) {
-                // A zero may have the other sign.
+                // Zeros may differ in sign.
                 let same = |(a, b): (&f64, &f64)| a.to_bits() == b.to_bits() || *a == 0.0 && *b == 0.0;
                 prop_assert!(own.iter().zip(dense.iter()).all(same), "{} {}", own, dense);
             }

@@ -1,4 +1,4 @@
-//! The static forces on the free coordinates, and how they change.
+//! Static forces on the free coordinates and their derivatives.
 
 use super::Settling;
 use crate::contact::Contact;
@@ -8,23 +8,23 @@ use crate::state::State;
 use nalgebra::{DMatrix, DVector};
 use stickslip_contact::{Apex, Memory, Move};
 
-/// Forces on the free coordinates at rest, N or N m.
+/// Static forces on the free coordinates, N or N m.
 #[derive(Debug, Clone)]
 pub(super) struct Statics {
-    /// Their sum on each coordinate.
+    /// Sum of the forces on each coordinate.
     pub(super) net: DVector<f64>,
-    /// The sum of their magnitudes, friction at its limit: what an imbalance is measured against.
+    /// Sum of their magnitudes with friction at its limit, the reference of an imbalance.
     pub(super) acting: DVector<f64>,
-    /// What rounding of the coordinates makes of them.
+    /// Rounding of the forces.
     pub(super) noise: DVector<f64>,
-    /// The largest length that lies between places of no free coordinate, m.
+    /// Largest constant length in a measure, m.
     constant: f64,
-    /// -∂F/∂q.
+    /// Stiffness matrix -∂F/∂q.
     pub(super) stiffness: DMatrix<f64>,
 }
 
 impl Statics {
-    /// A force along a measure that could as well have another size.
+    /// Adds a force along a measure; `size` is the magnitude for the reference.
     fn push(&mut self, along: &Measure, force: f64, size: f64) {
         for &(i, a) in &along.free {
             self.net[i] += a * force;
@@ -32,7 +32,7 @@ impl Statics {
         }
     }
 
-    /// Forces along a measure that fall by k per metre of another.
+    /// Adds a stiffness k: forces along one measure per displacement of another.
     fn stiffen(&mut self, along: &Measure, with: &Measure, k: f64, y: &[f64]) {
         let size: f64 = with.constant.abs() + with.free.iter().map(|&(j, b)| (b * y[j]).abs()).sum::<f64>();
         self.constant = self.constant.max(with.constant.abs());
@@ -42,7 +42,7 @@ impl Statics {
         }
     }
 
-    /// What rounding of the coordinates, at y, makes of the sum of the forces on some of them: that of what acts between these cancels.
+    /// Returns the rounding of the sum of forces on a group of coordinates at y; internal forces cancel.
     pub(super) fn noise_together(&self, group: &[usize], y: &[f64]) -> f64 {
         let stiffness = |j: usize| group.iter().map(|i| self.stiffness[(*i, j)]).sum::<f64>().abs();
         let noise = |(j, y): (usize, &f64)| stiffness(j) * (self.constant + y.abs());
@@ -51,10 +51,10 @@ impl Statics {
 }
 
 impl Settling<'_> {
-    /// The forces with the free coordinates at y, the contacts on straight paths from where they stand.
+    /// Returns the static forces with the free coordinates at y and the contacts on straight paths from their present positions.
     ///
-    /// Loads, contacts (normal and tangential), links and waveforms at t = 0; nothing is committed. The
-    /// stiffness has the sign of springs: positive where a force falls with the way.
+    /// Contains loads, contacts (normal and tangential), links and waveforms at t = 0; nothing is committed. Stiffness is
+    /// positive for a force that opposes the displacement.
     pub(super) fn statics(&self, state: &State, y: &[f64]) -> Statics {
         let (model, eq) = (self.model, self.model.equations(state));
         let n = model.free.len();
@@ -70,8 +70,8 @@ impl Settling<'_> {
             }
             let Answer { tangents, pressing, .. } = *answer;
             let count = contact.count;
-            // What could act counts, not what does: near F_x = 0 a contact would else ask for a balance to
-            // more digits than there are. A coefficient above 1 makes no force that its load does not.
+            // The reference uses the possible friction force, as the actual one may be near zero. A coefficient above 1 counts as
+            // 1.
             let limit = contact.interface.friction().min(1.0) * pressing;
             statics.push(&contact.u, -count * tangents.force, count * tangents.force.abs().max(limit));
             statics.stiffen(&contact.u, &contact.u, count * tangents.along, y);
@@ -79,8 +79,7 @@ impl Settling<'_> {
                 let force = count * pressing;
                 statics.push(normal, -force, force);
                 statics.stiffen(normal, normal, count * answer.stiffness, y);
-                // Deeper contacts hold harder: F_x depends on d, but F_N not on u, and the matrix is not
-                // symmetric.
+                // F_x depends on d but F_N not on u: the matrix is not symmetric.
                 statics.stiffen(&contact.u, normal, count * tangents.across, y);
             }
         }
@@ -88,7 +87,7 @@ impl Settling<'_> {
             let elongation = eq.read(&link.elongation, &Components { t: 0.0, y: |i: usize| y[i] }).value;
             let stroke = eq.stroke(link, &Components { t: 0.0, y: |i: usize| y[i] }).value;
             let stretch = stroke - elongation;
-            // Without its dampers: nothing moves.
+            // Dampers have no force at rest.
             let force = link.stiffness * stretch;
             statics.push(&link.elongation, force + link.preload, force.abs() + link.preload.abs());
             statics.stiffen(&link.elongation, &link.elongation, link.stiffness, y);
@@ -101,7 +100,7 @@ impl Settling<'_> {
         statics
     }
 
-    /// Where the contacts are with the free coordinates at y.
+    /// Returns the positions (d, u) of the contacts with the free coordinates at y.
     pub(super) fn apexes<'a>(&'a self, state: &'a State, y: &'a [f64]) -> impl Iterator<Item = Apex> + 'a {
         let eq = self.model.equations(state);
         self.model.contacts.iter().zip(&self.depths).map(move |(contact, depth)| {
@@ -112,19 +111,19 @@ impl Settling<'_> {
     }
 }
 
-/// What one contact answers at the end of a chord; the same as long as its memory stays and the end is the same to the last bit.
+/// Cached response of a contact at the end of a chord; valid while its memory and the end are unchanged.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Answer {
     to: Apex,
     tangents: Tangents,
     /// F_N, N.
     pressing: f64,
-    /// dF_N/dd, N/m; 0 where no body presses.
+    /// dF_N/dd, N/m; 0 if no body presses.
     stiffness: f64,
 }
 
 impl Answer {
-    /// None yet: no end is not a number.
+    /// No response: NaN never equals an end.
     pub(super) const NONE: Self = Self {
         to: Apex { d: f64::NAN, u: f64::NAN },
         tangents: Tangents { force: 0.0, along: 0.0, across: 0.0 },
@@ -143,28 +142,28 @@ impl Answer {
     }
 }
 
-/// F_x of one contact at the end of a chord (N) and its derivatives with respect to that end (N/m).
+/// F_x of one contact at the end of a chord (N), and its derivatives by the end (N/m).
 #[derive(Debug, Clone, Copy, Default)]
 struct Tangents {
     force: f64,
-    /// With u at constant d.
+    /// Derivative by u at constant d.
     along: f64,
-    /// With d at constant u.
+    /// Derivative by d at constant u.
     across: f64,
 }
 
-/// A chord that grows in stick adds G\*(Δu/Δd)ΔM: another end makes another chord, so its tangents are not those of
-/// going on from there. From high above the ground they differ by orders of magnitude.
+/// Returns force and derivatives for a chord. A chord that grows in stick adds G\*(Δu/Δd)ΔM. Its derivatives by the end differ
+/// from those of continuing from the end.
 fn tangents(contact: &Contact, memory: &Memory, to: Apex) -> Tangents {
     if contact.inert {
         return Tangents::default();
     }
     let (law, from) = (&contact.interface, memory.apex());
     let response = memory.trial(law, Move::Chord(to));
-    // The way from where the memory stands; no way at all has the tangents of going on.
+    // Displacements from the memory's position; without any, the derivatives are those of continuing.
     let (rise, shift) = (to.d - from.d, to.u - from.u);
     let (mut along, mut across) = (response.stiffness, response.coupling);
-    // A short chord is as good as its end, and differences would be rounding.
+    // For a short chord differences would be rounding.
     if to.d > 0.0 && shift.abs() <= law.stick_slope() * rise && rise > SHORT * to.d {
         along = law.tangential_modulus() * (law.reduced_force(to.d) - law.reduced_force(from.d)) / rise;
         across = shift / rise * (law.stick_stiffness(to.d) - along);
@@ -172,6 +171,5 @@ fn tangents(contact: &Contact, memory: &Memory, to: Apex) -> Tangents {
     Tangents { force: response.force, along, across }
 }
 
-/// Growth of a contact, in parts of its depth, that is too short to tell a chord from its end.
-// It need not be sharp: no start differs at 1e-5 or 1e-7.
+/// Relative growth below which a chord counts as its end.
 const SHORT: f64 = 1e-6;

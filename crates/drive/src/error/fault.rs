@@ -1,86 +1,86 @@
-//! What can be wrong with a field of a scene or a plan.
+//! Faults of a field of a [`Scene`](crate::Scene) or a [`Plan`](crate::Plan).
 
 use super::{Field, Part, SceneError};
 use crate::scene::{Axis, SMALL_ANGLE};
 use stickslip_contact::{ContactError, FirstLoadingError, SpringsError};
 use thiserror::Error;
 
-/// What is wrong with a field. [`SceneFault::advice`] says what to try.
+/// Fault of a field. [`SceneFault::advice`] suggests a remedy.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum SceneFault {
-    /// Infinite or not a number.
+    /// The number is infinite or NaN.
     #[error("expected a finite number, got {0}")]
     NotFinite(f64),
-    /// Below zero or not finite.
+    /// The number is negative or not finite.
     #[error("expected a number of at least 0, got {0}")]
     BelowZero(f64),
-    /// Zero, below or not finite.
+    /// The number is not positive or not finite.
     #[error("expected a finite number above 0, got {0}")]
     NotAboveZero(f64),
-    /// No contact at all.
+    /// The number of contacts is zero.
     #[error("expected at least 1 contact, got 0")]
     NoContact,
-    /// A side, or the body of a load, that is not in the scene.
-    #[error("there is no body at place {0}")]
+    /// A side or a load refers to a body that does not exist.
+    #[error("there is no body with index {0}")]
     NoBody(usize),
-    /// A waveform that is not in the scene.
-    #[error("there is no waveform at place {0}")]
+    /// The waveform does not exist.
+    #[error("there is no waveform with index {0}")]
     NoWaveform(usize),
-    /// Both sides are the same.
+    /// Both sides are the same body.
     #[error("expected two different bodies")]
     OneBody,
-    /// A coordinate obeys Newton, but nothing says how slowly.
+    /// A free coordinate has no mass or moment of inertia.
     #[error("{}", no_inertia(*.0))]
     NoInertia(Axis),
-    /// A free z or pitch on which nothing acts.
-    #[error("nothing holds {}, which is free", .0.key())]
+    /// No force acts on a free z or pitch.
+    #[error("no part holds {}, which is free", .0.key())]
     Unheld(Axis),
-    /// A balanced pitch.
+    /// A pitch coordinate is balanced.
     #[error("a pitch cannot be balanced, only x and z can")]
     BalancedPitch,
-    /// A mass of a body whose place satisfies a balance without one.
-    #[error("{} is balanced, without mass: forces alone set its place", .0.key())]
+    /// A body with a balanced coordinate has a mass.
+    #[error("{} is balanced, so the body takes no mass: forces alone determine its position", .0.key())]
     BalancedMass(Axis),
-    /// A balanced coordinate in a scene with free ones.
-    #[error("{} is balanced in a scene where other coordinates are free", .0.key())]
+    /// The model has both balanced and free coordinates.
+    #[error("{} is balanced, but other coordinates of the model are free", .0.key())]
     BalancedBesideFree(Axis),
-    /// A balanced coordinate in a scene with blocks.
-    #[error("{} is balanced in a scene whose stacks or drivers have states of their own", .0.key())]
+    /// The model has both balanced coordinates and blocks.
+    #[error("{} is balanced, but stacks or drivers of the model have states of their own", .0.key())]
     BalancedBesideBlock(Axis),
-    /// A force that depends on the velocity of a balanced coordinate.
-    #[error("a damper cannot act on a balanced coordinate: its place would depend on its velocity")]
+    /// A force depends on the velocity of a balanced coordinate.
+    #[error("a damper cannot act on a balanced coordinate: its position would depend on its velocity")]
     BalancedDamper,
-    /// Two balanced coordinates that must be solved for together.
-    #[error("two balanced bodies, each with a contact, act on each other")]
+    /// Two balanced coordinates with contacts act on each other.
+    #[error("two balanced bodies with contacts act on each other")]
     BalancedTogether,
-    /// A balanced coordinate on which nothing acts that could balance a load.
-    #[error("nothing balances {}: no contact with friction and no spring acts along it", .0.key())]
+    /// No force that depends on position acts on a balanced coordinate.
+    #[error("no force balances {}: no contact with friction and no spring acts along it", .0.key())]
     Unbalanceable(Axis),
-    /// The load of t = 0 on a balanced coordinate is more than what holds it.
-    #[error("nothing balances {load:.3e} N {} at t = 0: the contacts hold {limit:.3e} N", way(*.axis))]
+    /// The load on a balanced coordinate at t = 0 exceeds the limit of its contacts.
+    #[error("no force balances {load:.3e} N {} at t = 0: the friction limit of the contacts is {limit:.3e} N", way(*.axis))]
     Unbalanced {
-        /// The coordinate.
+        /// Coordinate.
         axis: Axis,
-        /// What pulls, N.
+        /// Load, N.
         load: f64,
-        /// What the contacts hold, N.
+        /// Limit of the contacts, N.
         limit: f64,
     },
-    /// A coupled contact between bodies that keep their distance.
+    /// The bodies of a coupled contact cannot change their distance.
     #[error(
         "neither body moves along the normal: a coupled contact needs a z or a pitch that is free or follows a waveform"
     )]
     Unmoved,
-    /// A contact that does not touch at t = 0 is to start with a tangential load.
+    /// A contact that is open at t = 0 has an initial tangential load.
     #[error("a contact that is open at the start cannot be loaded along x")]
     Open,
-    /// A contact cannot be pressed like that, or no monotonic loading reaches its start.
+    /// The normal load is impossible, or no monotonic loading leads to the initial state.
     #[error(transparent)]
     Loading(#[from] FirstLoadingError),
-    /// There is no such row of springs.
+    /// The row of springs is invalid.
     #[error(transparent)]
     Springs(#[from] SpringsError),
-    /// A row of springs that is narrower than its contact at t = 0.
+    /// The row of springs is narrower than the contact at t = 0.
     #[error("expected at least the contact's width at the start, {width:.3e} m, got {span:e} m")]
     Narrow {
         /// Width of the contact, m.
@@ -88,76 +88,76 @@ pub enum SceneFault {
         /// Length of the row, m.
         span: f64,
     },
-    /// A damper whose length jumps: its impulse would be a matter of definition.
+    /// The length of a damper jumps; its impulse is not defined.
     #[error("a damper cannot follow the jumps of waveform `{0}`")]
     DampedJump(String),
-    /// Steps of a given length or without events on waveforms that jump.
+    /// The stepper cannot follow waveforms that jump.
     #[error("only the steppers \"event\" and \"frames\" follow waveforms that jump")]
     UnlocatedJump,
-    /// A fixed step with which the fastest motion, or a state of a block, grows.
-    #[error("expected less than {limit:.3e} s, from where on the fastest motion grows, got {step:e} s")]
+    /// The fixed step is unstable for the fastest motion, or for a state of a block.
+    #[error("expected less than {limit:.3e} s, the stability limit, got {step:e} s")]
     Unstable {
         /// Longest stable step, s.
         limit: f64,
-        /// The step, s.
+        /// Step length, s.
         step: f64,
     },
-    /// The search for an equilibrium would take too long.
+    /// The model has too many free coordinates for an equilibrium.
     #[error("expected at most {most} free bodies for an equilibrium, got {count}")]
     TooManyFree {
-        /// Most free coordinates.
+        /// Largest number of free coordinates.
         most: usize,
         /// Number of free coordinates.
         count: usize,
     },
-    /// A block reads, or carries as states, more than there is room for.
+    /// A block has more inputs or states than allowed.
     #[error("expected at most {most} inputs and as many states of a block, got {count}")]
     TooWide {
-        /// Most of either.
+        /// Largest number of either.
         most: usize,
-        /// Number of the more numerous.
+        /// Larger number of both.
         count: usize,
     },
-    /// A block that pushes on bodies is no part of the statics.
-    #[error("a scene with a block between bodies cannot start in equilibrium")]
+    /// A block acts on bodies in a model that starts in equilibrium.
+    #[error("a model with a block between bodies cannot start in equilibrium")]
     BlockInEquilibrium,
     /// A contact cannot follow its bodies into equilibrium.
     #[error("in static equilibrium {0}")]
     Settling(ContactError),
-    /// Nothing balances what acts at t = 0.
+    /// Nothing balances the loads at t = 0.
     #[error(
-        "`{body}` has no static equilibrium {}: {unbalanced:.3e} {} stay unbalanced{}",
-        way(*.axis), unit(*.axis), if *.shared { ", what other bodies put on it included" } else { "" }
+        "`{body}` has no static equilibrium {}: {unbalanced:.3e} {} remain unbalanced{}",
+        way(*.axis), unit(*.axis), if *.shared { ", including the forces of other bodies" } else { "" }
     )]
     NoEquilibrium {
         /// Name of the body.
         body: String,
-        /// Its coordinate.
+        /// Coordinate.
         axis: Axis,
-        /// Force or moment that nothing balances, N or N m.
+        /// Unbalanced force or moment, N or N m.
         unbalanced: f64,
-        /// Whether other bodies push and pull at it, too: held, it bears what they cannot hold either.
+        /// Whether other bodies act along the same axis; the imbalance then includes their forces.
         shared: bool,
     },
-    /// What acts at t = 0 is in balance beyond small angles only.
+    /// The equilibrium at t = 0 requires an angle that is not small.
     #[error(
-        "`{body}` has no static equilibrium in pitch: it would turn to {angle:.3e} rad, and angles up to {SMALL_ANGLE} rad are small"
+        "`{body}` has no static equilibrium in pitch: it would rotate to {angle:.3e} rad, beyond the limit of small angles, {SMALL_ANGLE} rad"
     )]
     Turned {
         /// Name of the body.
         body: String,
-        /// Its angle there, rad.
+        /// Angle, rad.
         angle: f64,
     },
 }
 
 impl SceneFault {
-    /// The fault in its place.
+    /// Returns the error of this fault in a field of a part.
     pub(crate) fn of(self, part: Part, field: Field) -> SceneError {
         SceneError { part, field, fault: self }
     }
 
-    /// What to try.
+    /// Returns a suggested remedy, if there is one.
     pub fn advice(&self) -> Option<String> {
         let advice = match self {
             Self::NoInertia(axis) => {
@@ -165,8 +165,8 @@ impl SceneFault {
                 return Some(format!("add {example}, or make {} \"fixed\"", axis.key()));
             }
             Self::Unheld(Axis::Pitch) => {
-                "give a contact, spring or actuator of this body a point \"at\" beside its reference point, or make \
-                 pitch \"fixed\""
+                "give a contact, spring or actuator of this body a point \"at\" away from its reference \
+                 point, or make pitch \"fixed\""
             }
             Self::Unheld(Axis::X | Axis::Z) => {
                 "make the \"normal\" of a contact of this body \"coupled\", add a spring with \"direction\": \"z\", or \
@@ -187,25 +187,25 @@ impl SceneFault {
             }
             Self::Loading(FirstLoadingError::Undetermined) => "give the normal force or the indentation",
             Self::Loading(FirstLoadingError::BeyondProfile { .. }) => {
-                "lower the load, or enlarge the radius or the table of the profile"
+                "reduce the load, or increase the radius or the range of the profile"
             }
             Self::Open => "press it at t = 0, or leave it \"untouched\"",
             Self::Springs(_) | Self::Narrow { .. } => {
-                "leave the span out: the row is then as wide as the contact ever is"
+                "leave the span out: the row then covers the largest contact"
             }
             Self::DampedJump(_) => "give the waveform a flyback above 0",
-            Self::UnlocatedJump => "take the event stepper, or give the waveform a flyback above 0",
+            Self::UnlocatedJump => "use the stepper `event`, or a waveform with a flyback above 0 s",
             Self::Unstable { .. } => {
-                "take a twentieth of that for accuracy, or the event stepper, which needs no step"
+                "use a twentieth of this limit for accuracy, or the stepper event, which needs no time step"
             }
-            Self::TooManyFree { .. } | Self::BlockInEquilibrium => "give the bodies where they start",
-            Self::Settling(_) => "give the row a longer span, or use the engine \"curve\"",
+            Self::TooManyFree { .. } | Self::BlockInEquilibrium => "give the start positions of the bodies",
+            Self::Settling(_) => "give the row a larger span, or use the engine \"curve\"",
             Self::NoEquilibrium { axis: Axis::Z, .. } => {
-                "lower the load, press harder, or start from rest instead; of a coupled contact the lower body is the first in \
-                 \"between\""
+                "reduce the load, increase the normal force, or start from rest; the first body in \
+                 \"between\" of a coupled contact is the lower one"
             }
             Self::NoEquilibrium { .. } | Self::Turned { .. } => {
-                "lower the load, press harder, or start from rest instead"
+                "reduce the load, increase the normal force, or start from rest"
             }
             Self::NotFinite(_)
             | Self::BelowZero(_)
@@ -220,14 +220,14 @@ impl SceneFault {
         Some(advice.to_owned())
     }
 
-    /// What to try where a body is to be balanced.
+    /// Returns a suggested remedy for a fault of a balanced coordinate.
     fn advice_on_balance(&self) -> &'static str {
         match self {
             Self::BalancedPitch => "make pitch \"fixed\"",
             Self::BalancedBesideFree(_) => {
-                "make the others \"balanced\" or \"fixed\", or let them follow a waveform"
+                "make the other coordinates \"balanced\" or \"fixed\", or let them follow a waveform"
             }
-            Self::BalancedBesideBlock(_) => "take a stack that is linear and has no driver, or a spring",
+            Self::BalancedBesideBlock(_) => "use a linear stack without a driver, or a spring",
             Self::BalancedDamper => "remove the damping, or make the coordinate \"free\" and give it a mass",
             Self::BalancedTogether => {
                 "let one of them follow a waveform, or join them to a body without a contact"
@@ -236,9 +236,9 @@ impl SceneFault {
                 "give the body a contact (along z one whose \"normal\" is \"coupled\"), or a spring with stiffness"
             }
             Self::Unbalanced { axis: Axis::Z, .. } => {
-                "press the body onto its contacts, or hold it by a spring"
+                "press the body against its contacts, or hold it by a spring"
             }
-            _ => "lower the load, press harder, or hold the body by a spring",
+            _ => "reduce the load, increase the normal force, or hold the body by a spring",
         }
     }
 }

@@ -1,44 +1,44 @@
-//! Which part of a scene or a plan is refused, and which of its fields.
+//! Part and field of a [`Scene`](crate::Scene) or a [`Plan`](crate::Plan) that an error refers to.
 
 use super::SceneFault;
 use crate::scene::Axis;
 use std::fmt;
 use thiserror::Error;
 
-/// A scene that makes no model, or a plan that makes no run.
+/// Error of an invalid [`Scene`](crate::Scene) or [`Plan`](crate::Plan).
 #[derive(Debug, Clone, PartialEq, Error)]
 #[error("{part}, {field}: {fault}")]
 pub struct SceneError {
-    /// Which part.
+    /// Part that the error refers to.
     pub part: Part,
-    /// Which of its fields.
+    /// Field of the part.
     pub field: Field,
-    /// What is wrong with it.
+    /// Fault of the field.
     pub fault: SceneFault,
 }
 
-/// A part of a [`Scene`](crate::Scene) by its place in the scene's list, or the [`Plan`](crate::Plan).
+/// Part of a [`Scene`](crate::Scene) by its index, or the [`Plan`](crate::Plan).
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Part {
-    /// A body.
+    /// Body by index.
     Body(usize),
-    /// A contact.
+    /// Contact by index.
     Contact(usize),
-    /// A spring.
+    /// Spring by index.
     Spring(usize),
-    /// An actuator.
+    /// Actuator by index.
     Actuator(usize),
-    /// A load.
+    /// Load by index.
     Load(usize),
-    /// A block.
+    /// Block by index.
     Block(usize),
     /// Gravity.
     Gravity,
-    /// How the scene starts and is run.
+    /// Start and run.
     Run,
 }
 
-/// A field of a part.
+/// Field of a part.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Field {
     /// The part as a whole.
@@ -47,35 +47,35 @@ pub enum Field {
     Mass,
     /// Moment of inertia of a body.
     Inertia,
-    /// What a coordinate of a body may do.
+    /// Type of a coordinate of a body.
     Coordinate(Axis),
-    /// Where a coordinate of a body starts.
+    /// Initial position of a coordinate of a body.
     Position(Axis),
-    /// How fast a coordinate of a body starts.
+    /// Initial velocity of a coordinate of a body.
     Velocity(Axis),
-    /// The two sides of a contact, spring or actuator.
+    /// Two sides of a contact, spring or actuator.
     Between,
-    /// The points of a contact, spring or actuator on its bodies, or where a load attacks.
+    /// Points of a contact, spring, actuator or load on its bodies.
     Points,
-    /// What presses a contact.
+    /// Normal load of a contact.
     Normal,
-    /// The force that presses a contact.
+    /// Normal force of a contact.
     NormalForce,
-    /// The indentation that is given to a contact.
+    /// Prescribed indentation of a contact.
     NormalIndentation,
-    /// The radius that is given to a contact.
+    /// Prescribed radius of a contact.
     NormalRadius,
     /// Gap of a contact.
     Gap,
     /// Damping of a contact, spring or actuator.
     Damping,
-    /// The starting state of a contact, or how the free coordinates start.
+    /// Initial state of a contact, or of the free coordinates.
     Start,
-    /// The tangential force that a contact starts with.
+    /// Initial tangential force of a contact.
     StartForce,
-    /// The displacement that a contact starts with.
+    /// Initial displacement of a contact.
     StartDisplacement,
-    /// How the tangential problem of a contact is solved.
+    /// Solution of the tangential problem of a contact: memory curve or row of springs.
     Engine,
     /// Number of springs of a row.
     SpringCount,
@@ -89,29 +89,29 @@ pub enum Field {
     Preload,
     /// Free stroke of an actuator.
     Stroke,
-    /// The body that a load acts on.
+    /// Body of a load.
     On,
     /// Force or moment of a load on a coordinate.
     Component(Axis),
     /// Acceleration of gravity.
     Acceleration,
-    /// Incline of the slide.
+    /// Inclination of the slide.
     Incline,
     /// Simulated time.
     Duration,
-    /// Interval of the rows of the trace.
+    /// Interval of the rows of the record.
     Interval,
-    /// Change of a step that counts as none.
+    /// Relative change of a step that counts as steady.
     SteadyChange,
-    /// Time stepping.
+    /// Stepper.
     Stepper,
     /// Tolerance of the plan's stepper.
     Tolerance,
-    /// Step of the plan's stepper.
+    /// Step length of the plan's stepper.
     Step,
     /// Frame of the plan's stepper.
     Frame,
-    /// What may be lost in a frame.
+    /// Accuracy of a frame.
     FrameAccuracy,
 }
 
@@ -138,7 +138,7 @@ impl fmt::Display for Field {
             Self::Inertia => "moment of inertia",
             Self::Coordinate(axis) | Self::Component(axis) => axis.key(),
             Self::Position(axis) => return write!(f, "start of {}", axis.key()),
-            Self::Velocity(axis) => return write!(f, "speed of {} at the start", axis.key()),
+            Self::Velocity(axis) => return write!(f, "initial velocity of {}", axis.key()),
             Self::Between => "sides",
             Self::Points => "points",
             Self::Normal => "normal load",
@@ -148,8 +148,8 @@ impl fmt::Display for Field {
             Self::Gap => "gap",
             Self::Damping => "damping",
             Self::Start => "start",
-            Self::StartForce => "tangential force at the start",
-            Self::StartDisplacement => "displacement at the start",
+            Self::StartForce => "initial tangential force",
+            Self::StartDisplacement => "initial displacement",
             Self::Engine => "engine",
             Self::SpringCount => "number of springs",
             Self::Span => "length of the row",
@@ -162,7 +162,7 @@ impl fmt::Display for Field {
             Self::Incline => "incline",
             Self::Duration => "duration",
             Self::Interval => "interval of the rows",
-            Self::SteadyChange => "change that counts as none",
+            Self::SteadyChange => "relative change of steps",
             Self::Stepper => "stepper",
             Self::Tolerance => "tolerance",
             Self::Step => "step",

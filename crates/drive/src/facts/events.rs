@@ -1,9 +1,8 @@
-//! How many events a run may be expected to have: corners are counted, what contacts do is estimated.
+//! Expected number of events of a run: corners are counted, events of contacts are estimated.
 //!
-//! A contact reverses with the ringing of the modes that move it, for as long as damping lets them ring after each corner, and
-//! with the turns of what drives it; bodies that fly land once per flight. Each kind brings a number of events of its own,
-//! counted once on the examples. Meant to a factor of two there, and elsewhere as a guess: for the size of a table and the length
-//! of a wait.
+//! A contact reverses with the free oscillations of its modes, which decay after each corner, and with its drive. Bodies in
+//! flight land once per flight. The number of events of each kind was counted on the examples. Estimates are within a factor of
+//! two there, and otherwise rough. They serve to predict the size of a table and the run time.
 
 use super::Setup;
 use crate::equations::Equations;
@@ -13,35 +12,34 @@ use crate::{Linearised, NormalMode, Plan, Waveform};
 use std::f64::consts::TAU;
 use stickslip_stepper::System;
 
-/// Events of a contact in a period of ringing: two reversals, and about one loop closes; where bodies press it by their
-/// own motion it reverses, grows in full stick and slips again, and one loop closes.
+/// Events of a contact per period of a free oscillation: two reversals and about one closed loop. If the motion of bodies presses
+/// it, full stick and renewed slip are added.
 const PER_RINGING: Pace = Pace { pressed: 3.0, coupled: 4.0 };
-/// Events of a contact that a smooth waveform drives, or that is walked, in a period: two turns, and with each one the end
-/// of gross slip or a loop that closes; where bodies press it by their own motion twice as much, growth or flight with it.
+/// Events of a contact per period of a smooth drive: two reversals, each with an end of gross slip or a closed loop. If the
+/// motion of bodies presses it, the number is doubled by growth or flight.
 const PER_TURNS: Pace = Pace { pressed: 4.0, coupled: 8.0 };
-/// Events of a contact from one landing to the next: it touches, slips, turns and leaves.
+/// Events of a contact per landing: touch, slip, reversal, lift-off.
 const PER_LANDING: f64 = 4.0;
-/// Of a free body under a waveform with corners: gross slip begins and ends once, the rest is ringing.
+/// Events of a free body per corner of a waveform, without oscillations: gross slip begins and ends.
 const PER_FLYBACK: f64 = 2.0;
-/// Time constants after which a damped ringing is over (5 %).
-// Counted on a stage on its stack: 350 events, for 219 estimated; 0.3 would say 58, 30 would say 1 532.
+/// Number of time constants until a damped oscillation has decayed to 5 %.
 const DECAY: f64 = 3.0;
-/// Displacement of a contact in a mode, as a share of the mode's largest in m, below which the mode does not ring there.
+/// Relative displacement of a contact in a mode below which the mode causes no events there.
 const MOVED: f64 = 0.05;
-/// Kinks that a block puts into a period of what it reads, at least: limits begin and end, hysteresis turns twice.
+/// Smallest number of kinks that a block causes per period of its input, by limits or hysteresis.
 const KINKS: f64 = 2.0;
-/// A ringing from the start below this share of u_c is none: an equilibrium is found to some last places.
+/// Amplitude below which no oscillation begins at the start, relative to u_c; equilibria are accurate to rounding.
 const SEEN: f64 = 1e-6;
-/// One above this share of it slips as a whole in no time, and is soon over.
+/// Amplitude above which an initial oscillation is gross slip and short, relative to u_c.
 const LOST: f64 = 0.5;
-/// A corner this near to the end of a period, in periods, belongs to it.
+/// Distance at which a corner belongs to the end of a period, in periods.
 const SAME: f64 = 1e-9;
 
-/// Events that depend on what presses the contact.
+/// Number of events by the type of normal load.
 struct Pace {
-    /// A given force, indentation or radius.
+    /// For a prescribed force, indentation or radius.
     pressed: f64,
-    /// The motion of its bodies.
+    /// For a normal load by the motion of bodies.
     coupled: f64,
 }
 
@@ -51,46 +49,46 @@ impl Pace {
     }
 }
 
-/// Events of a whole run.
+/// Expected number of events of a run.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ExpectedEvents {
     /// Corners of waveforms, counted.
     pub corners: f64,
-    /// Events of contacts and blocks, estimated: within a factor of two on the examples, a guess elsewhere.
+    /// Events of contacts and blocks, estimated: within a factor of two on the examples.
     pub contacts: f64,
 }
 
 impl ExpectedEvents {
-    /// Those of a run along a plan.
+    /// Returns the expected numbers for a plan.
     pub fn of(setup: Setup<'_>, plan: &Plan) -> Self {
         let Setup { scene, model, start } = setup;
         let linear = model.linearised(start, |d| d.most);
-        // As deep as it gets: the stiffest ringing has the most events.
+        // The deepest indentation has the fastest oscillation and the most events.
         let modes = linear.modes();
         let of = |c| of_contact(setup, c, plan.duration, (&linear, &modes));
         let contacts: f64 = (0..scene.contacts.len()).map(of).sum();
         let blocks: f64 = (0..scene.blocks.len()).map(|k| of_block(scene, k, plan.duration)).sum();
-        // At fixed steps corners are crossed, not located.
+        // Fixed steps do not locate corners.
         let located = model.effective(plan.stepper).locates_events();
         let corners = scene.waveforms.iter().map(|w| corners(&w.part, plan.duration));
-        // The sum of nothing is -0.
+        // An empty sum would be -0.
         let corners = if located { corners.fold(0.0, |sum, corners| sum + corners) } else { 0.0 };
         Self { corners, contacts: contacts + blocks }
     }
 
-    /// All events.
+    /// Returns the number of all events.
     pub fn total(&self) -> f64 {
         self.corners + self.contacts
     }
 }
 
-/// Periods that a waveform runs through until `duration`, s.
+/// Returns the number of periods of a waveform until `duration`, s.
 fn cycles(waveform: &Waveform, period: f64, duration: f64) -> f64 {
     let timing = waveform.timing();
     ((duration - timing.delay) / period).min(timing.cycles.unwrap_or(f64::INFINITY)).max(0.0)
 }
 
-/// Corners in a period, or until `end` for a waveform without period.
+/// Returns the number of corners between two times, s.
 fn corners_until(waveform: &Waveform, start: f64, end: f64) -> f64 {
     let mut piece = waveform.piece_at(start);
     let mut corners = 0.0;
@@ -101,13 +99,13 @@ fn corners_until(waveform: &Waveform, start: f64, end: f64) -> f64 {
     corners
 }
 
-/// Corners of one whole period from the delay on, that at its end included.
+/// Returns the number of corners of one period after the delay, including that at its end.
 fn corners_per_period(waveform: &Waveform, period: f64) -> f64 {
     let start = waveform.timing().delay;
     corners_until(waveform, start, start + (1.0 + SAME) * period)
 }
 
-/// Corners until `duration`, s.
+/// Returns the number of corners until `duration`, s.
 fn corners(waveform: &Waveform, duration: f64) -> f64 {
     match waveform.period() {
         Some(period) => cycles(waveform, period, duration) * corners_per_period(waveform, period),
@@ -115,7 +113,7 @@ fn corners(waveform: &Waveform, duration: f64) -> f64 {
     }
 }
 
-/// Estimate for block `k`: two turns in each period of the waveform that it reads.
+/// Returns the estimate for block `k`: two reversals per period of its waveform.
 fn of_block(scene: &Scene, k: usize, duration: f64) -> f64 {
     let Some(block) = scene.blocks.get(k) else { return 0.0 };
     let waveform = scene.waveform_of(scene.waveforms.len() + k).and_then(|w| scene.waveforms.get(w));
@@ -123,7 +121,7 @@ fn of_block(scene: &Scene, k: usize, duration: f64) -> f64 {
     turns.unwrap_or(0.0) * f64::from(block.part.0.events_per_turn())
 }
 
-/// Whether a mode moves contact `c` along its slide. Angles do not compare with displacements.
+/// Whether a mode moves contact `c` along the slide. Angles are not compared with displacements.
 fn rings_at(linear: &Linearised, mode: &NormalMode, c: usize) -> bool {
     let lengths = linear.coordinates().iter().zip(&mode.shape).filter(|(name, _)| !name.ends_with(".pitch"));
     let lengths = lengths.map(|(_, length)| length).chain(&mode.contacts);
@@ -131,7 +129,7 @@ fn rings_at(linear: &Linearised, mode: &NormalMode, c: usize) -> bool {
     mode.frequency > 0.0 && mode.contacts[c].abs() > MOVED * largest
 }
 
-/// Rate at which a contact's indentation starts to change, m/s, by the motion of its bodies.
+/// Returns the initial rate of a contact's indentation from the motion of its bodies, m/s.
 fn closing(scene: &Scene, contact: &Contact) -> f64 {
     let rise = |i: usize| match contact.between[i] {
         Side::Body(body) => scene
@@ -143,10 +141,10 @@ fn closing(scene: &Scene, contact: &Contact) -> f64 {
     rise(0) - rise(1)
 }
 
-/// Landings until `duration` (s) of a contact that starts apart by `height` (m) and closes at a `speed` (m/s): with nothing
-/// lost it bounces as high as it falls, and without gravity it lands but once.
+/// Returns the number of landings until `duration` (s) of a contact with initial gap `height` (m) and closing `speed` (m/s).
+/// Impacts are assumed elastic; without gravity there is one.
 fn landings(scene: &Scene, (height, speed): (f64, f64), duration: f64) -> f64 {
-    // Only what pulls along the normal brings it back.
+    // Only gravity along the normal returns the body.
     let (_, fall) = scene.gravity.components();
     match (height > 0.0, fall > 0.0) {
         (true, true) => duration * fall / (2.0 * (speed * speed + 2.0 * height * fall).sqrt()),
@@ -155,11 +153,10 @@ fn landings(scene: &Scene, (height, speed): (f64, f64), duration: f64) -> f64 {
     }
 }
 
-/// Whether a contact begins to ring in a mode at the start, by what is out of balance there: whether its ringing, of amplitude
-/// a = [(u̇/ω)² + (ü/ω²)²]^½ with the rate and the second derivative that u begins with, turns u against what a stuck contact gives
-/// way to a foot that moves by a sine, x̂(ω'/ω)² at ω'.
+/// Whether an imbalance at the start excites a mode at a contact. The amplitude a = [(u̇/ω)² + (ü/ω²)²]^½ must exceed the
+/// response to a sinusoidal foot, x̂(ω'/ω)², with frequency ω'.
 ///
-/// Of one that swings far below u_c friction takes little; one near to it is over before its dampers say so.
+/// Very small oscillations do not count; oscillations near u_c end soon by friction.
 fn rings_from_start(Setup { scene, model, start }: Setup<'_>, c: usize, frequency: f64) -> bool {
     let (contact, layout) = (&model.contacts[c], model.layout());
     let eq = Equations::on(model, start, layout, false);
@@ -179,10 +176,8 @@ fn rings_from_start(Setup { scene, model, start }: Setup<'_>, c: usize, frequenc
     amplitude > given && (SEEN..LOST).contains(&(amplitude / contact.natural.displacement))
 }
 
-/// Estimate for contact `c` over the whole run.
-///
-/// Turns by every waveform that reaches it, ringing by the one that keeps it up longest or by the start, and landings. 0 for
-/// a contact without friction or never pressed.
+/// Returns the estimate for contact `c` over the run: reversals by all waveforms that reach it, the longest free oscillation, and
+/// landings. 0 for a contact without friction or never pressed.
 fn of_contact(
     setup: Setup<'_>,
     c: usize,
@@ -192,17 +187,17 @@ fn of_contact(
     let Setup { scene, model, start } = setup;
     let Some(contact) = scene.contacts.get(c).map(|contact| &contact.part) else { return 0.0 };
     let Some(d) = model.indentations(start, c) else { return 0.0 };
-    // Never pressed, or nothing to remember: no event is its own.
+    // Without load or friction the contact has no events of its own.
     if d.most <= 0.0 || contact.interface.friction() == 0.0 {
         return 0.0;
     }
     let (per_ringing, per_turns) = (PER_RINGING.of(contact.normal), PER_TURNS.of(contact.normal));
-    // The fastest mode that moves it: slower ones turn it less often.
+    // The fastest mode that moves it causes the most reversals.
     let ringing = modes.iter().rfind(|mode| rings_at(linear, mode, c));
-    // Events of a ringing that corners keep up for at most `time`, s.
+    // Events of an oscillation that corners excite for at most `time`, s.
     let rings = |time: f64, corners: f64| {
         ringing.map_or(0.0, |mode| {
-            // Without damping it is infinite, and the ringing lasts as long as the run.
+            // Without damping the decay time is infinite, and the oscillation lasts for the run.
             let decay = DECAY / (mode.damping_ratio * mode.frequency);
             per_ringing * mode.frequency / TAU * time.min(corners * decay)
         })
@@ -215,7 +210,7 @@ fn of_contact(
             Some(period) => {
                 let (cycles, corners) =
                     (cycles(waveform, period, duration), corners_per_period(waveform, period).max(kinks));
-                // Corners make a free body ring; a smooth waveform, or a walk, makes turns only.
+                // Corners excite free oscillations; smooth waveforms and prescribed paths cause reversals only.
                 let kicked = ringing.is_some() && corners > 0.0;
                 let turns = if kicked { PER_FLYBACK } else { per_turns };
                 (cycles * turns, if kicked { cycles * rings(period, corners) } else { 0.0 })
@@ -226,19 +221,17 @@ fn of_contact(
             }
         };
         turns += events;
-        // Several waveforms do not make a body ring faster.
+        // Several waveforms do not increase the frequency.
         most = most.max(ringing);
     }
-    // What corners keep up has begun anyway.
+    // Oscillations that corners excite are counted already.
     let from_start = ringing.filter(|mode| rings_from_start(setup, c, mode.frequency));
     most = most.max(from_start.map_or(0.0, |_| rings(duration, 1.0)));
     turns + most + PER_LANDING * landings(scene, (-d.start, closing(scene, contact)), duration)
 }
 
-/// The waveforms whose motion reaches contact `c`: those that its sides follow and that press it, and all that act on
-/// the free bodies that hang together with it.
-///
-/// Each with whether it comes through a block, whose laws put kinks into what is smooth.
+/// Returns the waveforms that move contact `c`, each with whether a block is in between, whose laws add kinks. They are followed
+/// by its sides, press it, or act on free bodies connected with it.
 fn drivers(scene: &Scene, c: usize) -> Vec<(usize, bool)> {
     let Some(contact) = scene.contacts.get(c) else { return Vec::new() };
     let edges = || {
@@ -254,7 +247,7 @@ fn drivers(scene: &Scene, c: usize) -> Vec<(usize, bool)> {
     };
     let mut reached: Vec<Side> = contact.part.between.into_iter().filter(is_free).collect();
     let mut next = 0;
-    // Bodies are joined by whatever acts between them; the ground joins nothing.
+    // Contacts, springs and actuators connect bodies; the ground does not.
     while let Some(side) = reached.get(next).copied() {
         next += 1;
         for other in edges().filter(|edge| edge.contains(&side)).flatten().filter(is_free) {

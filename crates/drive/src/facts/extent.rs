@@ -1,21 +1,19 @@
-//! How much a run to its end has of rows and steps.
+//! Number of rows and steps of a run.
 
 use crate::{Accuracy, Model, Plan};
 
-/// A row or a step this near to the end of the run, in intervals, is the last one.
+/// Distance at which a row or step counts as the end of the run, in intervals.
 const SAME: f64 = 1e-9;
 
-/// Rows of the trace: the grid strictly inside the run, and both its ends.
+/// Returns the number of rows of the trace: the grid inside the run and both ends.
 ///
-/// A number and no integer: what is asked for may be more than one holds. An early end leaves out the rest.
+/// It is an `f64` because it may exceed any integer type. Runs that end early have fewer rows.
 pub fn rows(plan: &Plan) -> f64 {
-    // The first and the last row are written whatever the interval.
+    // The first and the last row exist for any interval.
     plan.every.map_or(2.0, |every| (plan.duration / every - SAME).ceil().max(1.0) + 1.0)
 }
 
-/// Steps of a stepper at fixed step; none of the others.
-///
-/// The last one may be shorter.
+/// Returns the number of steps of a fixed-step stepper; the last one may be shorter. None for other steppers.
 pub fn fixed_steps(model: &Model, plan: &Plan) -> Option<f64> {
     match model.effective(plan.stepper).accuracy() {
         Accuracy::Step(step) => Some((plan.duration / step - SAME).ceil()),

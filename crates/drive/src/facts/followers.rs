@@ -1,22 +1,22 @@
-//! What follows the waveforms of a scene.
+//! Quantities that follow waveforms.
 
 use crate::scene::{Axis, Freedom, Normal, Scene, Varying};
 
-/// Something that follows a waveform.
+/// A quantity that follows a waveform.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Follower {
-    /// Place of the waveform in the scene.
+    /// Index of the waveform.
     pub waveform: usize,
-    /// What it is, such as `foot.x` or `ball.force`, in the scenario's words.
+    /// Name of the quantity, such as `foot.x` or `ball.force`, as in the scenario.
     pub what: String,
     /// Whether it is a force; otherwise a length or an angle.
     pub is_force: bool,
 }
 
-/// Everything that follows a waveform.
+/// Returns all quantities that follow a waveform.
 pub fn followers(scene: &Scene) -> Vec<Follower> {
     let mut followers = Vec::new();
-    // In the order of the scenario file: bodies, contacts, actuators, loads.
+    // In the order of the scenario: bodies, contacts, actuators, loads.
     let mut add = |waveform, what: String, is_force| followers.push(Follower { waveform, what, is_force });
     for body in &scene.bodies {
         for (axis, coordinate) in body.part.coordinates() {

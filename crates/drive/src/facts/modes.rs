@@ -1,32 +1,32 @@
-//! Normal modes with all contacts stuck, over the range of the loads.
+//! Normal modes with all contacts stuck, over the range of the normal loads.
 
 use super::{Setup, has_constant_load};
 use crate::NormalMode;
 use std::f64::consts::TAU;
 
-/// A normal mode with all contacts stuck.
+/// Normal mode with all contacts stuck.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Mode {
-    /// With all contacts as deep as at t = 0, Hz; 0: nothing holds this motion.
+    /// Frequency with the indentations of t = 0, Hz; 0 for a free motion.
     pub frequency: f64,
-    /// Frequencies, Hz, of the mode of this place with all contacts at their smallest and largest indentation; none where
-    /// all loads are constant.
+    /// Frequencies of the mode of this index at the smallest and the largest indentations, Hz. None if all normal loads are
+    /// constant.
     pub range: Option<(f64, f64)>,
-    /// Share of critical damping.
+    /// Damping ratio, a fraction of critical damping.
     pub damping_ratio: f64,
-    /// Displacement of each coordinate by its name, the largest 1.
+    /// Displacement of each coordinate by name; the largest is 1.
     pub shape: Vec<(String, f64)>,
 }
 
-/// All normal modes, by rising frequency.
+/// Returns all normal modes by increasing frequency.
 pub fn modes(setup: Setup<'_>) -> Vec<Mode> {
     let Setup { scene, model, start } = setup;
     let linearised = model.linearised(start, |d| d.start);
-    // Under constant loads all three are one: told once.
+    // Under constant loads the three frequencies are equal.
     let varies = scene.contacts.iter().any(|contact| !has_constant_load(&contact.part));
     let frequencies =
         |modes: Vec<NormalMode>| -> Vec<f64> { modes.iter().map(|mode| mode.frequency / TAU).collect() };
-    // By place and not by shape: modes that change places with the load are told in order of their frequency.
+    // Compared by order of frequency, not by shape.
     let least = frequencies(model.linearised(start, |d| d.least).modes());
     let most = frequencies(model.linearised(start, |d| d.most).modes());
     let names = linearised.coordinates();

@@ -1,25 +1,26 @@
-//! Contacts whose path (u, d) waveforms alone prescribe: stick, partial and gross slip without a run.
+//! Contacts whose path (u, d) waveforms prescribe: stick, partial and gross slip without a run.
 //!
-//! A spring at height h of the profile slips where its stretch reaches κ(d-h), κ = μE\*/G\*. The last spring to slip is that at h = 0. Its
-//! anchor p sticks for ever if max(u-κd) ≤ p ≤ min(u+κd) over a period; where no such p exists the whole contact slides once a period.
+//! A spring at height h of the profile slips when its stretch reaches κ(d-h), with κ = μE\*/G\*. The last spring to slip is that
+//! at h = 0. It sticks permanently at u = p if max(u-κd) ≤ p ≤ min(u+κd) over a period. Without such a p the whole contact slips
+//! in every period.
 
 use crate::contact::{Contact, Press};
 use crate::{Model, Piece, Waveform};
 use stickslip_stepper::{Bracket, Point, root};
 
-/// Most of the longest period that a common period is.
+/// Largest ratio of a common period to the longest period.
 const MULTIPLES: u32 = 1000;
-/// How far a multiple of a period may be from a common one, as a share of the period.
+/// Relative tolerance of a common period, in units of a period.
 const COMMENSURATE: f64 = 1e-9;
-/// Parts of the shortest quarter of a wave, and of a piece without waves, between which extremes are looked for.
+/// Number of intervals per quarter of the shortest wave, or per piece, in the search for extremes.
 const PARTS: f64 = 16.0;
-/// Most pieces and parts of one period.
+/// Largest number of pieces and intervals in one period.
 const MOST_PARTS: usize = 1 << 16;
-/// Share of the largest u and κd by which a path may miss itself on its way back and still be one line.
+/// Relative tolerance for a path that returns on the same line, in units of the largest u and κd.
 const SAME_LINE: f64 = 1e-9;
 
-/// The smallest time, s, after which waveforms of these periods, s, all begin again, to a billionth of each period; none without periods,
-/// or where it were more than a thousand of the longest.
+/// Returns the smallest common multiple of periods, s, to a relative tolerance of 1e-9. None without periods, or if it exceeds a
+/// thousand times the longest period.
 #[must_use]
 pub fn common_period(periods: &[f64]) -> Option<f64> {
     let longest = periods.iter().copied().fold(0.0, f64::max);
@@ -31,21 +32,22 @@ pub fn common_period(periods: &[f64]) -> Option<f64> {
         .flatten()
 }
 
-/// The path of a contact over one period, prescribed by waveforms.
+/// Path of a contact over one period, prescribed by waveforms.
 #[derive(Debug)]
 pub struct Prescribed<'m> {
     contact: &'m Contact,
     waveforms: Vec<(usize, &'m Waveform)>,
-    /// Ends of smooth stretches of the period, s, ascending.
+    /// Boundaries of the smooth sections of the period, s, ascending.
     corners: Vec<f64>,
 }
 
-/// A moment of the path: u and d, m, and their rates, m/s. An open contact has d = 0.
+/// u and d (m) and their rates (m/s) at one time. An open contact has d = 0.
 type Moment = [f64; 4];
 
 impl<'m> Prescribed<'m> {
-    /// The path of contact `c` of a model; none where a body moves freely, a block or a caller drives it, its springs are a row, or the
-    /// waveforms have no common period.
+    /// Returns the path of contact `c` of a model.
+    ///
+    /// None if a free body, a block or a caller moves it, if its springs are a row, or if the waveforms have no common period.
     #[must_use]
     pub fn of(model: &'m Model, c: usize) -> Option<Self> {
         let contact = model.contacts.get(c)?;
@@ -72,25 +74,24 @@ impl<'m> Prescribed<'m> {
         Some(Self { contact, waveforms, corners })
     }
 
-    /// max(u-κd) and min(u+κd) over the period, m: the contact slides as a whole where the first is above the second.
+    /// Returns max(u-κd) and min(u+κd) over the period, m. The contact slips as a whole if the first exceeds the second.
     #[must_use]
     pub fn gross(&self) -> [f64; 2] {
         let slope = self.contact.interface.stick_slope();
         let [low, high] = [-1.0, 1.0].map(|sign| {
-            // The largest of u-κd, and of -(u+κd).
+            // The maxima of u-κd and of -(u+κd).
             self.largest(|[u, d, du, dd]| (-sign * u - slope * d, -sign * du - slope * dd))
         });
         [low, -high]
     }
 
-    /// Largest indentation over the period, m; 0 of a contact that is never closed.
+    /// Returns the largest indentation over the period, m; 0 for a contact that never closes.
     #[must_use]
     pub fn deepest(&self) -> f64 {
         self.largest(|[_, d, _, dd]| (d, dd))
     }
 
-    /// By how much gross slip is reached: [max(u-κd) - min(u+κd)] as a share of the largest u and κd; at least 0 where the contact
-    /// slides as a whole.
+    /// Returns [max(u-κd) - min(u+κd)] relative to the largest u and κd. It is at least 0 if the contact slips as a whole.
     #[must_use]
     pub fn gross_margin(&self) -> f64 {
         let [low, high] = self.gross();
@@ -98,8 +99,8 @@ impl<'m> Prescribed<'m> {
         if scale > 0.0 { (low - high) / scale } else { 0.0 }
     }
 
-    /// By how much slip is reached at all: the largest (|u̇|-κ|ḋ|)/(|u̇|+κ|ḋ|) of a path that returns on the line it came along, which
-    /// is below 0 where every spring sticks; 1 of a path that encloses an area.
+    /// Returns the margin of slip: the maximum of (|u̇|-κ|ḋ|)/(|u̇|+κ|ḋ|) for a path that returns on the same line. It is
+    /// negative if every spring sticks. For a path that encloses an area it is 1.
     #[must_use]
     pub fn slip_margin(&self) -> f64 {
         let slope = self.contact.interface.stick_slope();
@@ -143,7 +144,7 @@ impl<'m> Prescribed<'m> {
         [u, d, rate_of(&self.contact.u), dd]
     }
 
-    /// Hands over the moments of every smooth stretch in order, and what tells of any other moment of it.
+    /// Calls `take` for every smooth section in order, with sampled times and a function for any other time of the section.
     fn each_stretch(&self, mut take: impl FnMut(&[(f64, Moment)], &dyn Fn(f64) -> Moment)) {
         let wave =
             self.waveforms.iter().map(|(_, waveform)| waveform.resolution()).fold(f64::INFINITY, f64::min);
@@ -160,14 +161,14 @@ impl<'m> Prescribed<'m> {
         }
     }
 
-    /// The largest value of a function of the path that is told with its rate.
+    /// Returns the maximum of a function of the path, which returns value and rate.
     fn largest(&self, of: impl Fn(Moment) -> (f64, f64)) -> f64 {
         let mut largest = f64::NEG_INFINITY;
         self.each_stretch(|moments, at| {
             for pair in moments.windows(2) {
                 let [from, to] = [pair[0], pair[1]].map(|(t, moment)| (t, of(moment)));
                 largest = largest.max(from.1.0).max(to.1.0);
-                // It rises and falls again in between.
+                // A maximum lies in between.
                 if from.1.1 > 0.0 && to.1.1 < 0.0 {
                     let ends = [from, to].map(|(t, (_, rate))| Point { x: t, y: rate });
                     let turn = root(|t| of(at(t)).1, Bracket { from: ends[0], to: ends[1] }, 0.0);
@@ -179,7 +180,7 @@ impl<'m> Prescribed<'m> {
     }
 }
 
-/// The ends of all pieces of the waveforms in a span, and its own; none where there are too many.
+/// Returns the sorted boundaries of all pieces of the waveforms in a time span. None if there are too many.
 fn corners(waveforms: &[(usize, &Waveform)], [start, end]: [f64; 2]) -> Option<Vec<f64>> {
     let mut all = vec![start, end];
     for (_, waveform) in waveforms {

@@ -1,56 +1,54 @@
-//! A contact at an indentation: force, stiffness, what an ideal inertia drive needs to step.
+//! A contact at a given indentation: force, stiffness, and the stroke that an ideal inertia drive needs for a step.
 //!
-//! Told by `info` and summaries before or beside a run; no run asks. Indentations come from
-//! [`Model::indentations`](crate::Model::indentations), so that a load that varies has these numbers at its
-//! least and its largest. The ideal inertia drive is quasi-static but for its flyback: a real slider comes
-//! near to S₀ only with a damper. The undamped ruby drive, S₀ = 29.377 nm by this function's formula, starts
-//! to step at about 0.96 u_c = 38 nm.
+//! For `info` and summaries only. For varying loads the values are evaluated at the extreme
+//! [indentations](crate::Model::indentations). The ideal inertia drive is quasi-static except for its flyback; a real slider
+//! comes close to S₀ only with damping.
 
 use super::Setup;
 use crate::scene::{Contact, Freedom, Normal, Scene, Side, Varying};
 use std::f64::consts::TAU;
 use stickslip_contact::{FirstLoading, Interface, NormalGiven, TangentialGiven};
 
-/// What depends on the indentation. Forces, radius and pressure are those of one contact, stiffnesses of all `count`.
+/// Quantities at an indentation. Forces, radius and pressure are those of one contact, stiffnesses those of all `count` contacts.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Pressed {
     /// F_N of one contact, N.
     pub normal_force: f64,
-    /// d, m; negative: open.
+    /// d, m; negative for an open contact.
     pub indentation: f64,
-    /// a, m.
+    /// Contact radius a, m.
     pub radius: f64,
     /// Largest pressure, Pa. Infinite at tips and edges; none for a list of springs.
     pub peak_pressure: Option<f64>,
-    /// u_c = κd, m.
+    /// Gross slip displacement u_c = κd, m.
     pub gross_slip: f64,
-    /// S₀ of the quasi-static, damped limit without load, m.
+    /// Zero-step stroke S₀ without load in the quasi-static limit, m.
     pub zero_step_stroke: f64,
-    /// What the constant load on the slider makes of it.
+    /// Effect of a constant load on the slider.
     pub loaded: Option<Loaded>,
-    /// μF_N of all contacts, N.
+    /// Friction limit μF_N of all contacts, N.
     pub limit_force: f64,
     /// ∂F_x/∂u of all contacts in full stick, N/m; 0 without friction.
     pub tangential_stiffness: f64,
     /// ∂F_N/∂d of all contacts, N/m.
     pub normal_stiffness: f64,
-    /// Frequency of the stuck contacts alone between their two bodies, Hz; none where neither is free.
+    /// Resonance frequency of the two bodies on the stuck contacts alone, Hz. None if neither body is free.
     pub resonance: Option<f64>,
 }
 
-/// A constant load on a body that depends on one contact only.
+/// A constant load on a body that one contact alone holds.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Loaded {
     /// Loads and gravity along x, N.
     pub force: f64,
-    /// |force|/μF_N.
+    /// Utilisation |force|/μF_N.
     pub share: f64,
-    /// S₀, m, where the load opposes the steps; none where the contact does not hold it.
+    /// Zero-step stroke S₀ for steps against the load, m. None if the contact does not hold the load.
     pub zero_step_stroke: Option<f64>,
 }
 
 impl Pressed {
-    /// Contact `c` at indentation d, m; none where there is no such contact.
+    /// Returns the quantities of contact `c` at indentation d (m). None if there is no such contact.
     pub fn of(setup: Setup<'_>, c: usize, d: f64) -> Option<Self> {
         let (_, law) = setup.model.contacts().nth(c)?;
         let count = f64::from(setup.scene.contacts.get(c)?.part.count);
@@ -67,7 +65,7 @@ impl Pressed {
                 Loaded { force, share, zero_step_stroke: zero_step_stroke(law, d, share) }
             }),
             limit_force: limit,
-            // Without friction nothing sticks, however deep.
+            // Without friction no spring sticks.
             tangential_stiffness: if law.friction() > 0.0 { count * law.stick_stiffness(d) } else { 0.0 },
             normal_stiffness: count * law.normal_stiffness(d),
             resonance: setup.model.contact_resonance(c, d).map(|omega| omega / TAU),
@@ -75,7 +73,7 @@ impl Pressed {
     }
 }
 
-/// Whether the load of a contact never changes.
+/// Whether the normal load of a contact is constant.
 pub fn has_constant_load(contact: &Contact) -> bool {
     match contact.normal {
         Normal::Force(load) | Normal::Indentation(load) | Normal::Radius(load) => {
@@ -85,22 +83,24 @@ pub fn has_constant_load(contact: &Contact) -> bool {
     }
 }
 
-/// S₀, m: the stroke below which an ideal inertia drive makes no step against a load of `share` = λ of μF_N. Its flyback
-/// is instantaneous and slips as a whole; then u rises quasi-statically from F_x = -μF_N until λμF_N, by Masing's rule
-/// twice the way of a first loading to ½(1+λ)μF_N. For f ~ rⁿ that is 2u_c[1 - ((1-λ)/2)^{n/(n+1)}]. None where the
+/// Returns the zero-step stroke S₀ against a load λμF_N, m, with `share` = λ: the stroke below which an ideal inertia drive makes
+/// no step.
+///
+/// The flyback is instantaneous, in gross slip. Then u increases quasi-statically from F_x = -μF_N to λμF_N. By Masing's rule
+/// this is twice the displacement of a first loading to ½(1+λ)μF_N. For f ~ rⁿ this is 2u_c[1 - ((1-λ)/2)^{n/(n+1)}]. None if the
 /// contact does not hold the load.
 pub fn zero_step_stroke(law: &Interface, d: f64, share: f64) -> Option<f64> {
     if !(0.0..1.0).contains(&share) {
         return None;
     }
-    // Masing: from -μF_N to λμF_N is twice a first loading to half of the difference.
+    // Masing: twice a first loading to half of the force difference.
     let force = 0.5 * (1.0 + share) * law.friction() * law.normal_force(d);
     let loading =
         FirstLoading::solve(law, NormalGiven::Indentation(d), TangentialGiven::Force(force)).ok()?;
     Some(2.0 * loading.u)
 }
 
-/// The constant force along x, N, on a free body that contact `c` alone holds; none where there is no such force.
+/// Returns the constant force along x on a free body that contact `c` alone holds, N. None without such a force.
 fn steady_load(scene: &Scene, c: usize) -> Option<f64> {
     let free = scene.contacts.get(c)?.part.between.into_iter().filter_map(|side| match side {
         Side::Body(body) if scene.bodies[body].part.x.freedom == Freedom::Free => Some(body),
@@ -113,7 +113,7 @@ fn steady_load(scene: &Scene, c: usize) -> Option<f64> {
             && !scene.actuators.iter().any(|actuator| holds(actuator.part.between))
     };
     let mut bodies = free.filter(|body| alone(*body));
-    // Two free bodies share a load by their masses: no one of them is the slider.
+    // Two free bodies share a load by their masses.
     let (Some(body), None) = (bodies.next(), bodies.next()) else { return None };
     let on_it = scene.loads.iter().filter(|load| load.on == body).map(|load| load.x);
     let constant = on_it.map(|force| match force {

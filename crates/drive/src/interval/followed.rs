@@ -1,22 +1,20 @@
-//! What followers make of the displacement of a contact, between two events.
+//! Prescribed part of a contact's displacement between two events.
 
 use crate::model::{Measure, Model};
 use crate::state::State;
 use crate::{Sample, Waveform};
 
-/// The part of a displacement that followers and constants make, in a form that needs no look at a waveform's piece: it
-/// is made once in an interval and asked at every evaluation.
+/// Prescribed part of a displacement in closed form: computed once per interval, without access to the waveform's piece.
 #[derive(Debug, Clone, Copy)]
 pub(crate) enum Followed<'a> {
-    /// All followers move at constant rates: constant + rate (t - start).
+    /// All prescribed motions have constant rates: constant + rate (t - start).
     Line { constant: f64, rate: f64, start: f64 },
-    /// A single one on a sum of sines: constant + factor · waveform.
+    /// One prescribed motion is a sum of sines: constant + factor · waveform.
     Sines { constant: f64, factor: f64, waveform: &'a Waveform },
 }
 
 impl<'a> Followed<'a> {
-    /// Of a measure in a state; none where there are several followers, one of them on a curved piece, or a single one on a
-    /// piece that is neither a line nor a sum of sines.
+    /// Returns the prescribed part of a measure in a state. None if it is neither linear in time nor one sum of sines.
     pub(crate) fn of(measure: &Measure, model: &'a Model, state: &State) -> Option<Self> {
         if let [(w, factor)] = measure.driven[..]
             && state.pieces.get(w)?.is_sines()
@@ -26,9 +24,9 @@ impl<'a> Followed<'a> {
         let mut start = None;
         let (mut constant, mut rate) = (measure.constant, 0.0);
         for &(w, a) in &measure.driven {
-            // What a block makes is neither.
+            // Outputs of blocks have neither form.
             let line = state.pieces.get(w)?.line()?;
-            // All lines from one time on: a value far from its own start would round.
+            // A common reference time avoids rounding.
             let from = *start.get_or_insert(line.time);
             constant += a * line.at(from);
             rate += a * line.rate;
@@ -36,12 +34,12 @@ impl<'a> Followed<'a> {
         Some(Self::Line { constant, rate, start: start.unwrap_or(0.0) })
     }
 
-    /// What does not move, m.
+    /// Returns a constant, m.
     pub(crate) fn constant(constant: f64) -> Self {
         Self::Line { constant, rate: 0.0, start: 0.0 }
     }
 
-    /// A signal alone; none where its piece is neither a line nor a sum of sines.
+    /// Returns one signal. None if its piece is neither linear nor a sum of sines.
     pub(crate) fn signal(w: usize, model: &'a Model, state: &State) -> Option<Self> {
         let piece = state.pieces.get(w)?;
         if piece.is_sines() {
@@ -51,7 +49,7 @@ impl<'a> Followed<'a> {
         Some(Self::Line { constant: line.at(line.time), rate: line.rate, start: line.time })
     }
 
-    /// Value (m) and its derivatives at time t, s.
+    /// Returns the value (m) and its derivatives at time t (s).
     #[inline(always)]
     pub(crate) fn at(&self, t: f64) -> Sample {
         match self {
@@ -66,7 +64,7 @@ impl<'a> Followed<'a> {
         }
     }
 
-    /// The line, [value at the start, rate, start], where it is one.
+    /// Returns [value at the start, rate, start] if it is linear in time.
     pub(crate) fn line(&self) -> Option<[f64; 3]> {
         match *self {
             Self::Line { constant, rate, start } => Some([constant, rate, start]),

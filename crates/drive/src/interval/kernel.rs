@@ -1,10 +1,9 @@
-//! The forces of an interval, laid out for its evaluations.
+//! Precomputed forces of an interval (kernel).
 //!
-//! Steps evaluate the equations some ten times each, and most scenes have few free coordinates. For up to [`WIDTH`] of them
-//! everything that an evaluation needs until the next event is gathered here when the interval begins: rows of Jacobians side
-//! by side with zeros where a coordinate does not count, what followers make of a length in closed form, the law of each
-//! contact; for more of them the same without zeros ([`wide`]). What has no such form (curved followers, rows in a lull, the whole law, blocks, varying loads) leaves the scene to
-//! the general [`Equations`], of which this is a copy that asks nothing twice.
+//! Steps evaluate the equations about ten times each. For up to [`WIDTH`] free coordinates, all data until the next event is
+//! stored contiguously. It contains rows of Jacobians padded with zeros, prescribed motions in closed form, and the law of each
+//! contact. Larger models use sparse rows ([`wide`]). Other elements (curved prescribed motions, rows of springs, the full force
+//! law, blocks, varying loads) require the general [`Equations`], with the same result.
 
 mod contacts;
 mod length;
@@ -21,10 +20,10 @@ use stickslip_contact::FixedDepthBranch;
 use ties::Tie;
 use wide::Wide;
 
-/// Most free coordinates of a kernel: two bodies along both directions.
+/// Largest number of free coordinates with padded rows: two bodies in two directions.
 pub(crate) const WIDTH: usize = 4;
 
-/// The forces of an interval. Scratch, made anew with it.
+/// Precomputed forces of an interval. Scratch memory, rebuilt with it.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Kernel<'a> {
     extent: Extent,
@@ -37,20 +36,20 @@ pub(crate) struct Kernel<'a> {
     wide: Wide<'a>,
 }
 
-/// What of all that acts is in a kernel.
+/// Completeness of a kernel.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 enum Extent {
-    /// Not all: the general equations hold.
+    /// Incomplete: the general equations are used.
     #[default]
     Part,
-    /// All, side by side.
+    /// Complete, with padded rows.
     Narrow,
-    /// All, on more coordinates than there is room for in a row.
+    /// Complete, with sparse rows.
     Wide,
 }
 
 impl<'a> Kernel<'a> {
-    /// Whether a model has room in one.
+    /// Whether a model may have a kernel.
     fn fits(model: &Model) -> bool {
         !model.free.is_empty()
             && model.loads.is_empty()
@@ -58,7 +57,7 @@ impl<'a> Kernel<'a> {
             && model.balanced.is_empty()
     }
 
-    /// Room for all that acts in a model.
+    /// Reserves memory for the forces of a model.
     pub(super) fn reserve(&mut self, model: &Model) {
         self.clear();
         if model.free.len() > WIDTH {
@@ -69,13 +68,13 @@ impl<'a> Kernel<'a> {
         self.links.reserve(model.links.len());
     }
 
-    /// The room that it takes, empty.
+    /// Returns its memory, empty.
     pub(super) fn emptied(self) -> Kernel<'static> {
         let (steady, moving, links) = (emptied(self.steady), emptied(self.moving), emptied(self.links));
         Kernel { steady, moving, links, wide: self.wide.emptied(), ..Kernel::default() }
     }
 
-    /// No interval: the general equations hold.
+    /// Clears it: the general equations are used.
     pub(super) fn clear(&mut self) {
         self.extent = Extent::Part;
         self.steady.clear();
@@ -84,7 +83,7 @@ impl<'a> Kernel<'a> {
         self.wide.clear();
     }
 
-    /// Lays out what acts between two events; leaves it to the general equations where something has no form here.
+    /// Computes the kernel of an interval. It stays incomplete if an element has no such form.
     pub(super) fn lay_out(
         &mut self,
         (model, state): (&'a Model, &State),
@@ -116,7 +115,7 @@ impl<'a> Kernel<'a> {
         self.extent = Extent::Narrow;
     }
 
-    /// Takes up another branch of a contact of closed form, by its place among these.
+    /// Sets another branch of a contact of closed form, given by its index among these.
     pub(super) fn renew(&mut self, place: usize, branch: FixedDepthBranch) {
         match self.extent {
             Extent::Part => {}
@@ -125,13 +124,13 @@ impl<'a> Kernel<'a> {
         }
     }
 
-    /// Whether all that acts is in it.
+    /// Whether it contains all forces.
     #[inline(always)]
     pub(crate) fn is_whole(&self) -> bool {
         self.extent != Extent::Part
     }
 
-    /// Slopes of all components, as [`Equations::slopes`](stickslip_stepper::System::slopes) has them.
+    /// Writes the slopes of all components, as [`Equations::slopes`](stickslip_stepper::System::slopes).
     #[inline(always)]
     pub(crate) fn slopes(&self, eq: &Equations<'_>, (t, y): (f64, &[f64]), dy: &mut [f64]) {
         match (eq.layout.free, self.moving.is_empty()) {
@@ -147,7 +146,7 @@ impl<'a> Kernel<'a> {
         }
     }
 
-    /// The same without velocities: accelerations, and the power put in.
+    /// Writes accelerations without velocities, and the input power.
     #[inline(always)]
     pub(crate) fn accelerations(&self, eq: &Equations<'_>, (t, x): (f64, &[f64]), out: &mut [f64]) {
         match x.len() {
@@ -159,15 +158,16 @@ impl<'a> Kernel<'a> {
         }
     }
 
-    /// Sums that begin with the constant forces.
+    /// Returns sums that begin with the constant forces.
     #[inline(always)]
     fn sums<const N: usize>(&self) -> Sums<N> {
         Sums { forces: std::array::from_fn(|i| self.forces[i]), input: 0.0, damping: 0.0 }
     }
 
-    /// `MOVING` is whether any contact has no constant depth or is damped: their laws take all the registers there are.
+    /// Writes the slopes for N coordinates. `MOVING` says whether a contact has variable depth or damping, whose laws need all
+    /// registers.
     ///
-    /// In the order of who asks, so that nothing need be moved on the way here.
+    /// The order of arguments avoids moves at the call.
     #[inline(never)]
     fn slopes_of<const N: usize, const MOVING: bool>(
         eq: &Equations<'_>,
@@ -185,7 +185,7 @@ impl<'a> Kernel<'a> {
             return;
         };
         *dx = *v;
-        // Beside the powers there are only the slopes of what grows: blocks and places without mass have no kernel.
+        // Besides powers there are only slopes of growing contacts; models with blocks or balanced coordinates have no kernel.
         let growing = eq.layout.growing;
         if growing > 0 {
             extra.fill(0.0);

@@ -1,7 +1,7 @@
-//! What the states of blocks do of themselves.
+//! Eigenvalues of the states of blocks.
 //!
-//! A block reads the blocks before it and none after: together their states have the eigenvalues that each has alone. What a
-//! block exerts on the bodies whose lengths it reads is left out.
+//! A block reads earlier blocks only, so the eigenvalues of all blocks are those of each block alone. Forces of blocks on the
+//! bodies whose lengths they read are neglected.
 
 use super::eigenvalues as all;
 use crate::component::{Block, Moment, Standing};
@@ -10,7 +10,7 @@ use crate::{Model, Sample};
 use nalgebra::{Complex, ComplexField, DMatrix};
 
 impl Model {
-    /// Eigenvalues, 1/s, of the states of all blocks, but for those that stay as they are.
+    /// Returns the nonzero eigenvalues of the states of all blocks, 1/s.
     pub(super) fn block_eigenvalues(&self) -> Vec<Complex<f64>> {
         let signals = self.signals();
         let with_states = self.blocks.iter().filter(|wired| wired.count() > 0);
@@ -19,21 +19,21 @@ impl Model {
     }
 }
 
-/// Eigenvalues of the gradient of a block's slopes about its start at these inputs, 1/s.
+/// Returns the eigenvalues of the Jacobian of a block's slopes at its start for these inputs, 1/s.
 pub(crate) fn eigenvalues(block: &(impl Block + ?Sized), inputs: &[Sample]) -> Vec<(f64, f64)> {
     let scales = block.states().scales;
     let (start, memory) = block.start(inputs);
     let slopes = |states: &[f64]| {
         let mut slopes = vec![0.0; scales.len()];
         let at = Moment { t: 0.0, inputs, states, located: true };
-        // What it exerts is not asked for.
+        // Efforts are ignored.
         block.slopes(Standing { law: &0, memory: &memory }, &at, &mut slopes, &mut [0.0; MOST_OF_A_BLOCK]);
         slopes
     };
     let first = slopes(&start);
     let n = scales.len();
     let mut gradient = DMatrix::zeros(n, n);
-    // In units of the scales: entries of like sizes, which an eigenvalue iteration needs for its digits.
+    // Scaling by natural scales gives entries of similar size, for accurate eigenvalues.
     for (j, scale) in scales.iter().enumerate() {
         let mut moved = start.clone();
         moved[j] += scale;

@@ -1,14 +1,14 @@
-//! What drives the linearised motions: the right side of M ẍ + C ẋ + K x = Σ (pᵥ v + qᵥ v̇) over the signals v.
+//! Inputs of the linearised motions: M ẍ + C ẋ + K x = Σ (pᵥ v + qᵥ v̇) over the signals v.
 
 use super::Indentations;
 use crate::model::{Measure, Stroke};
 use crate::{Model, State};
 use nalgebra::DVector;
 
-/// A signal that drives the free coordinates.
+/// A signal that acts on the free coordinates.
 #[derive(Debug, Clone, PartialEq)]
 pub struct LinearInput {
-    /// Its place: that of a waveform of the scene, or behind these that of a block.
+    /// Index of the signal: waveforms first, then blocks.
     pub signal: usize,
     /// p: force on each free coordinate per value of the signal.
     pub stiffness: DVector<f64>,
@@ -17,9 +17,11 @@ pub struct LinearInput {
 }
 
 impl Model {
-    /// The signals that drive the motions of [`Model::linearised`], with all contacts stuck, each at the indentation (m) that
-    /// `depth` picks: bodies that follow a waveform, strokes of stacks, loads. Signals that drive nothing are left out; those
-    /// from waveforms and blocks on are coordinates without mass.
+    /// Returns the signals that drive the motions of [`Model::linearised`], with all contacts stuck at the indentation (m) that
+    /// `depth` selects.
+    ///
+    /// They are prescribed motions of bodies, strokes of stacks, and loads; signals without effect are omitted. Indices after
+    /// waveforms and blocks are balanced coordinates.
     #[must_use]
     pub fn linear_inputs(&self, state: &State, depth: impl Fn(&Indentations) -> f64) -> Vec<LinearInput> {
         let mut all: Vec<LinearInput> = Vec::new();

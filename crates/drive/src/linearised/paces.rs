@@ -1,41 +1,39 @@
-//! How fast the small motions of a scene go, and whether some of them are stiff.
+//! Rates of small motions, and stiffness of the model.
 
 use crate::Model;
 use nalgebra::{Complex, ComplexField};
 use std::f64::consts::FRAC_PI_2;
 
-/// Share of a motion e^{λt} that is decay, -Re λ/|λ|, from which on it is gone before it has swung.
+/// Ratio -Re λ/|λ| above which a motion e^{λt} counts as decaying.
 const FADES: f64 = 0.5;
-/// How many times faster than all else a motion must fade to be stiff.
-// Until then explicit steps, which follow it, are no more work than implicit ones, which solve equations to ignore it.
+/// Ratio of the fastest decay rate to all other rates above which a model is stiff.
+// Below this ratio explicit steps are as cheap as implicit ones.
 const STIFF: f64 = 100.0;
 
-/// How fast small motions go.
+/// Largest rates of small motions.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(crate) struct Paces {
-    /// Largest |λ|, 1/s, of the motions e^{λt} of bodies.
+    /// Largest |λ| of the motions e^{λt} of bodies, 1/s.
     pub(crate) fastest: f64,
-    /// The same of those that fade, 0 without any.
+    /// Largest |λ| of the decaying ones, 0 without any.
     pub(crate) fading: f64,
-    /// Whether the fastest of all motions that fade, states of blocks among them, is far faster than what does not fade and
-    /// what the waveforms do.
+    /// Whether the fastest decay, including states of blocks, is much faster than all oscillations and waveforms.
     pub(crate) stiff: bool,
 }
 
-/// Rates of a scene, 1/s.
+/// Rates of small motions, 1/s.
 #[derive(Default)]
 struct Rates {
-    /// Largest of a motion that fades.
+    /// Largest rate of a decaying motion.
     fading: f64,
-    /// Largest of one that swings on.
+    /// Largest rate of an oscillating motion.
     lasting: f64,
-    /// Smallest of all.
+    /// Smallest rate.
     least: Option<f64>,
 }
 
 impl Model {
-    /// With all contacts stuck and as deep as they get: stiffness grows with the indentation, and a bound must hold throughout
-    /// the run.
+    /// Returns the rates with all contacts stuck at their largest indentation, as bounds for the whole run.
     pub(crate) fn paces(&self) -> Paces {
         let (mut fastest, mut all) = (0.0_f64, Rates::default());
         if let Some(frequency) = self.only_frequency() {
@@ -45,7 +43,7 @@ impl Model {
             for part in self.parts(|d| d.most) {
                 let frequency = part.highest_frequency();
                 fastest = fastest.max(frequency);
-                // Without dampers λ = ±iω: the symmetric matrix is half as large and exact to rounding.
+                // Without dampers λ = ±iω: a symmetric matrix of half the size suffices.
                 if part.damping.amax() == 0.0 {
                     all.add(&Complex { re: 0.0, im: frequency });
                     continue;
@@ -76,8 +74,8 @@ impl Rates {
         self.least = Some(self.least.map_or(size, |least| least.min(size)));
     }
 
-    /// What goes on beside that which fades, 1/s: the fastest swing, the waveforms' periods and waves. Where there is nothing of
-    /// all that, the slowest motion.
+    /// Returns the largest rate that does not decay, 1/s: oscillations, periods and waves of waveforms. Without any, the smallest
+    /// rate.
     fn pace(&self, model: &Model) -> f64 {
         let waves = model.waveforms.iter().flat_map(|waveform| {
             [std::f64::consts::TAU / waveform.extent(), FRAC_PI_2 / waveform.resolution()]

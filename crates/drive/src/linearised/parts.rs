@@ -1,33 +1,31 @@
-//! The linearised motions in parts that do not move each other.
+//! Linearised motions by independent subsystems.
 //!
-//! A row couples what it counts and nothing else: coordinates that no row joins have matrices of their own. Ten thousand sliders
-//! are ten thousand matrices of one number and not one of 10⁸, whose eigenvalues would take days.
+//! Coordinates that no contact or link connects have separate matrices. Many independent sliders then need many small matrices
+//! instead of a large one.
 
 use super::{Indentations, Linearised, Row, add};
 use crate::Model;
 use crate::model::Terms;
 use nalgebra::{DMatrix, DVector};
 
-/// Up to so many free coordinates one matrix takes no time: it is not parted, for eigenvalues of parts have other last digits
-/// than those of the whole, and so would the runs that take their shortest period from them.
-// A ball free in the plane, parted into x with pitch and z, had other last digits from its first bounce on. A thousand
-// coordinates together take a second, four thousand more than a minute.
+/// Number of free coordinates up to which one matrix is used.
+// Eigenvalues of subsystems differ in the last bit, and so would runs of small models.
 const TOGETHER: usize = 64;
 
-/// Which part each free coordinate belongs to, and its place there.
+/// Subsystem of each free coordinate, and its index there.
 struct Division {
     places: Vec<(usize, usize)>,
-    /// Coordinates of each part.
+    /// Coordinates of each subsystem.
     members: Vec<Vec<usize>>,
 }
 
 impl Model {
-    /// All motions about the state at t = 0 in one part, with the contacts as deep as said, m.
+    /// Returns all motions about the state at t = 0 in one matrix, with given indentations of the contacts, m.
     pub(super) fn whole(&self, depth: impl Fn(usize) -> f64) -> Linearised {
         self.assemble(&Division::none(self.free.len()), depth).pop().unwrap_or_else(Linearised::nothing)
     }
 
-    /// The same in parts that do not move each other, about the start and with the contacts as deep as `depth` picks.
+    /// Returns the motions by subsystem about the start, with the indentations (m) that `depth` selects.
     pub(super) fn parts(&self, depth: impl Fn(&Indentations) -> f64) -> Vec<Linearised> {
         let picked = |c: usize| {
             let start = self.indentation(&self.contacts[c]);
@@ -37,7 +35,7 @@ impl Model {
         self.assemble(&if few { Division::none(self.free.len()) } else { self.divide() }, picked)
     }
 
-    /// Joins what a row of a link, or of a contact that holds along it, counts together.
+    /// Groups the coordinates that links or contacts connect.
     fn divide(&self) -> Division {
         let mut heads: Vec<usize> = (0..self.free.len()).collect();
         let links = self.links.iter().map(|link| &link.elongation);
@@ -52,7 +50,7 @@ impl Model {
         let mut members: Vec<Vec<usize>> = Vec::new();
         let mut places: Vec<(usize, usize)> = Vec::with_capacity(heads.len());
         for i in 0..heads.len() {
-            // The head is the first of its part.
+            // The first coordinate represents its subsystem.
             let part = match head(&mut heads, i) {
                 own if own == i => {
                     members.push(Vec::new());
@@ -107,12 +105,12 @@ impl Model {
 }
 
 impl Division {
-    /// All coordinates in one part.
+    /// Returns one subsystem with all coordinates.
     fn none(free: usize) -> Self {
         Self { places: (0..free).map(|i| (0, i)).collect(), members: vec![(0..free).collect()] }
     }
 
-    /// The part that a row counts in, and the row in places of that part; the first part for one that counts nothing.
+    /// Returns the subsystem of a row, and the row with the indices of that subsystem. The first subsystem for an empty row.
     fn row(&self, terms: &Terms) -> (usize, Row) {
         let part = terms.first().map_or(0, |(i, _)| self.places[*i].0);
         (part, terms.iter().map(|(i, a)| (self.places[*i].1, *a)).collect())
@@ -120,14 +118,14 @@ impl Division {
 }
 
 impl Linearised {
-    /// No motion at all.
+    /// Returns a system without coordinates.
     fn nothing() -> Self {
         let (mass, damping) = (DVector::zeros(0), DMatrix::zeros(0, 0));
         Self { coordinates: Vec::new(), contacts: Vec::new(), mass, stiffness: damping.clone(), damping }
     }
 }
 
-/// The first coordinate of the part that one belongs to; on the way all that are asked learn it.
+/// Returns the first coordinate of a subsystem, with path compression.
 fn head(heads: &mut [usize], i: usize) -> usize {
     let mut top = i;
     while heads[top] != top {

@@ -1,43 +1,41 @@
-//! How long the steps of methods of fixed step may be.
+//! Stability limits of fixed-step methods.
 
 use super::Linearised;
 use nalgebra::{Complex, ComplexField};
 
-/// Halvings that find a longest step to the last bit.
-// 32 leave a longest step wrong by 3e-10.
+/// Number of bisections for a stability limit, to the last bit.
 const HALVINGS: u32 = 64;
 
-/// How long a step of a fixed length may be, s.
+/// Stability limits of a method, s.
 #[derive(Clone, Copy)]
 pub(crate) struct Reach {
-    /// Until a motion of bodies grows.
+    /// Limit for the motion of bodies.
     pub(super) motion: fn(&Linearised) -> f64,
-    /// Until a state of first order grows that has this eigenvalue, 1/s.
+    /// Limit for a first-order state with this eigenvalue, 1/s.
     pub(super) state: fn(&Complex<f64>) -> f64,
 }
 
 impl Reach {
-    /// Of velocity Verlet.
+    /// Limits of velocity Verlet.
     pub(crate) const VERLET: Self = Self { motion: Linearised::longest_verlet_step, state: verlet_reach };
-    /// Of the classical Runge–Kutta method.
+    /// Limits of the classical Runge–Kutta method.
     pub(crate) const RK4: Self = Self { motion: Linearised::longest_rk4_step, state: rk4_reach };
 }
 
-/// The longest step with which Runge–Kutta of order 4 keeps x' = `rate` x from growing. In the left half-plane the region
-/// of stability is star-shaped, contains the half disc |z| < 2.6 and ends before |z| = 3.
+/// Returns the largest step of the classical Runge–Kutta method for which x' = `rate` x does not grow, s. In the left half-plane
+/// the stability region is star-shaped, contains the half disc |z| < 2.6 and lies within |z| = 3.
 pub(super) fn rk4_reach(rate: &Complex<f64>) -> f64 {
     let growth = |h: f64| {
         let z = rate * h;
         (((z / 4.0 + 1.0) * z / 3.0 + 1.0) * z / 2.0 + 1.0) * z + 1.0
     };
-    // The half disc is asked first: near 0 growth differs from 1 by rounding only, and rounding may fall on
-    // the wrong side.
+    // Near 0 the growth factor differs from 1 by rounding only, so the half disc is tested first.
     longest(3.0 / rate.modulus(), |h| h * rate.modulus() < 2.6 || growth(h).modulus() <= 1.0)
 }
 
-/// The same of velocity Verlet, which steps states of first order as Adams and Bashforth's method of order 2 does: the roots of
-/// ξ² - (1 + 3z/2) ξ + z/2 stay in the unit circle, of a decay until z = -1. An eigenvalue that does not decay has no such
-/// step; it gets one that resolves it.
+/// Returns the longest stable step of velocity Verlet for a first-order state, s. It is the Adams–Bashforth method of order 2
+/// there: the roots of ξ² - (1 + 3z/2) ξ + z/2 must be in the unit circle; for a real decay up to z = -1. For a growing state it
+/// returns 1/|λ|.
 fn verlet_reach(rate: &Complex<f64>) -> f64 {
     let most = 1.0 / rate.modulus();
     if rate.re >= 0.0 {
@@ -51,7 +49,7 @@ fn verlet_reach(rate: &Complex<f64>) -> f64 {
     })
 }
 
-/// The largest h up to `most` for which `stable` holds, where it holds from 0 up to that.
+/// Returns the largest h up to `most` for which `stable` holds, if it holds in an interval from 0.
 pub(super) fn longest(most: f64, stable: impl Fn(f64) -> bool) -> f64 {
     let (mut good, mut bad) = (0.0, most);
     for _ in 0..HALVINGS {

@@ -1,8 +1,8 @@
-//! What a run will do, known beforehand.
+//! Prediction of the methods of a run.
 //!
-//! No rule is written twice: states are made in which the contacts are in partial or in gross slip, grow or are apart, with
-//! waveforms on straight pieces or on curved ones, and the run's own functions are asked what they would do there. Kinds of
-//! intervals that a scene cannot come to, such as a flight of a contact that is always pressed, are left out.
+//! The functions of the run are called for artificial states. In these, contacts are in partial slip, in gross slip, growing or
+//! open, and waveforms on linear or curved pieces. Intervals that the model cannot have, such as flight of a contact that is
+//! always pressed, are omitted.
 
 use super::{IntervalTraits, Method, SceneTraits, Treatment, Why, choice, stepping, treatment};
 use crate::contact::{Contact, Mode, Motion};
@@ -13,24 +13,24 @@ use crate::state::State;
 use crate::{Accuracy, Stepper, Waveform};
 use stickslip_contact::{Apex, Course, Memory, Segment};
 
-/// The methods and treatments that the intervals of a run can come to, each with its reason.
+/// Methods and treatments that may occur in a run, each with its reason.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Expected {
-    /// In the order of their share of the work.
+    /// Methods, by decreasing share of the work.
     pub methods: Vec<(Method, Why)>,
-    /// By contact.
+    /// Treatments of each contact.
     pub contacts: Vec<Vec<(Treatment, Why)>>,
 }
 
-/// Pieces of a waveform that are looked through for one of each kind.
+/// Number of pieces of a waveform that are searched for one of each kind.
 const PIECES: u32 = 8;
 
-/// What all contacts may be doing at once.
+/// Artificial state of all contacts.
 #[derive(Clone, Copy)]
 struct Phase {
-    /// How far those that a load presses have been dragged, in u_c: partial or gross slip.
+    /// Displacement of contacts with constant load, in u_c: partial or gross slip.
     dragged: f64,
-    /// The course of those that bodies or waveforms press.
+    /// Motion of contacts with varying normal load.
     pressed: Course,
 }
 
@@ -51,12 +51,12 @@ const PHASES: [Phase; 8] = {
 };
 
 impl Expected {
-    /// Whether a method is among them.
+    /// Whether a method may occur.
     pub fn takes(&self, method: Method) -> bool {
         self.methods.iter().any(|(known, _)| *known == method)
     }
 
-    /// Why a contact, by its place in the scene, is treated so, if it can be.
+    /// Returns the reason of a treatment of a contact, given by its index. None if the treatment cannot occur.
     pub fn treats(&self, contact: usize, treatment: Treatment) -> Option<Why> {
         let known = self.contacts.get(contact)?.iter().find(|(known, _)| *known == treatment)?;
         Some(known.1)
@@ -76,10 +76,8 @@ impl Expected {
 }
 
 impl Model {
-    /// What a run from `start` by a stepper will do: every method that it may take and every treatment that a contact may get,
-    /// the one that is asked for most first. Asked are the functions that the run asks, of one interval of each kind
-    /// that the scene can come to: its contacts in partial and in gross slip, growing and apart, its waveforms on straight
-    /// pieces and on curved ones.
+    /// Returns the methods and treatments that may occur in a run from `start` with a stepper, the most frequent first. Calls the
+    /// functions of the run for one interval of each possible kind.
     pub fn expected(&self, start: &State, stepper: Stepper) -> Expected {
         let mut expected =
             Expected { contacts: vec![Vec::new(); self.contacts.len()], ..Expected::default() };
@@ -112,14 +110,14 @@ impl Model {
         {
             expected.add((brief, Why::NearEvent));
         }
-        // Implicit steps are all even.
+        // Implicit steps are always even.
         if !scene.stiff && self.contacts.iter().any(Contact::ends_singularly) {
             expected.add((Method::Graded, Why::SingularMoment));
         }
         expected
     }
 
-    /// Asks what is done in an interval that begins in a state.
+    /// Adds method and treatments of an interval that begins in a state.
     fn ask<'a>(&'a self, scene: &SceneTraits, state: &State, swing: &mut Swing<'a>, expected: &mut Expected) {
         let mut interval = Interval::of(self);
         interval.begin(self, state);
@@ -137,13 +135,13 @@ impl Model {
         }
     }
 
-    /// The start with all contacts in a phase and all waveforms on pieces of one kind, as far as they have any.
+    /// Returns the initial state with all contacts in a phase and waveforms on pieces of one kind, where possible.
     fn state_in(&self, start: &State, phase: Phase, straight: bool) -> State {
         let mut state = start.clone();
         state.pieces = self.waveforms.iter().map(|waveform| piece(waveform, straight)).collect();
         for (c, contact) in self.contacts.iter().enumerate() {
             let constant = contact.is_constant();
-            // A slider dragged forward drags a contact whose second body it is backward.
+            // A slider moved forward drags a contact of which it is the second body backward.
             let lean = contact.u.free.first().map_or(1.0, |(_, a)| a.signum());
             let course = match phase.pressed {
                 Course::Open if !constant && !self.can_part(start, c) => Course::Forward,
@@ -160,31 +158,31 @@ impl Model {
         state
     }
 
-    /// Whether contact `c` can be apart.
+    /// Whether contact `c` can be open.
     fn can_part(&self, start: &State, c: usize) -> bool {
         self.indentations(start, c).is_none_or(|d| d.least <= 0.0)
     }
 
-    /// The memory of a contact that has been dragged so far, in u_c, to where it stands.
+    /// Returns the memory of a contact after a displacement `by`, in u_c, to its present position.
     fn dragged(&self, contact: &Contact, state: &State, by: f64) -> Memory {
         let (d, way) = (contact.natural.depth, by * contact.natural.displacement);
         let equations = Equations::on(self, state, self.layout(), false);
         let u = equations.motion(contact, state.t, |i| state.y[i]).u;
         let mut memory = contact.engine.memory(&contact.interface, Apex { d, u: u - way });
-        // Where that is not to be had the contact stays as it was made.
+        // If this is impossible, the memory stays in its initial state.
         let _ = memory.commit(&contact.interface, Segment::Straight(Apex { d, u }));
         memory
     }
 }
 
 impl Contact {
-    /// Whether its force can end or begin with the power 3/2 of the time: at a touch, or where the last springs slip.
+    /// Whether its force can have a singular moment, with a power 3/2 of time: at a touch, or where gross slip begins.
     fn ends_singularly(&self) -> bool {
         !self.is_never_pressed() && (self.coupling().is_some() || !self.inert && self.engine.branches())
     }
 }
 
-/// One of a waveform's first pieces that is straight, or curved; its first one where it has none such.
+/// Returns one of a waveform's first pieces that is linear or curved, as requested; its first one if there is none.
 fn piece(waveform: &Waveform, straight: bool) -> crate::Piece {
     let first = waveform.piece_at(0.0);
     let mut piece = first;

@@ -1,16 +1,16 @@
-//! What a run did, counted.
+//! Counts of methods and treatments in a run.
 //!
-//! One count per accepted step or leap, and one per contact and interval. Counts are part of the state beside those of steps
-//! and events: a run that goes on goes on counting.
+//! One count per accepted step, and one per contact and interval. The counts are part of the state and continue when a run is
+//! resumed.
 
 use super::{Method, Treatment};
 use stickslip_contact::Words;
 
-/// How often each method was taken, and each treatment given.
+/// Number of uses of each method and treatment.
 #[derive(Debug, PartialEq, Eq, Default)]
 pub struct Tally {
     methods: [u64; Method::ALL.len()],
-    /// By contact.
+    /// Counts by contact.
     treatments: Vec<[u64; Treatment::ALL.len()]>,
 }
 
@@ -19,7 +19,7 @@ impl Clone for Tally {
         Self { methods: self.methods, treatments: self.treatments.clone() }
     }
 
-    /// In the room there is.
+    /// Reuses the memory.
     fn clone_from(&mut self, from: &Self) {
         self.methods = from.methods;
         self.treatments.clone_from(&from.treatments);
@@ -27,7 +27,7 @@ impl Clone for Tally {
 }
 
 impl Method {
-    /// All of them.
+    /// All methods.
     pub const ALL: [Self; 11] = [
         Self::Walk,
         Self::Swing,
@@ -42,10 +42,10 @@ impl Method {
         Self::AskedFor,
     ];
 
-    /// What a user reads.
+    /// Returns the name for reports.
     pub fn name(self) -> &'static str {
         match self {
-            Self::Walk => "walk from event to event",
+            Self::Walk => "steps along the path",
             Self::Swing => "closed form from event to event",
             Self::Parabola => "parabola",
             Self::Nystrom => "Runge–Kutta–Nyström 8(6)",
@@ -53,38 +53,38 @@ impl Method {
             Self::DormandPrince => "Dormand–Prince 8(5,3)",
             Self::Brief => "Dormand–Prince 5(4)",
             Self::Radau => "Radau IIA 9, implicit",
-            Self::Graded => "Dormand–Prince 8(5,3) with crowded stages",
+            Self::Graded => "graded Dormand–Prince 8(5,3)",
             Self::Whole => "step doubling on the full force law",
-            Self::AskedFor => "the stepper asked for",
+            Self::AskedFor => "stepper of the scenario",
         }
     }
 }
 
 impl Treatment {
-    /// All of them.
+    /// All treatments.
     pub const ALL: [Self; 4] = [Self::Spared, Self::Apart, Self::Closed, Self::General];
 }
 
 impl Tally {
-    /// Nothing yet, of a number of contacts.
+    /// Returns zero counts for a number of contacts.
     pub(crate) fn of(contacts: usize) -> Self {
         Self { methods: Default::default(), treatments: vec![Default::default(); contacts] }
     }
 
-    /// Nothing yet, in the room there is.
+    /// Resets the counts, reusing the memory.
     pub(crate) fn clear(&mut self, contacts: usize) {
         self.methods = Default::default();
         self.treatments.clear();
         self.treatments.resize(contacts, Default::default());
     }
 
-    /// Writes all counts.
+    /// Appends all counts to `words`.
     pub(crate) fn write(&self, words: &mut Vec<u64>) {
         words.extend(self.methods);
         self.treatments.iter().for_each(|counts| words.extend(counts));
     }
 
-    /// Reads those of a number of contacts.
+    /// Reads the counts for a number of contacts. None if they are incomplete.
     pub(crate) fn read(contacts: usize, words: &mut Words<'_>) -> Option<Self> {
         let mut tally = Self::of(contacts);
         let treatments = tally.treatments.iter_mut().flatten();
@@ -94,12 +94,12 @@ impl Tally {
         Some(tally)
     }
 
-    /// Steps, or leaps, taken by a method.
+    /// Returns the number of steps by a method.
     pub fn steps(&self, method: Method) -> u64 {
         self.methods[method as usize]
     }
 
-    /// Intervals between two events in which a contact, by its place in the scene, was treated so.
+    /// Returns the number of intervals in which a contact, given by its index, had a treatment.
     pub fn intervals(&self, contact: usize, treatment: Treatment) -> u64 {
         self.treatments.get(contact).map_or(0, |counts| counts[treatment as usize])
     }

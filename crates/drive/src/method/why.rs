@@ -1,97 +1,97 @@
-//! Reasons, in the words that a user reads.
+//! Reasons for methods and treatments.
 
 use std::fmt;
 
-/// Why something is integrated as it is, or is spared.
+/// Reason for a method or a treatment. Its text is for reports.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Why {
     /// No coordinate is free.
     NothingFree,
-    /// Places without mass are solved for.
+    /// Coordinates are balanced.
     Balanced,
-    /// A single slider among contacts whose energy has a closed form of roots, all dragged alike along a line.
+    /// Single slider with contacts whose energy has a closed form, all with the same linear prescribed motion.
     OneQuadrature,
     /// Gross slip or flight under constant loads.
     ConstantForces,
-    /// A swing that has come to rest, or has no turning points.
+    /// An oscillation at rest, or without turning points.
     AtRest,
     /// No force depends on a velocity.
     NoVelocities,
-    /// A damper's force depends on a velocity.
+    /// The force of a damper depends on a velocity.
     Damper,
-    /// The force of a contact's stuck springs depends on a velocity.
+    /// The damping force of sticking springs depends on a velocity.
     ContactDamping,
-    /// Damped springs that stick and slip by turns, so that no step is long enough between two events.
+    /// Damped springs may stick and slip alternately, so that events accumulate.
     Turns,
-    /// The power of a load that varies depends on a velocity.
+    /// The power of a varying load depends on a velocity.
     VaryingLoad,
     /// The force of a contact that grows in full stick depends on its path.
     Growth,
-    /// A damper, damped springs or a block settle far faster than all else goes on.
+    /// A damper, damped springs or a block decay much faster than all other motions.
     Stiff,
-    /// A block has states of its own.
+    /// A block has states.
     Block,
     /// An event is near.
     NearEvent,
-    /// A force ends with the power 3/2 of the time.
+    /// A force has a power 3/2 of time at one end of the step.
     SingularMoment,
-    /// The stepper was asked for.
+    /// The stepper was requested.
     AskedFor,
-    /// A contact that nothing ever presses.
+    /// The contact is never pressed.
     NeverPressed,
-    /// A contact that is apart.
+    /// The contact is open.
     OnlyTheGap,
-    /// A contact that drags one edge over one piece of its memory.
+    /// One edge slips along one piece of memory.
     OneEdge,
-    /// Followers that make no closed form of u.
+    /// The prescribed motion has no closed form.
     CurvedFollower,
-    /// An indentation that varies.
+    /// The indentation varies.
     VaryingIndentation,
-    /// No friction: nothing to remember.
+    /// Without friction there is no memory.
     NoFriction,
-    /// A row of springs, straight until the next of them changes.
+    /// The forces of a row of springs are linear until a spring changes.
     BetweenSprings,
-    /// The whole law of a memory.
+    /// The memory computes the full force law.
     WholeLaw,
 }
 
 impl fmt::Display for Why {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self {
-            Self::NothingFree => "nothing is free: contacts are walked along their path",
+            Self::NothingFree => "no coordinate is free: contacts follow prescribed paths",
             Self::Balanced => {
-                "nothing has a mass: places are solved from the balance of forces, contacts walked from event to event"
+                "no body has a mass: positions follow from the balance of forces"
             }
             Self::OneQuadrature => {
                 "one slider, cones, powers up to r⁴ or spheres under constant load, straight waveforms: an interval is one quadrature"
             }
-            Self::ConstantForces => "in gross slip or flight all forces are constant",
-            Self::AtRest => "where a swing stops or does not reverse",
-            Self::NoVelocities => "no force depends on a velocity: a third of the evaluations is spared",
+            Self::ConstantForces => "all forces are constant in gross slip or flight",
+            Self::AtRest => "the motion comes to rest or does not reverse",
+            Self::NoVelocities => "no force depends on a velocity: this saves a third of the evaluations",
             Self::Damper => "the force of a damper depends on a velocity",
             Self::ContactDamping => "the force of damped stuck springs depends on a velocity",
             Self::VaryingLoad => "the power of a load that varies depends on a velocity",
             Self::Growth => "the force of a contact that grows in full stick depends on its path",
             Self::Stiff => {
-                "a damper, damped springs or a driver settle far faster than all else goes on: explicit steps would have to follow them all the time"
+                "stiff: a damper, damped springs or a driver settle much faster than the motion"
             }
-            Self::Block => "a block has states of its own beside the motion",
-            Self::NearEvent => "where an event is near: it would cut a longer step",
+            Self::Block => "a block has states of its own",
+            Self::NearEvent => "an event is near and would cut a longer step",
             Self::SingularMoment => {
-                "where gross slip or a touch begins or ends, a force goes with the power 3/2 of the time"
+                "gross slip or contact begins or ends: a force varies with the power 3/2 of time"
             }
-            Self::AskedFor => "asked for",
-            Self::NeverPressed => "never pressed: it is not evaluated, and nothing looks out for it",
-            Self::OnlyTheGap => "while apart: only the gap is watched",
+            Self::AskedFor => "chosen in the scenario",
+            Self::NeverPressed => "never pressed: forces and events are not evaluated",
+            Self::OnlyTheGap => "open contact: only the gap is evaluated",
             Self::OneEdge => {
-                "one edge is dragged over one piece of the memory: the force is a closed form, the memory moves at events only"
+                "slip advances along one segment of the memory: the force has a closed form, the memory changes only at events"
             }
-            Self::CurvedFollower => "followers that are neither lines nor a single sum of sines",
+            Self::CurvedFollower => "the prescribed motion is neither piecewise linear nor a sum of sines",
             Self::VaryingIndentation => "the indentation varies",
             Self::NoFriction => "no friction",
-            Self::BetweenSprings => "forces of a row are straight until one of its springs changes",
+            Self::BetweenSprings => "the forces of a row are linear until one of its springs changes state",
             Self::Turns => "damped springs may stick and slip alternately",
-            Self::WholeLaw => "the memory is asked at every evaluation",
+            Self::WholeLaw => "the memory is evaluated at every stage",
         })
     }
 }

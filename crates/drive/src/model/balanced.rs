@@ -1,13 +1,13 @@
-//! Coordinates without mass, whose place satisfies the balance of forces at every moment.
+//! Balanced (massless) coordinates, whose position satisfies a balance of forces.
 //!
-//! A balanced coordinate is a signal that is solved for, and bodies follow it as they follow a waveform: signals are numbered
-//! through, waveforms, then blocks, then balanced coordinates. Along each of them
+//! A balanced coordinate has no inertia: its value is the equilibrium of forces at each time. Bodies on it have a prescribed motion. Signals are numbered: waveforms, then blocks, then
+//! balanced coordinates. Along each of them
 //!
 //! k q + Σ a F(a q + rest) = P(t),
 //!
-//! with the springs' stiffness k (N/m), the contacts' forces F, by ±1 = a in their u or d, and the pull P (N) of loads and of
-//! the springs' other ends. Bodies without a contact of their own are eliminated when the model is built: what pulls at the
-//! far end of a rig pulls through its springs, and the place of that end follows from the place of the contact.
+//! with the stiffness k of springs (N/m), the forces F of contacts whose u or d contains a q (a = ±1), and the load P (N). P
+//! contains loads and forces of the other ends of springs. Bodies without a contact are eliminated when the model is built: their
+//! loads act through their springs, and their position follows from that of the contact.
 
 mod reduced;
 
@@ -18,37 +18,37 @@ use crate::scene::{self, Axis, Freedom, Scene, Varying};
 use crate::{Field, Part, SceneError, SceneFault, Waveform};
 pub(super) use reduced::{assign, springs};
 
-/// A coordinate without mass.
+/// Balanced coordinate.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Balanced {
     pub(crate) body: usize,
-    /// Along x or z.
+    /// Axis, x or z.
     pub(crate) axis: Axis,
-    /// Where it is at t = 0, m. Along x where it is drawn: contacts count from there, and the loads of t = 0 move it away in
-    /// no time. Along z where it is balanced.
+    /// Position at t = 0, m. Along x it is the reference position, from which contacts count; the loads of t = 0 then move it in
+    /// zero time. Along z it is the balanced position.
     pub(crate) first: f64,
-    /// Contacts that act along it, and how much of their u, or d, one m of it makes: 1 or -1.
+    /// Contacts that act along it, with the coefficient a in their u or d, 1 or -1.
     pub(crate) contacts: Vec<(usize, f64)>,
-    /// Stiffness of the springs, N/m; of a coordinate without contacts 1.
+    /// Stiffness of the springs, N/m; 1 for a coordinate without contacts.
     pub(crate) stiffness: f64,
-    /// What does not depend on the places of contacts, N; of a coordinate without contacts its place, m.
+    /// Load that does not depend on contacts, N; the position (m) for a coordinate without contacts.
     pub(crate) pull: Pull,
-    /// Of one without contacts: balanced coordinates that move it along, and by how much.
+    /// Balanced coordinates that move a coordinate without contacts, with their factors.
     pub(crate) led: Vec<(usize, f64)>,
-    /// Its own share, before others were eliminated.
+    /// Its own load, before the elimination of others.
     pub(crate) own: Pull,
-    /// Place among the components that carry it while a contact of its own grows; in the order of the coordinates.
+    /// Index among the states that hold its position while one of its contacts grows.
     pub(crate) slot: Option<usize>,
 }
 
-/// A sum of loads and ends of springs.
+/// Sum of loads and link forces.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub(crate) struct Pull {
     /// Constant loads.
     pub(crate) force: f64,
-    /// Loads that follow waveforms, and their factors.
+    /// Loads that follow waveforms, with their factors.
     pub(crate) loads: Vec<(usize, f64)>,
-    /// Springs and stacks, with what is left of their elongation, and their factors.
+    /// Springs and stacks with the rest of their elongation, and their factors.
     pub(crate) links: Vec<(Link, f64)>,
 }
 
@@ -63,7 +63,7 @@ impl Pull {
         self.links.extend(other.links.iter().map(|(link, a)| (link.clone(), factor * a)));
     }
 
-    /// Largest magnitude, N, by the ranges of the waveforms.
+    /// Returns the largest magnitude over the ranges of the waveforms, N.
     pub(super) fn widest(&self, range: impl Fn(usize) -> (f64, f64)) -> f64 {
         let wide = |w: usize| {
             let (low, high) = range(w);
@@ -82,7 +82,9 @@ impl Pull {
     }
 }
 
-/// What a coordinate of a body is bound to where it is balanced; `known` signals come before, `count` balanced ones so far.
+/// Adds a balanced coordinate of a body and returns its binding. `known` is the number of other signals.
+///
+/// Fails for a pitch, and for a body with a mass.
 pub(super) fn bind(
     (place, body): (usize, &scene::Body),
     axis: Axis,
@@ -110,17 +112,18 @@ pub(super) fn bind(
     Ok(Binding::Driven(known + all.len() - 1))
 }
 
-/// Part of the shortest waveform over which rates are compared: central differences of it miss a part of 1e-10.
+/// Time step of numerical differentiation, relative to the shortest waveform.
 const MOMENT: f64 = 1e-5;
 
-/// How far ahead and back rates are compared for their own rate, s.
+/// Returns the time step of numerical differentiation, s.
 pub(super) fn moment(waveforms: &[Waveform]) -> f64 {
     let shortest = waveforms.iter().map(Waveform::extent).fold(f64::INFINITY, f64::min);
     MOMENT * if shortest.is_finite() { shortest } else { 1.0 }
 }
 
 impl Model {
-    /// The smallest of what balanced coordinates can store, J: a contact at its natural depth, a spring under the widest pull.
+    /// Returns the smallest energy that a balanced coordinate can store, J: of a contact at its natural depth, or of a spring
+    /// under the largest load.
     pub(super) fn stored_scale(&self) -> Option<f64> {
         let range = |w: usize| self.signals().range(w);
         let of = |b: &Balanced| {
@@ -130,7 +133,7 @@ impl Model {
             };
             let contacts = b.contacts.iter().filter(|_| b.axis == Axis::Z).map(pressed).sum::<f64>();
             let pull = b.pull.widest(range);
-            // Of one that has been eliminated the stiffness is 1, and its pull a length.
+            // An eliminated coordinate has stiffness 1, and its load is a length.
             let springs =
                 if b.stiffness > 0.0 && !b.contacts.is_empty() { pull * pull / b.stiffness } else { 0.0 };
             contacts + springs
@@ -138,15 +141,15 @@ impl Model {
         self.balanced.iter().map(of).filter(|work| work.is_normal()).reduce(f64::min)
     }
 
-    /// What rounding makes of the work of pulls that springs hold, J.
+    /// Returns the rounding of the work of loads that springs hold, J.
     pub(crate) fn balanced_rounding(&self) -> f64 {
         let held = self.balanced.iter().filter(|b| b.stiffness > 0.0 && !b.contacts.is_empty());
         let stored = held.map(|b| b.pull.widest(|w| self.signals().range(w)).powi(2) / b.stiffness);
         f64::EPSILON * stored.filter(|work| work.is_finite()).fold(0.0, f64::max)
     }
 
-    /// Tells contacts that one balanced coordinate moves how far at most it does while they stick: as far as its pull goes against
-    /// springs and contact.
+    /// Sets the stroke of contacts that one balanced coordinate moves while they stick: its largest load divided by the stiffness
+    /// of springs and contact.
     pub(super) fn sweep_balanced(&mut self) {
         let pulls: Vec<f64> =
             self.balanced.iter().map(|b| b.pull.widest(|w| self.signals().range(w))).collect();
@@ -163,7 +166,7 @@ impl Model {
         }
     }
 
-    /// Puts balanced coordinates along z where they are at t = 0.
+    /// Sets balanced coordinates along z to their position at t = 0.
     pub(super) fn settle_balanced(&mut self) {
         if self.balanced.iter().all(|b| b.axis != Axis::Z) {
             return;
@@ -180,8 +183,7 @@ impl Model {
     }
 }
 
-/// Refuses what a balanced coordinate does not go with: free coordinates, whose forces would depend on the same
-/// balance, and blocks.
+/// Refuses balanced coordinates together with free coordinates or blocks.
 pub(super) fn check_company(scene: &Scene) -> Result<(), SceneError> {
     let balanced = scene.bodies.iter().enumerate().find_map(|(i, body)| {
         let of = |(_, c): &(Axis, scene::Coordinate)| c.freedom == Freedom::Balanced;
@@ -198,9 +200,7 @@ pub(super) fn check_company(scene: &Scene) -> Result<(), SceneError> {
     Ok(())
 }
 
-/// Adds the loads on balanced coordinates to them; `first` is the signal of the first.
-///
-/// A force at a point beside the reference point turns, which the guide of the pitch carries.
+/// Adds loads to balanced coordinates; `first` is the signal of the first. Moments are carried by the guide of the pitch.
 pub(super) fn load(scene: &Scene, bodies: &[Body], (first, all): (usize, &mut [Balanced])) {
     for load in &scene.loads {
         let [x, z, _] = bodies[load.on].bindings;
@@ -215,7 +215,7 @@ pub(super) fn load(scene: &Scene, bodies: &[Body], (first, all): (usize, &mut [B
     }
 }
 
-/// The terms of a measure that balanced coordinates make, by their places, and what is left of it.
+/// Splits a measure into its terms of balanced coordinates and the rest.
 fn split(measure: &Measure, first: usize) -> (Vec<(usize, f64)>, Measure) {
     let own = measure.driven.iter().filter(|(s, _)| *s >= first).map(|(s, a)| (s - first, *a)).collect();
     let mut rest = measure.clone();
@@ -228,7 +228,7 @@ fn is_balanced(measure: &Measure, first: usize) -> bool {
     measure.driven.iter().any(|(signal, _)| *signal >= first)
 }
 
-/// Refuses dampers: their forces depend on velocities, and the place would follow from what was before.
+/// Refuses dampers on balanced coordinates: the position would depend on its past.
 pub(super) fn check_dampers(
     scene: &Scene,
     (links, contacts): (&[Link], &[Contact]),
@@ -253,7 +253,7 @@ pub(super) fn check_dampers(
     Ok(())
 }
 
-/// The direction of an axis along which forces are balanced.
+/// Returns the measure of a contact along an axis in which it exerts a force.
 fn measure_of(contact: &Contact, axis: Axis) -> Option<&Measure> {
     match axis {
         Axis::X => (!contact.inert).then_some(&contact.u),

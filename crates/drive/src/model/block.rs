@@ -1,38 +1,37 @@
-//! Blocks of a scene, wired to what they read.
+//! Blocks of a model, connected to their inputs.
 //!
-//! Signals are numbered through: the waveforms of a scene, then its blocks. A block may read the blocks before it and no
-//! other, so that what they make can be asked for in any order without a circle. Inputs and states are few enough to be read
-//! without a heap.
+//! Signals are numbered: waveforms, then blocks. A block may read only earlier blocks, which excludes cycles. The number of
+//! inputs and states is limited, so evaluations need no heap.
 
 use super::{Balanced, Body, Measure, Model};
 use crate::component::{Block, Input, Moment, SharedBlock, Standing, States};
 use crate::scene::{Named, Scene, Start};
 use crate::{Field, Part, Sample, SceneError, SceneFault, Waveform};
 
-/// Most inputs, and most states, of a block: they are read without a heap.
+/// Largest number of inputs, and of states, of a block.
 pub(crate) const MOST: usize = 8;
 
-/// A block and what it reads.
+/// Block with its inputs.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Wired {
     pub(crate) name: String,
     block: SharedBlock,
     pub(crate) wires: Vec<Wire>,
-    /// Place of its first state among those of all blocks.
+    /// Index of its first state among those of all blocks.
     pub(crate) first: usize,
     pub(crate) states: States,
 }
 
-/// Where an input comes from.
+/// Source of an input.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) enum Wire {
-    /// The waveform, or after the last one the block, at this place.
+    /// Signal by index: waveforms first, then blocks.
     Signal(usize),
-    /// A length between bodies.
+    /// Length between bodies.
     Length(Measure),
 }
 
-/// The law and the memory of a block.
+/// Law and memory of a block.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub(crate) struct BlockState {
     pub(crate) law: usize,
@@ -50,18 +49,18 @@ impl Wired {
         &*self.block.0
     }
 
-    /// Whether it has slopes or efforts; one that has neither is asked for its signal alone.
+    /// Whether it has states or efforts; otherwise only its signal is evaluated.
     pub(crate) fn acts(&self) -> bool {
         self.count() > 0 || self.wires.iter().any(|wire| matches!(wire, Wire::Length(_)))
     }
 
-    /// Number of its states.
+    /// Returns the number of its states.
     pub(crate) fn count(&self) -> usize {
         self.states.scales.len()
     }
 }
 
-/// Signals that bodies and strokes may follow: waveforms, then what blocks make, then places of balanced coordinates.
+/// Signals that bodies and strokes may follow: waveforms, then outputs of blocks, then balanced coordinates.
 #[derive(Clone, Copy)]
 pub(crate) struct Signals<'a> {
     pub(crate) waveforms: &'a [Waveform],
@@ -70,9 +69,7 @@ pub(crate) struct Signals<'a> {
 }
 
 impl Signals<'_> {
-    /// A signal at t = 0. Lengths count from there and are 0.
-    ///
-    /// A block's by its own start; since each reads only what is before it, that ends.
+    /// Returns a signal at t = 0. Lengths are 0 there. Blocks read earlier signals only, so the recursion ends.
     pub(crate) fn first(&self, signal: usize) -> Sample {
         if let Some(balanced) = self.balanced(signal) {
             return Sample { value: balanced.first, rate: 0.0, acceleration: 0.0 };
@@ -84,7 +81,7 @@ impl Signals<'_> {
         block.block().signal(standing, &Moment { t: 0.0, inputs: &inputs, states: &states, located: true })
     }
 
-    /// What a block reads at t = 0.
+    /// Returns the inputs of a block at t = 0.
     pub(crate) fn first_inputs(&self, block: &Wired) -> Vec<Sample> {
         let read = |wire: &Wire| match wire {
             Wire::Signal(signal) => self.first(*signal),
@@ -93,10 +90,10 @@ impl Signals<'_> {
         block.wires.iter().map(read).collect()
     }
 
-    /// Smallest and largest value of a signal.
+    /// Returns the smallest and the largest value of a signal.
     ///
-    /// A block's by its word for the ranges of what it reads; a length may be anything. Of a balanced coordinate only where
-    /// it is drawn: how far it goes is a matter of forces.
+    /// For a block they follow from the ranges of its inputs; a length is unbounded. For a balanced coordinate they are its
+    /// initial position.
     pub(crate) fn range(&self, signal: usize) -> (f64, f64) {
         if let Some(balanced) = self.balanced(signal) {
             return (balanced.first, balanced.first);
@@ -109,7 +106,7 @@ impl Signals<'_> {
         block.block().range(&block.wires.iter().map(of).collect::<Vec<_>>())
     }
 
-    /// Whether a signal jumps: a waveform by its shape, a block where it passes on what jumps.
+    /// Whether a signal jumps: a waveform by its shape, a block if it passes on jumps.
     pub(crate) fn has_jumps(&self, signal: usize) -> bool {
         match self.block(signal) {
             Some(block) if block.block().passes_jumps() => {
@@ -120,7 +117,7 @@ impl Signals<'_> {
         }
     }
 
-    /// The balanced coordinate that a signal is.
+    /// Returns the balanced coordinate of a signal. None for other signals.
     pub(crate) fn balanced(&self, signal: usize) -> Option<&'_ Balanced> {
         signal.checked_sub(self.waveforms.len() + self.blocks.len()).and_then(|b| self.balanced.get(b))
     }
@@ -131,16 +128,16 @@ impl Signals<'_> {
 }
 
 impl Model {
-    /// The signals of the model.
+    /// Returns the signals of the model.
     pub(crate) fn signals(&self) -> Signals<'_> {
         Signals { waveforms: &self.waveforms, blocks: &self.blocks, balanced: &self.balanced }
     }
 }
 
-/// Wires the blocks of a scene. A block may read waveforms and the blocks before it.
+/// Connects blocks to their inputs.
 ///
-/// Fails where one reads what comes after it or does not exist, has more inputs or states than [`MOST`], or
-/// reads a length where bodies start in equilibrium.
+/// Fails if a block reads a later or nonexistent signal, has more than [`MOST`] inputs or states, or reads a length while bodies
+/// start in equilibrium.
 pub(super) fn wire(scene: &Scene, bodies: &[Body]) -> Result<Vec<Wired>, SceneError> {
     let mut wired: Vec<Wired> = Vec::with_capacity(scene.blocks.len());
     let mut first = 0;

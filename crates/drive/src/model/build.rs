@@ -1,8 +1,7 @@
-//! From a scene to a model: bodies, links and loads.
+//! Construction of a [`Model`] from a [`Scene`]: bodies, links and loads.
 //!
-//! In order: the scene is checked on its own; bodies get what their coordinates are bound to, free ones a place among the
-//! coordinates; links, blocks and contacts become measures, the constant rows of the Jacobian; what cannot act is left out and
-//! named; natural scales come last, for they ask for everything else.
+//! The steps are, in order: checks, bodies and coordinates, links, blocks and contacts. Their lengths become measures, constant
+//! rows of the Jacobian. Then parts without effect are removed, and natural scales computed.
 
 use super::contact::{self, Surroundings};
 use super::{
@@ -13,34 +12,35 @@ use crate::linearised::Paces;
 use crate::scene::{self, Axis, Coordinate, Direction, Freedom, Named, Point, Scene, Side, Start, Varying};
 use crate::{Field, Part, SceneError, SceneFault};
 
-/// Numbers that a model is assembled with and does not keep: room that the next one of the same shape is assembled in.
+/// Scratch memory of the construction, reused for the next model.
 #[derive(Debug, Default)]
 pub(crate) struct Scaffold {
-    /// Of each contact its largest indentation, m.
+    /// Largest indentation of each contact, m.
     deepest: Vec<f64>,
-    /// Of each free coordinate the largest force on it, N or N m.
+    /// Largest force on each free coordinate, N or N m.
     pushes: Vec<f64>,
     /// Names of contacts.
     names: Vec<String>,
-    /// Whether each waveform is followed.
+    /// Whether each waveform is used.
     used: Vec<bool>,
     scales: scale::Room,
 }
 
 impl Model {
-    /// Checks a scene and assembles its constants.
+    /// Checks a [`Scene`] and computes its constants.
     ///
     /// # Errors
-    /// The first thing wrong, by part, field and fault: numbers out of their range, places that do not exist, coordinates that
-    /// nothing holds, dampers that would have to follow a jump. Where these stand in a file is the file reader's to say.
+    ///
+    /// [`SceneError`]: the first fault, with part and field. Faults are numbers out of range, references to missing parts,
+    /// coordinates that nothing holds, and dampers that would have to follow a jump, for example.
     pub fn new(scene: &Scene) -> Result<Self, SceneError> {
         let mut model = Self::blank();
         model.rebuild(scene, &mut Scaffold::default())?;
         Ok(model)
     }
 
-    /// Becomes the model of another scene, in the room that this one takes: of a scene of the same shape with a single free
-    /// coordinate nothing is allocated. After an error it is the model of no scene, and can become another one's.
+    /// Becomes the model of another [`Scene`] and reuses the memory. Nothing is allocated for one of the same structure with one
+    /// free coordinate. After an error the model is invalid, but can be rebuilt.
     pub(crate) fn rebuild(&mut self, scene: &Scene, room: &mut Scaffold) -> Result<(), SceneError> {
         check::check(scene)?;
         (self.fastest, self.stiff, self.growing) = (0.0, false, 0);
@@ -85,7 +85,7 @@ impl Model {
         self.waveforms.extend(scene.waveforms[known..].iter().map(|named| named.part.clone()));
     }
 
-    /// The contacts, what they are expected to be pressed to, and what pushes the free coordinates.
+    /// Builds the contacts, their largest indentations and the largest forces on free coordinates.
     fn put_contacts(&mut self, scene: &Scene, room: &mut Scaffold) -> Result<(), SceneError> {
         let mut contacts = std::mem::take(&mut self.contacts);
         room.names.clear();
@@ -121,10 +121,10 @@ impl Model {
         Ok(())
     }
 
-    /// The bodies, their free coordinates, with the weight that gravity gives each, and their balanced ones.
+    /// Builds the bodies with their free and balanced coordinates.
     ///
-    /// On an incline α gravity g pulls with -mg sin α along x and -mg cos α along z. Fails where a free
-    /// coordinate has no mass or moment of inertia.
+    /// On an incline α gravity g gives -mg sin α along x and -mg cos α along z. Fails if a free coordinate has no mass or moment
+    /// of inertia.
     fn gather(&mut self, scene: &Scene) -> Result<(), SceneError> {
         let nowhere = || Body { name: String::new(), bindings: [Binding::Held(0.0); 3] };
         self.bodies.resize_with(scene.bodies.len(), nowhere);
@@ -156,8 +156,8 @@ impl Model {
         Ok(())
     }
 
-    /// Adds the constant loads to the free coordinates and keeps the others. A load on a coordinate that does not move
-    /// freely is carried by its guide. A force at (X, Z) from the reference point turns with the moment X F_z - Z F_x.
+    /// Adds constant loads to free coordinates and stores the varying ones. Guides carry loads on other coordinates. A force at
+    /// (X, Z) from the reference point has the moment X F_z - Z F_x.
     fn put_loads_on(&mut self, scene: &Scene) {
         self.loads.clear();
         for load in &scene.loads {
@@ -182,14 +182,13 @@ impl Model {
     }
 }
 
-/// A coordinate along x travels until a link is found on it; scales are assigned when contacts and links are
-/// known.
+/// Returns a free coordinate. One along x may move its origin until a link is found on it; scales are assigned later.
 fn free_coordinate(body: usize, axis: Axis, mass: f64, force: f64, coordinate: Coordinate) -> Free {
     let start = (coordinate.position, coordinate.velocity);
     Free { body, axis, mass, mobility: 1.0 / mass, force, start, travels: axis == Axis::X, scale: (0.0, 0.0) }
 }
 
-/// Mass or moment of inertia of a free coordinate.
+/// Returns mass or moment of inertia of a free coordinate. Fails if it is missing.
 fn inertia(place: usize, body: &scene::Body, axis: Axis) -> Result<f64, SceneError> {
     let value = match axis {
         Axis::X | Axis::Z => body.mass,
@@ -198,8 +197,8 @@ fn inertia(place: usize, body: &scene::Body, axis: Axis) -> Result<f64, SceneErr
     value.ok_or_else(|| SceneFault::NoInertia(axis).of(Part::Body(place), Field::Whole))
 }
 
-/// Springs, then actuators. Their elongation is the displacement of the second side less that of the first; a
-/// spring is an actuator of no stroke.
+/// Adds springs and then actuators. Their elongation is the displacement of the second side minus that of the first; a spring is
+/// an actuator with zero stroke.
 fn gather_links(scene: &Scene, bodies: &[Body], links: &mut Vec<Link>) {
     let elongation = |sides: [Side; 2], at: [Point; 2], direction: Direction| {
         Measure::between([(sides[1], at[1]), (sides[0], at[0])], direction, bodies)
@@ -225,7 +224,7 @@ fn gather_links(scene: &Scene, bodies: &[Body], links: &mut Vec<Link>) {
     links.extend(springs.chain(actuators));
 }
 
-/// What acts on nobody, but for waveforms.
+/// Returns the parts without effect, except waveforms.
 fn spared(scene: &Scene, bodies: &[Body], links: &[Link]) -> Spared {
     let mut spared = Spared { loads: spared_loads(scene, bodies), ..Spared::default() };
     for (i, _) in links.iter().enumerate().filter(|(_, link)| !link.acts()) {
@@ -237,8 +236,7 @@ fn spared(scene: &Scene, bodies: &[Body], links: &[Link]) -> Spared {
     spared
 }
 
-/// Loads on bodies that nothing lets move.
-/// By their places in the scene: for `info`, since no run looks at them.
+/// Returns the indices of loads on bodies that cannot move.
 fn spared_loads(scene: &Scene, bodies: &[Body]) -> Vec<usize> {
     let is_held = |load: &scene::Load| {
         let moves = bodies[load.on].bindings.iter().any(|p| matches!(p, Binding::Free(_)));

@@ -1,13 +1,11 @@
-//! What can be wrong with a scene on its own: places that do not exist, numbers out of their range.
+//! Checks of a [`Scene`]: references and ranges of numbers.
 //!
-//! Each check is made once. What is physics of one contact (μ, the sphere's equator, convexity) is refused by the contact
-//! crate where the value is made; what needs several parts of a scene, such as a coordinate that nothing holds, where the
-//! model is assembled.
+//! The contact crate checks the physics of a single contact. Model construction checks conditions that involve several parts.
 
 use crate::scene::{Axis, Contact, ContactStart, Freedom, Normal, Point, Scene, Side, Varying};
 use crate::{Field, Part, SceneError, SceneFault};
 
-/// Checks every number and every place of a scene.
+/// Checks all numbers and references of a [`Scene`].
 pub(super) fn check(scene: &Scene) -> Result<(), SceneError> {
     let check = Check(scene);
     for (i, body) in scene.bodies.iter().enumerate() {
@@ -31,7 +29,7 @@ pub(super) fn check(scene: &Scene) -> Result<(), SceneError> {
     finite(scene.gravity.incline).map_err(of(Field::Incline))
 }
 
-/// A scene whose places are looked up.
+/// A [`Scene`] with functions to check references.
 struct Check<'a>(&'a Scene);
 
 impl Check<'_> {
@@ -58,7 +56,7 @@ impl Check<'_> {
         Ok(())
     }
 
-    /// Springs and actuators.
+    /// Checks springs and actuators.
     fn links(&self) -> Result<(), SceneError> {
         for (i, spring) in self.0.springs.iter().enumerate() {
             let of = |field: Field| move |fault: SceneFault| fault.of(Part::Spring(i), field);
@@ -95,7 +93,7 @@ impl Check<'_> {
         Ok(())
     }
 
-    /// Two sides that exist, and are two.
+    /// Checks that both sides exist and differ.
     fn between(&self, sides: [Side; 2]) -> Result<(), SceneFault> {
         for side in sides {
             if let Side::Body(i) = side {
@@ -114,7 +112,7 @@ impl Check<'_> {
         if w < self.0.waveforms.len() { Ok(()) } else { Err(SceneFault::NoWaveform(w)) }
     }
 
-    /// What a body may follow: a waveform, or the signal of a block.
+    /// Checks that a signal exists: a waveform or a block.
     fn signal(&self, signal: usize) -> Result<(), SceneFault> {
         let known = self.0.waveforms.len() + self.0.blocks.len();
         if signal < known { Ok(()) } else { Err(SceneFault::NoWaveform(signal)) }

@@ -1,11 +1,8 @@
-//! From a scene's contact to its constants.
+//! Construction of a contact's constants.
 //!
-//! What presses it is settled first: the largest indentation known beforehand decides whether the contact can ever carry a
-//! force, how wide a row of springs must be and what its natural scales are.
-//!
-//! What presses it, its first and its largest indentation, the engine, the displacement it starts with. Each
-//! number is checked where it is used first, once. Slots and natural scales follow when all contacts are
-//! known.
+//! The normal load comes first. The largest expected indentation shows whether the contact can carry a force. It determines the
+//! width of a row of springs and the natural scales. Then follow the engine and the initial displacement. Indices of growing
+//! contacts and natural scales follow when all contacts are known.
 
 use super::reach::{self, Pile};
 use super::{Body, Free, Link, Load, Measure, Signals};
@@ -17,7 +14,7 @@ use stickslip_contact::{
     Engine, FirstLoading, FirstLoadingError, Interface, NormalGiven, Springs, SpringsError, TangentialGiven,
 };
 
-/// What a contact is built among.
+/// Other parts of the model, for the construction of a contact.
 pub(super) struct Surroundings<'a> {
     pub(super) signals: Signals<'a>,
     pub(super) contacts: &'a [Named<scene::Contact>],
@@ -25,34 +22,33 @@ pub(super) struct Surroundings<'a> {
     pub(super) free: &'a [Free],
     pub(super) links: &'a [Link],
     pub(super) loads: &'a [Load],
-    /// Of each free coordinate along z those of the other bodies piled up with its own: their weight may rest on it.
+    /// Free z coordinates of other bodies that contacts connect with each free coordinate; their weight may rest on it.
     pub(super) piled: &'a [Vec<usize>],
-    /// Whether the bodies are set down before they start.
+    /// Whether the bodies start in equilibrium.
     pub(super) equilibrium: bool,
 }
 
-/// What is known beforehand of how a contact is pressed.
+/// Known properties of the normal load.
 #[derive(Debug, Clone, Copy)]
 struct Pressed {
-    /// Largest indentation, m; of a coupled contact the one that the loads and motions at the start can be expected to reach.
+    /// Largest indentation, m; an estimate from initial loads and motions for a coupled contact.
     deepest: f64,
     /// Indentation at t = 0, m.
     first: f64,
-    /// Normal force at t = 0, N: as it is given, where it is.
+    /// Normal force at t = 0, N, exactly as given where it is given.
     force: f64,
 }
 
-/// Share of the forces beside it below which a limit of friction counts as none: what some thousand operations leave of their rounding.
-// With 1e-14 a foot on a stack of 0.07 N under a damped contact of 1e-14 N stopped in steps of 2e-9 s.
+/// Ratio of friction limit to other forces below which friction is lost in rounding.
 const UNRESOLVED: f64 = 1e-12;
 
-/// How often a row is widened at most.
+/// Largest number of times that a row is widened.
 const WIDENED: usize = 16;
 
-/// What is wrong with which field of a contact.
+/// Field and fault of a contact.
 type Refused = (Field, SceneFault);
 
-/// A contact, without name, slot and scales, and its largest indentation.
+/// Returns a contact without name, index of growth and scales, and its largest indentation.
 pub(super) fn build(
     place: usize,
     part: &scene::Contact,
@@ -69,7 +65,7 @@ pub(super) fn build(
     let inert = law.friction() == 0.0 || known.deepest <= 0.0;
     let engine = engine(part, &pressed, known, around).map_err(refused)?;
     if let Engine::Row(springs) = &engine {
-        // The row's own force presses it. Natural scales stay those of the profile, which has no cells.
+        // The row's own normal force applies; natural scales remain those of the profile.
         law = law.on_springs(Arc::clone(springs));
         let (again, first) = press(part, &law, around).map_err(refused)?;
         (pressed, known) = (again, Pressed { deepest: known.deepest, ..first });
@@ -101,8 +97,8 @@ impl Surroundings<'_> {
         measure.driven.iter().any(|(signal, _)| self.signals.balanced(*signal).is_some())
     }
 
-    /// Whether the limit of friction of contacts that move by `u` is less than rounding makes of the forces beside it: of what pushes
-    /// their bodies, and of what sticking contacts make of places as far away as waveforms put them.
+    /// Whether the friction limit is below the rounding of other forces on its bodies. These are loads, and forces of sticking
+    /// contacts at displacements as large as the waveforms.
     fn is_rounding(&self, law: &Interface, count: f64, (u, deepest): (&Measure, f64)) -> bool {
         if law.friction() == 0.0 || deepest <= 0.0 {
             return false;
@@ -118,7 +114,7 @@ impl Surroundings<'_> {
         count * law.friction() * law.normal_force(deepest) < UNRESOLVED * force
     }
 
-    /// The coupled contacts of the scene: law, number and what presses them.
+    /// Returns the coupled contacts of the model: interface, count and indentation.
     fn pressed(&self) -> impl Iterator<Item = (&Interface, f64, Measure)> {
         let coupled = self.contacts.iter().map(|named| &named.part);
         coupled
@@ -126,14 +122,17 @@ impl Surroundings<'_> {
             .map(|part| (&part.interface, f64::from(part.count.max(1)), indentation(part, self.bodies)))
     }
 
-    /// A measure at t = 0.
+    /// Returns a measure at t = 0.
     pub(super) fn at_start(&self, measure: &Measure) -> f64 {
         measure.value(|i| self.free[i].start.0, |w| self.signals.first(w).value)
     }
 }
 
-/// The curve, or a row over the asked span; without one over the width of the largest indentation, or as much as it takes to bear a
-/// given force, and of a coupled contact over that of the deepest that the start can press. Fails where the row has no springs, or is too narrow for the start.
+/// Returns the engine of a contact: the memory curve, or a row of springs.
+///
+/// Without a given span the row has the width of the largest indentation. For a given force it is wide enough to carry that
+/// force; for a coupled contact it covers the largest indentation that the start can cause. Fails if the row is invalid or too
+/// narrow at the start.
 fn engine(
     part: &scene::Contact,
     press: &Press,
@@ -143,7 +142,7 @@ fn engine(
     let (law, deepest) = (&part.interface, known.deepest);
     match part.engine {
         EngineChoice::Curve => Ok(Engine::Curve),
-        // Never pressed: there is nothing for a row to span.
+        // A contact that is never pressed needs no row.
         EngineChoice::Springs { .. } if deepest <= 0.0 => Ok(Engine::Curve),
         EngineChoice::Springs { count, span } => {
             let reach = || match press {
@@ -164,15 +163,14 @@ fn engine(
     }
 }
 
-/// A row that bears the largest force: where it is softer than the profile that is deeper than the profile's largest indentation, and
-/// the row wider.
+/// Returns a row that carries the largest force. A row softer than the profile has a larger indentation and must be wider.
 fn bearing(law: &Interface, count: usize, known: Pressed) -> Result<Springs, Refused> {
     let width = |reach: f64| 2.0 * law.profile().radius(reach);
     let mut span = width(known.deepest);
     let mut springs = row(law, (count, span), known.first)?;
     for _ in 0..WIDENED {
         let borne = springs.height_of_reduced_force(law.reduced_force(known.deepest));
-        // The springs of a wider row lie elsewhere: a little more than is missing.
+        // The springs of a wider row have other positions: add a little more than is missing.
         let wider = width(borne + (borne - springs.reach()));
         if borne <= springs.reach() || !(wider > span && wider.is_finite()) {
             break;
@@ -182,7 +180,7 @@ fn bearing(law: &Interface, count: usize, known: Pressed) -> Result<Springs, Ref
     Ok(springs)
 }
 
-/// A row of springs that is wide enough for the contact's first indentation.
+/// Returns a row of springs that is wide enough for the initial indentation.
 fn row(law: &Interface, (count, span): (usize, f64), first: f64) -> Result<Springs, Refused> {
     let springs = Springs::new(law.profile(), count, span).map_err(|error| match error {
         SpringsError::Count(_) => (Field::SpringCount, error.into()),
@@ -195,7 +193,7 @@ fn row(law: &Interface, (count, span): (usize, f64), first: f64) -> Result<Sprin
     Err((Field::Span, SceneFault::Narrow { width, span }))
 }
 
-/// Displacement reached before the start, m.
+/// Returns the displacement before the start, m.
 fn start(part: &scene::Contact, law: &Interface, known: Pressed) -> Result<f64, Refused> {
     let d = known.first;
     if part.start != ContactStart::Untouched && d <= 0.0 {
@@ -206,7 +204,7 @@ fn start(part: &scene::Contact, law: &Interface, known: Pressed) -> Result<f64, 
         ContactStart::Displacement(u) => Ok(u),
         ContactStart::Force(force) => {
             let limit = law.friction() * known.force;
-            // A first loading may end in gross slip, a start must not: at the limit itself the contact slips.
+            // At the limit itself the contact would slip.
             if force != 0.0 && force.abs() >= limit {
                 let slips = FirstLoadingError::TangentialForce { force, limit };
                 return Err((Field::StartForce, slips.into()));
@@ -218,10 +216,10 @@ fn start(part: &scene::Contact, law: &Interface, known: Pressed) -> Result<f64, 
     }
 }
 
-/// What presses a contact.
+/// Returns the source of the indentation and its known values.
 ///
-/// Both ends of the range that a waveform has are checked: force and radius within the profile's reach. The
-/// indentation grows with each of the three, so that the highest value is the deepest.
+/// The extreme values of a waveform are checked against the profile. The indentation increases with force, radius and
+/// indentation, so the largest value is the deepest.
 fn press(
     part: &scene::Contact,
     law: &Interface,
@@ -259,7 +257,7 @@ fn press(
     Ok((press, Pressed { deepest: depth(high), first: d, force }))
 }
 
-/// d of a coupled contact as its bodies' motion sets it, m.
+/// Returns the measure of d of a coupled contact, m.
 fn indentation(part: &scene::Contact, bodies: &[Body]) -> Measure {
     let ends = [(part.between[0], part.at[0]), (part.between[1], part.at[1])];
     let mut d = Measure::between(ends, Direction::Z, bodies);
@@ -267,17 +265,16 @@ fn indentation(part: &scene::Contact, bodies: &[Body]) -> Measure {
     d
 }
 
-/// A contact pressed by the bodies' motion.
+/// Returns the indentation of a contact pressed by the motion of bodies: d = z(first) - z(second) - gap at the contact point.
 ///
-/// d = z(first) - z(second) - gap at the contact point. Fails where the bodies cannot move against each
-/// other, or are expected deeper than the profile reaches.
+/// Fails if the bodies cannot change their distance, or if the expected indentation exceeds the profile.
 fn coupled(
     part: &scene::Contact,
     law: &Interface,
     around: &Surroundings<'_>,
 ) -> Result<(Press, Pressed), Refused> {
     let d = indentation(part, around.bodies);
-    // Its indentation would be a number that the scene could have given.
+    // A constant indentation must be given as such.
     if d.is_constant() {
         return Err((Field::Normal, SceneFault::Unmoved));
     }
@@ -292,7 +289,7 @@ mod tests {
     use super::*;
     use stickslip_contact::{Material, Pair, Profile};
 
-    /// Rows of worn profiles are softer at their edge than the profile: as wide as the contact they were outgrown by a constant force.
+    /// Rows of worn profiles are softer at their edge than the profile and must be wider than the contact.
     #[test]
     fn a_row_without_a_span_bears_its_force() {
         let soft = Material::new(1e9, 0.3).unwrap();

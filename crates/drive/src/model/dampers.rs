@@ -1,4 +1,4 @@
-//! A damper has no answer to a jump in no time: its impulse would be a matter of definition.
+//! Refusal of dampers on lengths that jump, as the impulse is undefined.
 
 use super::{Link, Measure, Signals, Stroke};
 use crate::contact::Contact;
@@ -7,8 +7,8 @@ use crate::{Field, Part, SceneError, SceneFault};
 
 /// Refuses dampers of links and contacts whose length jumps.
 ///
-/// Fails with the first part, springs before actuators before contacts, and the name of the waveform,
-/// whether it comes by itself or through blocks that pass its jumps on.
+/// Reports the first part, in the order springs, actuators, contacts, and the name of the waveform, also if blocks pass on its
+/// jumps.
 pub(super) fn check(
     scene: &Scene,
     links: &[Link],
@@ -17,7 +17,7 @@ pub(super) fn check(
 ) -> Result<(), SceneError> {
     let jumps = |w: &usize| signals.has_jumps(*w);
     let driven = |length: &Measure| length.driven.iter().map(|(w, _)| *w).find(jumps);
-    // Of a block, which has no name in the scene's own words, that of the waveform whose jumps it passes on.
+    // For a block it is the waveform whose jumps it passes on.
     let name = |signal: usize| match scene.waveform_of(signal) {
         Some(w) => scene.waveforms[w].name.clone(),
         None => scene.blocks[signal - scene.waveforms.len()].name.clone(),
@@ -29,7 +29,7 @@ pub(super) fn check(
             Stroke::Constant(_) => None,
         };
         if let Some(w) = driven(&link.elongation).or(stroke) {
-            // The springs come first.
+            // Springs come first.
             let part = match i.checked_sub(scene.springs.len()) {
                 None => Part::Spring(i),
                 Some(i) => Part::Actuator(i),

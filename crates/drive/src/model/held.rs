@@ -1,15 +1,13 @@
-//! Whether anything holds the free coordinates.
+//! Check that free coordinates are held.
 
 use super::{Free, Link, Measure};
 use crate::contact::Contact;
 use crate::scene::Axis;
 use crate::{Field, Part, SceneError, SceneFault};
 
-/// Refuses a free z or pitch that no contact, spring or actuator acts on: such a body falls or turns away for ever,
-/// which nobody means. One that slides freely along x is a scene in its own right.
+/// Refuses a free z or pitch on which no contact, spring or actuator acts. A body that slides freely along x is allowed.
 ///
-/// An inert contact holds nothing along u, but presses along d all the same; a spring without stiffness and
-/// damping holds nothing.
+/// A frictionless contact acts along d only; a spring without stiffness and damping does not act.
 pub(super) fn check(free: &[Free], contacts: &[Contact], links: &[Link]) -> Result<(), SceneError> {
     for (i, coordinate) in free.iter().enumerate().filter(|(_, coordinate)| coordinate.axis != Axis::X) {
         let moves = |measure: &Measure| measure.free.iter().any(|(free, _)| *free == i);

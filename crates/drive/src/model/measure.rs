@@ -1,28 +1,27 @@
-//! Lengths measured between bodies: the constant Jacobians of the scene.
+//! Lengths between bodies as linear forms: the constant Jacobian of the model.
 
 use super::{Binding, Body};
 use crate::scene::{Direction, Point, Side};
 use arrayvec::ArrayVec;
 
-/// Terms of a linear form: what it counts and by how much. Two sides, each along an axis and by its pitch, make four at
-/// most; they lie in the measure itself, since every evaluation reads them.
+/// Terms of a linear form: index and coefficient. Two sides with an axis and the pitch each give at most four.
 pub(crate) type Terms = ArrayVec<(usize, f64), 4>;
 
-/// A length as a linear form of the coordinates: constant + Σ coefficient · coordinate. Its coefficients are the row of
-/// the Jacobian by which a force along it acts on the coordinates.
+/// A length as a linear form of the coordinates: constant + Σ coefficient · coordinate. The coefficients are a row of the
+/// Jacobian, which also distributes a force along the length to the coordinates.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub(crate) struct Measure {
-    /// m.
+    /// Constant, m.
     pub(crate) constant: f64,
-    /// Free coordinates and their coefficients, 1 or m/rad.
+    /// Free coordinates with their coefficients, 1 or m/rad.
     pub(crate) free: Terms,
-    /// Waveforms that a coordinate follows, and their coefficients.
+    /// Prescribed signals with their coefficients.
     pub(crate) driven: Terms,
 }
 
 impl Measure {
-    /// The displacement of `ends[0]` less that of `ends[1]`, each a side and a point on it. Small rotations: a point
-    /// at (X, Z) moves by x - Zθ along x and by z + Xθ along z.
+    /// Returns the displacement of `ends[0]` minus that of `ends[1]`, each a point of a side. For small rotations a point at (X,
+    /// Z) moves by x - Zθ along x and by z + Xθ along z.
     pub(super) fn between(ends: [(Side, Point); 2], direction: Direction, bodies: &[Body]) -> Self {
         let mut measure = Self::default();
         for ((side, point), sign) in ends.into_iter().zip([1.0, -1.0]) {
@@ -38,9 +37,8 @@ impl Measure {
         measure
     }
 
-    /// Adds a multiple of a coordinate.
-    ///
-    /// A held coordinate adds to the constant, and one that is there already to its coefficient.
+    /// Adds a multiple of a coordinate. A fixed coordinate contributes to the constant; coefficients of the same coordinate are
+    /// summed.
     fn add(&mut self, place: Binding, coefficient: f64) {
         if coefficient == 0.0 {
             return;
@@ -57,7 +55,7 @@ impl Measure {
             Some((_, sum)) => *sum += coefficient,
             None => terms.push((at, coefficient)),
         }
-        // Two bodies that follow one waveform do not move against each other.
+        // Two bodies that follow one waveform have no relative motion.
         terms.retain(|(_, sum)| *sum != 0.0);
     }
 
@@ -66,23 +64,21 @@ impl Measure {
         self.free.is_empty() && self.driven.is_empty()
     }
 
-    /// Its value for given coordinates and waveforms.
-    ///
-    /// constant + (Σ free + Σ driven): two bodies far from their start may be close to each other, and their
-    /// difference comes first.
+    /// Returns its value for given coordinates and waveforms: constant + (Σ free + Σ driven), so that large displacements of two
+    /// bodies cancel first.
     pub(crate) fn value(&self, free: impl Fn(usize) -> f64, driven: impl Fn(usize) -> f64) -> f64 {
         let own: f64 = self.free.iter().map(|(i, a)| a * free(*i)).sum();
         let followed: f64 = self.driven.iter().map(|(w, a)| a * driven(*w)).sum();
         self.constant + (own + followed)
     }
 
-    /// How far the free coordinates lie from their origins, m: what rounds their difference. `x` reads them.
+    /// Returns the distance of the free coordinates from their origins, m, which determines rounding. `x` returns a coordinate.
     #[inline]
     pub(crate) fn travel(&self, x: impl Fn(usize) -> f64) -> f64 {
         self.free.iter().map(|(i, a)| (a * x(*i)).abs()).sum()
     }
 
-    /// Σ over free coordinates of coefficient² · mobility, 1/kg: what a force along it has to move.
+    /// Returns Σ coefficient² · mobility over free coordinates, 1/kg: the inverse effective mass along it.
     pub(crate) fn mobility(&self, mobility: impl Fn(usize) -> f64) -> f64 {
         self.free.iter().map(|(i, a)| a * a * mobility(*i)).sum()
     }

@@ -1,32 +1,29 @@
-//! How deep a coupled contact may be expected to go: its natural scale, and the span of a row of springs.
+//! Largest expected indentation of a coupled contact, for natural scales and rows of springs.
 
 use super::contact::Surroundings;
 use super::{Free, Measure, Stroke};
 use crate::scene::{Axis, Normal, Scene, Side};
 use stickslip_contact::Interface;
 
-/// Indentation taken where nothing that is known at the start presses a contact, m.
+/// Indentation for a contact that no initial load presses, m.
 const SHALLOW: f64 = 1e-9;
-/// Halvings of a bracket of one power of two: all digits of a double but three.
+/// Number of bisections between two powers of two.
 const HALVINGS: u32 = 50;
-/// Room left above what is expected: bodies share loads in ways that the estimate does not see.
-// It sets natural scales: ten times as much makes tolerances mean less, and a rocking slider ends 5.6 u_c elsewhere at 1e-6
-// instead of 0.06. With a tenth rows of springs are outgrown before the run, and the slider takes nearly six times the
-// evaluations at 1e-9.
+/// Safety factor of the expected indentation.
+// It scales tolerances: a larger factor reduces accuracy, a smaller one may make rows of springs too narrow.
 const MARGIN: f64 = 1.2;
 
-/// Part of a profile's reach up to which a row is as wide as it need be.
+/// Fraction of a profile's extent that limits the width of a row.
 const NEARLY: f64 = 0.9;
 
-/// Largest indentation to be expected of one of `count` contacts, m.
+/// Returns the largest expected indentation of one of `count` contacts, m.
 ///
-/// Energy sets it: what moves at the start, ½mḋ², and the work of the loads on the way, F(g + d) with the gap g, are
-/// stored as E\*N(d). m is the mass felt along d, F the largest force that a load, a preload or a stroke puts on it.
-/// Followers press as deep as they go; where that is not at all, and nothing else moves, the contact is never pressed, and
-/// what comes out is below zero. Bodies that start in equilibrium have neither motion nor a way to fall.
+/// An energy balance determines it. Initial kinetic energy ½mḋ² and the work of loads, F(g + d) with the gap g, equal E\*N(d). m
+/// is the effective mass along d, F the largest force of loads, preloads and strokes. Prescribed motions press by their range.
+/// The result is negative if the contact is never pressed. Bodies in equilibrium have neither motion nor height of fall.
 pub(super) fn deepest(law: &Interface, count: f64, d: &Measure, around: &Surroundings<'_>) -> f64 {
     let first = around.at_start(d);
-    // 0 where only followers move it: then nothing has a mass to be stopped.
+    // 0 if only prescribed motions move it.
     let mobility = d.mobility(|i| around.free[i].mobility);
     let rate: f64 = d.free.iter().map(|(i, a)| a * around.free[*i].start.1).sum::<f64>()
         + d.driven.iter().map(|(w, a)| a * around.signals.first(*w).rate).sum::<f64>();
@@ -43,7 +40,7 @@ pub(super) fn deepest(law: &Interface, count: f64, d: &Measure, around: &Surroun
         .iter()
         .map(|(w, a)| (a * span(*w).0).max(a * span(*w).1) - a * around.signals.first(*w).value)
         .sum();
-    // How deep followers alone press: their range counted from where they start.
+    // Largest indentation by prescribed motions alone.
     let driven = if d.driven.is_empty() { first } else { first + driven };
     let settled = settled(law, count, d, around);
     if d.free.is_empty() && driven < 0.0 && settled == 0.0 {
@@ -53,13 +50,12 @@ pub(super) fn deepest(law: &Interface, count: f64, d: &Measure, around: &Surroun
     if deepest > 0.0 { deepest } else { SHALLOW }
 }
 
-/// How deep a row that is to be wide enough must reach for one of `count` contacts, m: at least `deepest`, and what all that its
-/// pile has at the start could press into it alone.
+/// Returns the indentation that a row of springs must allow for one of `count` contacts, m. It is at least `deepest`, and covers
+/// all energy of the connected bodies.
 ///
-/// E\*N(d) ≤ E\*N(d₀) + F(g + d - d₀) + T + V: d₀ its indentation at the start, F what pulls at all bodies of its pile, g the gaps of
-/// all their contacts, T their energy of motion along z and in pitch against what carries them, V what their springs along z and
-/// their other contacts have stored. Motion along x is left out: little of it is ever turned downwards. Bodies that start in
-/// equilibrium have none of these.
+/// E\*N(d) ≤ E\*N(d₀) + F(g + d - d₀) + T + V with the initial indentation d₀. F are the forces on all connected bodies, g the
+/// gaps of their contacts. T is their kinetic energy along z and in pitch, V the energy of springs along z and of other contacts.
+/// Motion along x is neglected. Bodies in equilibrium have none of these.
 pub(super) fn widest(
     (law, count): (&Interface, f64),
     d: &Measure,
@@ -70,27 +66,27 @@ pub(super) fn widest(
         return deepest;
     }
     let first = around.at_start(d).max(0.0);
-    // Its own store is part of that of the pile.
+    // Its own energy is part of the total.
     let reached = |d: f64| count * law.normal_energy(d) >= pile.energy + pile.force * (pile.gaps + d - first);
     let most = law.profile().reach().map_or(f64::INFINITY, |reach| NEARLY * reach);
-    // Below where it starts nothing is asked.
+    // At least the initial indentation.
     deepest.max((MARGIN * bracket(|d| d >= first && reached(d))).min(most))
 }
 
-/// What the bodies of a pile have at the start.
+/// Initial energies and forces of bodies that contacts connect along z.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Pile {
-    /// Of motion along z and in pitch, of springs along z and of contacts, J.
+    /// Kinetic energy along z and in pitch, energy of springs along z and of contacts, J.
     energy: f64,
-    /// Gaps of its contacts, m.
+    /// Sum of the gaps of their contacts, m.
     gaps: f64,
-    /// Largest forces on its bodies along z, N.
+    /// Sum of the largest forces on them along z, N.
     force: f64,
 }
 
 impl Pile {
-    /// That of a coupled contact: its bodies, and those piled up with them. `pressed` are the coupled contacts of the scene, each
-    /// with its law and its number.
+    /// Returns the values for the bodies of a coupled contact and all bodies connected with them. `pressed` are the coupled
+    /// contacts of the model.
     pub(super) fn of<'c>(
         d: &Measure,
         pressed: impl Iterator<Item = (&'c Interface, f64, Measure)>,
@@ -128,8 +124,8 @@ impl Pile {
     }
 }
 
-/// Indentation at which one of `count` contacts alone carries all that pulls at balanced coordinates along its normal, m; 0
-/// where none presses it.
+/// Returns the indentation at which one of `count` contacts alone carries all loads of balanced coordinates along z, m; 0 if none
+/// presses it.
 fn settled(law: &Interface, count: f64, d: &Measure, around: &Surroundings<'_>) -> f64 {
     if !around.is_balanced(d) {
         return 0.0;
@@ -139,8 +135,8 @@ fn settled(law: &Interface, count: f64, d: &Measure, around: &Surroundings<'_>) 
     if push > 0.0 { law.indentation(push / count) } else { 0.0 }
 }
 
-/// Of each free coordinate along z those of all other bodies that coupled contacts join to its own, however many lie between.
-/// Empty where no contact is coupled: only those ask.
+/// Returns, for each free coordinate, the z coordinates of other bodies that coupled contacts connect with its body. Empty
+/// without coupled contacts.
 pub(super) fn piled(scene: &Scene, free: &[Free]) -> Vec<Vec<usize>> {
     if scene.contacts.iter().all(|named| named.part.normal != Normal::Coupled) {
         return Vec::new();
@@ -168,10 +164,10 @@ pub(super) fn piled(scene: &Scene, free: &[Free]) -> Vec<Vec<usize>> {
     free.iter().map(others).collect()
 }
 
-/// Largest force on a free coordinate, N or N m.
+/// Returns the largest force on a free coordinate, N or N m.
 ///
-/// A bound, not a sum of what acts at once: magnitudes of gravity and constant loads, of the widest values of
-/// those that vary, of preloads, and of springs at their widest stroke.
+/// It is an upper bound: the sum of magnitudes of gravity, constant loads, extreme values of varying loads, preloads, and springs
+/// at their largest stroke.
 pub(super) fn pressing(i: usize, around: &Surroundings<'_>) -> f64 {
     let widest = |w: usize| {
         let (low, high) = around.signals.range(w);
@@ -191,11 +187,11 @@ pub(super) fn pressing(i: usize, around: &Surroundings<'_>) -> f64 {
     around.free[i].force.abs() + loads + links.sum::<f64>()
 }
 
-/// The indentation at which `reached` begins to hold, m; at most 1.2e18 m, so that a scene in which nothing holds ends, too.
+/// Returns the indentation from which `reached` holds, m; at most 1.2e18 m.
 ///
-/// Between neighbouring powers of two and then by halves: a scene in units that differ by a power of two has the same digits.
+/// Searches powers of two, then bisects: models in units that differ by a power of two give the same digits.
 fn bracket(reached: impl Fn(f64) -> bool) -> f64 {
-    // From far below any depth: beyond its reach a profile says nothing.
+    // Starts well below any depth, as a profile is undefined beyond its extent.
     let mut high = 2.0_f64.powi(-60);
     while !reached(high) && high < 1e18 {
         high *= 2.0;

@@ -1,24 +1,24 @@
-//! Natural scales: one tolerance suits every scene because errors are measured against these.
+//! Natural scales, to which tolerances are relative.
 
 use super::{Free, Link, Measure};
 use crate::Waveform;
 use crate::contact::{Contact, Natural};
 use crate::scene::{Axis, Normal, Scene, Varying};
 
-/// Length where nothing tells one, m.
+/// Length scale if no other is known, m.
 const LENGTH: f64 = 1e-6;
 
-/// Room that scales are found in.
+/// Scratch memory.
 #[derive(Debug, Default)]
 pub(super) struct Room {
     springs: Vec<(f64, f64)>,
     frequency: Vec<f64>,
-    /// Whether a waveform is a force, or a moment, and no length.
+    /// Whether a waveform is a force or a moment instead of a length.
     forces: Vec<bool>,
 }
 
 impl Room {
-    /// Finds the waveforms that loads and pressed contacts follow.
+    /// Marks the waveforms of loads and of normal forces.
     pub(super) fn find_forces(&mut self, scene: &Scene) {
         self.forces.clear();
         self.forces.resize(scene.waveforms.len(), false);
@@ -37,15 +37,14 @@ impl Room {
     }
 }
 
-/// Sets the scales of contacts and free coordinates: u_c along the slide, d along the normal, and the velocities they
-/// make with the stuck stiffness.
+/// Sets the scales of contacts and free coordinates: u_c along the slide, d along the normal, and velocities by the stuck
+/// stiffness.
 ///
 /// `deepest` is the largest indentation of each contact, `pushes` the largest force on each free coordinate.
 ///
-/// A free coordinate has a length l, the smallest u_c or d of its contacts by their arms, and the speed lω
-/// with ω² = k/m of all that is stuck to it. Without contacts it has the smallest stroke or, where nothing has one, what
-/// `pushes` make of it; without stiffness the highest frequency of the waveforms. A contact's frequency is the highest
-/// of the coordinates that move it.
+/// A free coordinate has a length l, the smallest u_c or d of its contacts divided by their arms, and the velocity lω with ω² =
+/// k/m in full stick. Without contacts l is the smallest stroke, or the displacement by `pushes`. Without stiffness ω is the
+/// largest angular frequency of the waveforms. A contact has the largest ω of the coordinates that move it.
 pub(super) fn assign(
     contacts: &mut [Contact],
     free: &mut [Free],
@@ -61,17 +60,17 @@ pub(super) fn assign(
         spans.fold((f64::INFINITY, 0.0_f64), |(least, most), span| (least.min(span), most.max(span)));
     let quickest = highest_frequency(waveforms);
     let slow = quickest.unwrap_or(1.0);
-    // With high friction u_c lies far above anything that moves.
+    // With high friction u_c may exceed all motions.
     let reach = if widest > 0.0 { widest } else { f64::INFINITY };
     frequency.clear();
     frequency.resize(free.len(), slow);
     for (i, f) in free.iter_mut().enumerate() {
         let (stiffness, length) = springs[i];
-        // Along x no motion wider than the widest waveform matters; a depth is its own measure.
+        // Along x the largest waveform limits the length; a depth has no such limit.
         if stiffness > 0.0 {
             frequency[i] = (stiffness / f.mass).sqrt();
         }
-        // A push or a velocity at the start moves it, too, however small the stroke.
+        // Loads and initial velocities may exceed the stroke.
         let pushed = (pushes[i] / stiffness).max(f.start.1.abs() / frequency[i]);
         f.scale = match (length.is_finite(), f.axis) {
             (true, Axis::X) => {
@@ -104,16 +103,16 @@ pub(super) fn assign(
     }
 }
 
-/// How far waveforms move a measure, m; infinite where something else drives it.
+/// Returns the displacement of a measure by waveforms, m; infinite if other signals move it.
 fn driven(measure: &Measure, waveforms: &[Waveform]) -> f64 {
     let range = |w: usize| waveforms.get(w).map_or(f64::INFINITY, |w| w.range().1 - w.range().0);
     measure.driven.iter().map(|(w, a)| a.abs() * range(*w)).sum()
 }
 
-/// Stiffness that acts on each free coordinate with all contacts stuck, N/m or N m/rad, and the smallest displacement
-/// of it that matters to a contact, m or rad; infinite without any.
+/// Computes the stiffness on each free coordinate with all contacts stuck (N/m or N m/rad), and its length scale (m or rad;
+/// infinite without contacts).
 ///
-/// Σ arm²·k over contacts at their deepest and links; links set no length.
+/// The stiffness is Σ arm²·k over contacts at their largest indentation and links; links have no length scale.
 fn find_springs(
     contacts: &[Contact],
     links: &[Link],
@@ -141,8 +140,9 @@ fn find_springs(
     }
 }
 
-/// Length and speed of a coordinate that no contact touches, where nothing has a stroke: as far as a push, N or N m, goes
-/// against springs or, at the highest frequency of the waveforms, against the mass, and as a start makes of it.
+/// Returns length and velocity scale of a coordinate without contacts, where no waveform is a length. The length is the
+/// displacement by a load against springs, or against inertia at the largest frequency of the waveforms, and by the initial
+/// velocity.
 fn untouched(free: &Free, (push, stiffness): (f64, f64), quickest: Option<f64>) -> (f64, f64) {
     let own = (stiffness / free.mass).sqrt();
     let frequency = own.max(quickest.unwrap_or(0.0));
@@ -150,12 +150,12 @@ fn untouched(free: &Free, (push, stiffness): (f64, f64), quickest: Option<f64>) 
         return (LENGTH, LENGTH);
     }
     let way = (push * free.mobility / frequency.powi(2)).max(free.start.1.abs() / frequency);
-    // What rests is pushed, too: loads that balance each other must not hide how little moves.
+    // Loads at rest count, too, because they may balance each other.
     let length = if way > 0.0 { way.min(LENGTH) } else { LENGTH };
     (length, length * frequency)
 }
 
-/// Highest angular frequency of the waveforms, rad/s; none without any.
+/// Returns the largest angular frequency of the waveforms, rad/s. None without waveforms.
 fn highest_frequency(waveforms: &[Waveform]) -> Option<f64> {
     let period = waveforms.iter().filter_map(Waveform::shortest_period).fold(f64::INFINITY, f64::min);
     period.is_finite().then(|| std::f64::consts::TAU / period)

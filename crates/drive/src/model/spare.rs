@@ -1,41 +1,41 @@
-//! What a model spares its runs.
+//! Parts of a [`Scene`](crate::Scene) that a model omits.
 
 use super::{Link, Model, Stroke};
 use crate::contact::Press;
 
-/// Parts of a scene that a model leaves out, by their places in the scene.
+/// Indices of parts of a [`Scene`](crate::Scene) without effect.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct Spared {
     /// Springs between bodies at rest.
     pub springs: Vec<usize>,
-    /// Actuators between bodies at rest whose stroke is constant.
+    /// Actuators between bodies at rest with constant stroke.
     pub actuators: Vec<usize>,
-    /// Loads that the guides of their bodies carry.
+    /// Loads that guides of bodies carry.
     pub loads: Vec<usize>,
-    /// Waveforms that nothing follows: their corners end no steps.
+    /// Waveforms that nothing follows; their corners do not end steps.
     pub waveforms: Vec<usize>,
 }
 
-/// What sets the indentation of a contact.
+/// Source of a contact's indentation.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Pressing {
-    /// Nothing moves it: it is found once.
+    /// Constant.
     Constant,
-    /// It follows a waveform.
+    /// Waveform of the indentation.
     Followed,
-    /// It is solved from a waveform of the force or of the radius at every evaluation.
+    /// Waveform of force or radius, converted at every evaluation.
     Solved,
-    /// The bodies' motion.
+    /// Motion of the bodies.
     Bodies,
 }
 
 impl Model {
-    /// What of the scene no run will ever look at.
+    /// Returns the parts without effect.
     pub fn spared(&self) -> &Spared {
         &self.spared
     }
 
-    /// What sets the indentation of contact `index`.
+    /// Returns the source of the indentation of contact `index`.
     pub fn pressing(&self, index: usize) -> Option<Pressing> {
         Some(match self.contacts.get(index)?.press {
             Press::Constant { .. } => Pressing::Constant,
@@ -45,13 +45,12 @@ impl Model {
         })
     }
 
-    /// Whether the force of contact `index` is a state of its own while the contact grows in full stick.
+    /// Whether the force of contact `index` is a state during growth in full stick.
     pub fn grows(&self, index: usize) -> bool {
         self.contacts.get(index).is_some_and(|contact| contact.slot.is_some() && contact.engine.branches())
     }
 
-    /// The coordinates along the slide whose origin moves with them, by their bodies' names: nothing but contacts depends on
-    /// where they are.
+    /// Returns the names of bodies whose origin along the slide moves with them, because only contacts depend on their position.
     pub fn travellers(&self) -> impl Iterator<Item = &str> {
         let travelling = self.free.iter().filter(|free| free.travels);
         travelling.map(|free| self.bodies[free.body].name.as_str())
@@ -59,7 +58,7 @@ impl Model {
 }
 
 impl Link {
-    /// Whether anything changes about it: between bodies at rest, at a constant stroke, it only is there.
+    /// Whether it can exert a varying force: its ends or its stroke move.
     pub(crate) fn acts(&self) -> bool {
         let moves = !self.elongation.free.is_empty() || !self.elongation.driven.is_empty();
         moves || matches!(self.stroke, Stroke::Driven(_))

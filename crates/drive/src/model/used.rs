@@ -1,11 +1,11 @@
-//! Waveforms that nothing follows.
+//! Unused waveforms.
 
 use super::{Binding, Model, Stroke, Wire};
 use crate::Waveform;
 
-/// Holds all waveforms still that nothing follows: their corners would end steps for nothing. Notes their places. `used` is room.
+/// Replaces unused waveforms by constants, so that their corners do not end steps, and records their indices. `used` is scratch.
 ///
-/// Followed is what a body, a stroke, a contact's load, a load or a block reads.
+/// Waveforms are used by bodies, strokes, normal loads, loads and blocks.
 pub(super) fn hold_the_others(model: &mut Model, used: &mut Vec<bool>) {
     used.clear();
     used.resize(model.waveforms.len(), false);
@@ -26,7 +26,7 @@ pub(super) fn hold_the_others(model: &mut Model, used: &mut Vec<bool>) {
     });
     let all = places.chain(strokes).chain(pressing).chain(pulling).chain(read);
     for w in all {
-        // Signals beyond the waveforms are blocks'.
+        // Signals after the waveforms belong to blocks.
         if let Some(used) = used.get_mut(w) {
             *used = true;
         }

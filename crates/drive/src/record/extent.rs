@@ -1,31 +1,31 @@
-//! How far a coordinate goes over a stretch of time.
+//! Extremes of a coordinate over a time interval.
 
-/// Extremes of a coordinate over a stretch of time, and the largest fall and rise between two moments in order.
+/// Extremes of a coordinate over a time interval, and its largest decrease and increase between two ordered times.
 ///
-/// Stretches that follow one another join by [`Self::join`], which is associative; [`Self::NONE`] is its neutral element.
+/// Adjacent intervals are combined by [`Self::join`], which is associative with the neutral element [`Self::NONE`].
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Extent {
-    /// Least position, m, and the first time at which it is reached, s.
+    /// Smallest position, m, and the first time at which it is reached, s.
     pub least: [f64; 2],
     /// Largest position, m, and the first time at which it is reached, s.
     pub most: [f64; 2],
-    /// Largest fall after a maximum: max x(t₁) - x(t₂) over t₁ ≤ t₂, m.
+    /// Largest decrease: max x(t₁) - x(t₂) over t₁ ≤ t₂, m.
     pub fall: f64,
-    /// Largest rise after a minimum: max x(t₂) - x(t₁) over t₁ ≤ t₂, m.
+    /// Largest increase: max x(t₂) - x(t₁) over t₁ ≤ t₂, m.
     pub rise: f64,
 }
 
 impl Extent {
-    /// No position yet.
+    /// Empty interval.
     pub const NONE: Self =
         Self { least: [f64::INFINITY, 0.0], most: [f64::NEG_INFINITY, 0.0], fall: 0.0, rise: 0.0 };
 
-    /// A single position, m, at a time, s.
+    /// Returns the extent of a single position (m) at a time (s).
     pub fn at(x: f64, t: f64) -> Self {
         Self { least: [x, t], most: [x, t], fall: 0.0, rise: 0.0 }
     }
 
-    /// This stretch and the one after it.
+    /// Returns the extent of this interval and the next one.
     #[must_use]
     pub fn join(self, later: Self) -> Self {
         Self {
@@ -36,12 +36,12 @@ impl Extent {
         }
     }
 
-    /// Whether it holds no position.
+    /// Whether it is empty.
     pub fn is_none(&self) -> bool {
         self.least[0] > self.most[0]
     }
 
-    /// Peak to peak, m.
+    /// Returns the peak-to-peak width, m.
     pub fn width(&self) -> f64 {
         self.most[0] - self.least[0]
     }
@@ -57,7 +57,6 @@ mod tests {
         let point = |k: usize| Extent::at(x[k], k as f64);
         let part = |from: usize, to: usize| (from..to).map(point).fold(Extent::NONE, Extent::join);
         let whole = part(0, x.len());
-        // By hand: from 3 down to -0.5, from -0.5 up to 4.
         assert_eq!((whole.least, whole.most), ([-0.5, 4.0], [4.0, 6.0]));
         assert_eq!((whole.fall, whole.rise, whole.width()), (3.5, 4.5, 4.5));
         for cut in 0..=x.len() {

@@ -1,10 +1,10 @@
-//! A run's output kept in memory.
+//! Output in memory.
 
 use super::Record;
 use crate::Model;
 use crate::event::Event;
 
-/// A record that keeps everything in memory.
+/// A record that keeps all rows and events in memory.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Trace {
     width: usize,
@@ -14,22 +14,22 @@ pub struct Trace {
 }
 
 impl Trace {
-    /// A trace of a model's channels.
+    /// Returns an empty trace for a model's channels.
     pub fn new(model: &Model) -> Self {
         Self { width: model.channels().len(), ..Self::default() }
     }
 
-    /// Rows in order of time.
+    /// Returns the rows in order of time.
     pub fn rows(&self) -> impl ExactSizeIterator<Item = &[f64]> {
         self.values.chunks_exact(self.width.max(1))
     }
 
-    /// Events in order of time, each with the values after it.
+    /// Returns the events in order of time, each with the row after it.
     pub fn events(&self) -> impl ExactSizeIterator<Item = (&Event, &[f64])> {
         self.events.iter().zip(self.after.chunks_exact(self.width.max(1)))
     }
 
-    /// One column.
+    /// Returns the values of one column.
     pub fn column(&self, index: usize) -> impl Iterator<Item = f64> + '_ {
         self.rows().filter_map(move |row| row.get(index).copied())
     }

@@ -1,59 +1,58 @@
-//! Guards against endless work.
+//! Limits that stop a run: attempts, events, wall-clock time, accumulating events and lack of progress.
 //!
-//! Asked by both kinds of runs after every attempt and every event of a component; it reads the state and
-//! stops a run with an error that says when, and of events whose. It changes nothing.
+//! [`Bounds`] is checked after every attempt and after every event of a contact or block. A check reads the state and
+//! returns a [`RunError`]. It does not change the state.
 
 use crate::Wall;
 use crate::record::Record;
 use crate::state::{Crawl, Window};
 use crate::{EventKind, Limits, Model, RunError, Source, State, Waveform};
 
-/// More events of a component than this in a natural period of its own accumulate, and stop the run or make it take a detour.
-// A quarter of it changes none of 3 600 drawn runs; a damped flat punch dragged back under a falling load slides along a line
-// on which stick and slip take turns ten thousand times in a period: with 200 events in 1e-4 of a period it took 30 times as long.
+/// Largest number of events of a component in one of its natural periods; more events count as accumulation.
 const ZENO_COUNT: u32 = 64;
-/// Events of a component that a corner of a waveform has for itself: what turns at it, slips and holds again does not accumulate.
-// A measured table with noise, a point every 2 µs, turns a contact of 1 ms 400 times in its period: it took nine detours in each.
+/// Number of events per component and waveform corner that do not count towards accumulation.
 const PER_CORNER: u32 = 4;
-/// Periods of the fastest sine of a waveform in which so many events accumulate, where the component's own is longer.
+/// Upper limit of the accumulation window, in periods of the fastest sine of any waveform.
 const SINES: f64 = 8.0;
-/// Loops of a contact that close in a natural period before they accumulate, too, beside those that it held when the period began: each
-/// of these closes once, and one flyback may sweep up as many as there are.
-// A drive at 1 Hz that nothing damps rings four thousand times in a period. Without any bound two balls on one another, whose sideways motion is rounding, close half a million loops in ten milliseconds.
+/// Largest number of closed hysteresis loops of a contact in one natural period.
+///
+/// Loops that were stored at the start of the period are allowed in addition.
 const LOOPS: u32 = 4096;
-/// What counts of loops are told from: those held when their window begins are taken off.
+/// Offset of the loop counters. It keeps a counter non-negative after the stored loops have been subtracted.
 const HELD: u32 = 1 << 24;
-/// Steps between two looks at the clock, in a scene without rows of springs …
+/// Number of attempts between two checks of the wall clock in a model without spring rows.
 const STRIDE: u64 = 1024;
-/// … and springs that take as long as one such step.
+/// Number of springs whose evaluation takes about as long as one attempt.
 const SPRINGS_PER_STEP: usize = 1000;
 
-/// No event yet.
+/// Accumulation window without events.
 const QUIET: Window = Window { start: f64::NEG_INFINITY, count: 0 };
-/// So many attempts …
+/// Number of attempts after which a run with too little progress is stopped.
 const CRAWLING: u64 = 100_000;
-/// … that together move on by less than this part of a period of the fastest swing are a crawl.
+/// Required progress of [`CRAWLING`] attempts, as a fraction of the period of the fastest oscillation.
 const PROGRESS: f64 = 0.01;
 
-/// Watches limits, the clock, and events that accumulate.
+/// Checks of a run's limits and of accumulating events.
 pub(super) struct Bounds {
-    /// The user's.
+    /// Limits of the plan.
     limits: Limits,
-    /// When the run began, by the clock on the wall.
+    /// Wall-clock time at the start of the run.
     begun: Wall,
-    /// Attempts between two looks at the clock, a power of two.
+    /// Number of attempts between two checks of the wall clock; a power of two.
     stride: u64,
-    /// Of each contact, then each block, then of the loops of each contact.
+    /// Accumulation windows: one per contact, one per block, then one per contact for closed loops.
     pub(super) windows: Vec<Window>,
     pub(super) crawl: Crawl,
-    /// Of the fastest swing, s; 0 where steps may be as short as they like.
+    /// Period of the fastest oscillation, s; 0 disables the progress check.
     period: f64,
-    /// Longest time in which events accumulate, s: some periods of the fastest sine.
+    /// Longest accumulation window, s.
     longest: f64,
 }
 
 impl Bounds {
-    /// A stride that makes looks at the clock about as frequent for rows of a million springs as for none.
+    /// Creates the checks of a run and reuses the storage of `windows`.
+    ///
+    /// The number of attempts between two checks of the wall clock decreases with the number of springs.
     pub(super) fn new(model: &Model, limits: Limits, period: f64, mut windows: Vec<Window>) -> Self {
         let springs: usize = model.contacts.iter().map(|contact| contact.engine.springs()).sum();
         let stride = (STRIDE / (1 + springs / SPRINGS_PER_STEP) as u64).max(1).next_power_of_two();
@@ -65,7 +64,9 @@ impl Bounds {
         Self { limits, begun: Wall::begin(limits.wall.is_some()), stride, windows, crawl, period, longest }
     }
 
-    /// Attempts so far. Asked before the first one, too: a run that goes on at its limit stops where it stopped.
+    /// Returns the number of attempts so far, accepted and rejected.
+    ///
+    /// Fails if that number has reached the limit of the plan.
     #[inline(always)]
     pub(super) fn tried(&self, state: &State) -> Result<u64, RunError> {
         let tried = state.counts.steps + state.counts.rejected;
@@ -75,17 +76,16 @@ impl Bounds {
         Ok(tried)
     }
 
-    /// Called after every attempt.
+    /// Checks all limits after an attempt.
     ///
-    /// Fails where steps accepted and rejected reach their limit, time on the wall is over, or the record
-    /// wants no more.
+    /// Fails if the attempts, the wall-clock time or the progress violate a limit, or if the record interrupts the run.
     pub(super) fn step(&mut self, state: &State, record: &mut dyn Record) -> Result<(), RunError> {
         let tried = self.tried(state)?;
-        // A power of two: a division would be felt.
+        // The stride is a power of two, so a bit mask replaces the division.
         if tried & (self.stride - 1) != 0 {
             return Ok(());
         }
-        // First: what is found out does not depend on who interrupts.
+        // Checked first, so that this error does not depend on wall-clock time.
         self.watch_progress(state.t)?;
         if let Some(limit) = self.limits.wall.filter(|limit| self.begun.elapsed() > *limit) {
             return Err(RunError::OutOfTime { t: state.t, limit });
@@ -96,7 +96,7 @@ impl Bounds {
         Ok(())
     }
 
-    /// Fails where very many attempts have moved the run on by next to nothing.
+    /// Fails if more than [`CRAWLING`] attempts have advanced the time by less than [`PROGRESS`] periods.
     fn watch_progress(&mut self, t: f64) -> Result<(), RunError> {
         if t - self.crawl.since >= PROGRESS * self.period {
             self.crawl = Crawl { since: t, attempts: 0 };
@@ -110,26 +110,26 @@ impl Bounds {
         Err(RunError::Crawl { t, attempts, advance: t - since })
     }
 
-    /// What has accumulated so far counts no more.
+    /// Resets the accumulation windows and the attempt counter of the progress check.
     pub(super) fn forget(&mut self) {
         self.windows.fill(QUIET);
         self.crawl.attempts = 0;
     }
 
-    /// Knows of no attempt and no event.
+    /// Resets all counters to the state before the first attempt.
     pub(super) fn begin_anew(&mut self) {
         self.windows.fill(QUIET);
         self.crawl = Crawl { since: 0.0, attempts: 0 };
     }
 
-    /// Called at every corner of a waveform.
+    /// Reduces the event counts at a waveform corner by [`PER_CORNER`].
     pub(super) fn corner(&mut self) {
         self.windows.iter_mut().for_each(|window| window.count = window.count.saturating_sub(PER_CORNER));
     }
 
-    /// Called after every event of a component. Many loops may close at once: they accumulate far later.
+    /// Counts an event of a component; closed loops are counted separately.
     ///
-    /// Fails at the limit of events, or where a component has more than [`ZENO_COUNT`] beside those of corners within its natural period.
+    /// Fails at the limit of events in the plan, or if the events exceed [`ZENO_COUNT`] or [`LOOPS`] within the window.
     pub(super) fn event(
         &mut self,
         model: &Model,
@@ -145,10 +145,10 @@ impl Bounds {
                 let (wired, place) = (&model.blocks[k], model.contacts.len() + k);
                 (&wired.name, place, wired.block().rate(), wired.block().events_per_turn().max(1))
             }
-            // Corners of waveforms are where their period puts them.
+            // The waveform determines its corners; they cannot accumulate.
             Source::Waveform(_) => return Ok(()),
         };
-        // In parts of the component's own period: what is dense for one contact is a single event of another.
+        // The window is the component's own natural period: events that are dense for one contact are rare for another.
         let period = (std::f64::consts::TAU / frequency).min(self.longest);
         let (place, base, held, most) = match kind {
             EventKind::LoopClosed => {

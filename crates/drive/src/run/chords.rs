@@ -1,8 +1,10 @@
-//! Steps without located events: every accepted step is one chord of every contact.
+//! Runs without event location: every accepted step is one straight path of each contact in the plane of (d, u).
 //!
-//! Contacts obey their whole law, kinks and all; what happened in a step is noticed from the states at both its ends, for the
-//! record alone. Between steps positions are read by the cubic through both ends, velocities and work in proportion. The
-//! order of a method is that of its chords, two at best, wherever a contact turns or grows inside a step.
+//! Contacts follow the full force law of their slip memory, including its kinks. Events are detected afterwards, from
+//! the contacts at both ends of a step, and only reported to the record.
+//!
+//! Inside a step, positions are cubic Hermite interpolants; velocities and works are linear in time. If a contact
+//! reverses or grows within a step, the order of accuracy is at most two.
 
 mod branches;
 mod corners;
@@ -26,7 +28,7 @@ use branches::{Branches, GROWING_KNOTS, KNOTS};
 pub(super) use step::Between;
 use stickslip_contact::{ContactState, Memory, Segment};
 
-/// A run by chords: accepts steps, writes what falls between them, notices events after the fact.
+/// Run without event location: accepts steps, writes the output inside them and detects events afterwards.
 pub(super) struct Chords<'a> {
     pub(super) model: &'a Model,
     pub(super) layout: Layout,
@@ -34,34 +36,34 @@ pub(super) struct Chords<'a> {
     pub(super) output: Output,
     ledger: Ledger,
     pub(super) bounds: Bounds,
-    /// Sense in which each contact slid last; 0 before it did.
+    /// Sign of the last sliding velocity of each contact; 0 before it first slides.
     senses: Vec<f64>,
-    /// State of each contact after the last step, where somebody watches.
+    /// Slip state of each contact after the last step, while the record requests events.
     standings: Vec<ContactState>,
-    /// Whether somebody did at the last step.
+    /// Whether the record requested events at the last step.
     watched: bool,
-    /// Whether a step may cross corners of waveforms, and see both sides; otherwise it ends there.
+    /// Whether a step may cross waveform corners; otherwise steps end at corners.
     pub(super) crossing: bool,
-    /// Of frames: branches that contacts keep to.
+    /// Branches of the force laws; only for the stepper [`Stepper::Frames`].
     branches: Option<Branches<'a>>,
-    /// Whether springs of any contact are damped.
+    /// Whether any contact has contact damping.
     is_damped: bool,
-    /// The contacts at both ends of the step.
+    /// Motions of the contacts at the start of the step (`before`) and at its end (`motions`).
     before: Vec<Motion>,
     motions: Vec<Motion>,
-    /// The components where a run ends inside the step.
+    /// Components at the end of the run, where the run ends inside a step.
     last: Vec<f64>,
 }
 
 impl<'a> Chords<'a> {
-    /// Chords do not carry the extra components of growing contacts.
+    /// Creates the run. Its layout has no states for the forces of contacts growing in full stick.
     pub(super) fn new(model: &'a Model, plan: &Plan) -> Self {
-        // A chord's force is the memory's own: nothing has to be carried beside it.
+        // The slip memory gives the force of a straight path; no state is needed for it.
         let layout = Layout { growing: 0, located: false, ..model.layout() };
         Self {
             horizon: Horizon::new(model, plan),
             output: Output::new(plan.every, layout),
-            // A contact that turns in a step has a path to where it does, and one from there.
+            // A contact that reverses within a step has one path before the reversal and one after it.
             ledger: Ledger::new(model, model.contacts.len()),
             bounds: Bounds::new(model, plan.limits, 0.0, Vec::new()),
             senses: vec![0.0; model.contacts.len()],
@@ -81,16 +83,18 @@ impl<'a> Chords<'a> {
         }
     }
 
-    /// Prepares a state: energies and friction of growing contacts go into the books, shifted origins come back, and every
-    /// contact is put on its whole law.
+    /// Prepares a state for the run.
+    ///
+    /// Integrated friction works become committed works, shifted origins return, and every contact gets the full force
+    /// law. A continued run of the same kind keeps its branches.
     pub(super) fn set_out(&mut self, state: &mut State, opening: Opening, record: &mut dyn Record) {
         let model = self.model;
         state.carry_over(model, self.layout);
-        // Steps without events have no moment at which an origin could move.
+        // Origins move at located events only.
         state.come_back(model);
         let goes_on = matches!(state.underway, Some(Underway::Fixed(_)));
         if self.branches.is_none() || !goes_on {
-            // Without a sense: a chord may turn inside its step, and the memory sees it by itself.
+            // The sense is 0: the slip memory itself detects a reversal within a step.
             state.modes.fill(Mode::Whole { sense: 0.0 });
         }
         match &state.underway {
@@ -113,7 +117,7 @@ impl<'a> Chords<'a> {
         self.output.begin_looks(&eq, (model, state), opening, record);
     }
 
-    /// Goes on from what another run put down.
+    /// Restores what an earlier run has saved.
     fn take_up(&mut self, way: &FixedWay, state: &State) {
         self.senses.clone_from(&way.senses);
         self.ledger.booked.copy(&way.booked);
@@ -123,7 +127,7 @@ impl<'a> Chords<'a> {
         }
     }
 
-    /// Puts down what the next step depends on, but for what its method knows.
+    /// Saves everything that the next step depends on, except the integrator's own data.
     pub(super) fn put_down(&self, way: &mut FixedWay) {
         way.senses.clone_from(&self.senses);
         way.booked.copy(&self.ledger.booked);
@@ -135,7 +139,7 @@ impl<'a> Chords<'a> {
         self.ledger.touched
     }
 
-    /// How many turning points a contact remembers.
+    /// Returns the largest number of reversals that a slip memory keeps.
     pub(super) fn remembers(&self) -> usize {
         match &self.branches {
             Some(_) if self.model.has_moving_normals() => GROWING_KNOTS,
@@ -149,7 +153,7 @@ impl<'a> Chords<'a> {
         Equations { interval, ..self.plain(state) }
     }
 
-    /// The same by the general law alone.
+    /// Returns the equations of motion without the closed forms of the current interval.
     fn plain<'s>(&self, state: &'s State) -> Equations<'s>
     where
         'a: 's,
@@ -157,25 +161,26 @@ impl<'a> Chords<'a> {
         Equations::on(self.model, state, self.layout, self.crossing)
     }
 
-    /// Goes as far as a goal says.
+    /// Sets the goal of the run.
     pub(super) fn aim(&mut self, goal: Goal) {
         self.horizon.aim(goal);
         self.horizon.nearly = self.output.end_at(self.horizon.end);
     }
 
-    /// Whether the run is not at its end yet.
+    /// Whether the run has not yet reached its goal.
     pub(super) fn goes_on(&self, state: &State) -> bool {
         state.t < self.horizon.limit()
     }
 
-    /// Writes the row of where the run stands.
+    /// Writes the current state as a row.
     pub(super) fn write_now(&mut self, state: &State, record: &mut dyn Record) {
         let eq = Equations::on(self.model, state, self.layout, self.crossing);
         self.output.write_now(&eq, state, record);
     }
 
-    /// Whether the step that ends at t in y would end the run: because it goes that far, or because the steps of the drive are
-    /// constant with it.
+    /// Evaluates all period ends in the step that ends at time t with components y.
+    ///
+    /// Ends the run at the period end with which the step length of the drive is constant.
     pub(super) fn take_steps(&mut self, state: &State, t: f64, y: &[f64]) {
         while let Some(due) = self.horizon.steps.due(t) {
             let step = Between { from: (state.t, &state.y), to: (t, y), free: self.layout.free };
@@ -186,15 +191,15 @@ impl<'a> Chords<'a> {
         }
     }
 
-    /// Ends the run, and its rows, at another time, s.
+    /// Sets the end of the run and of its rows, s.
     pub(super) fn end_at(&mut self, end: f64) {
         self.horizon.end = end;
         self.horizon.nearly = self.output.end_at(end);
     }
 
-    /// Accepts the step that ends at t in y, or earlier where the run does; tells whether it was cut there.
+    /// Accepts the step that ends at time t with components y. Returns whether the end of the run has cut it.
     ///
-    /// Fails where y is not finite, a contact or block refuses its path, or a limit is reached.
+    /// Fails if y is not finite, a contact or block refuses its path, or a limit is reached.
     pub(super) fn accept(
         &mut self,
         state: &mut State,
@@ -219,9 +224,9 @@ impl<'a> Chords<'a> {
         outcome.map(|()| true)
     }
 
-    /// Commits all contacts at time t in y.
+    /// Commits all contacts at time t with components y.
     ///
-    /// All paths are worked out before any memory moves.
+    /// All paths are computed before any slip memory changes.
     fn commit(
         &mut self,
         state: &mut State,
@@ -230,7 +235,7 @@ impl<'a> Chords<'a> {
     ) -> Result<(), RunError> {
         let was_watched = std::mem::replace(&mut self.watched, record.wants_events());
         if self.watched && !was_watched && state.counts.steps > 0 {
-            // Who begins to watch sees what happens from here on, not how the contacts came to be where they are.
+            // A record that begins to request events gets events from now on, not earlier changes.
             for (c, memory) in state.memories.iter().enumerate() {
                 self.standings[c] = self.standing(c, memory, self.before.get(c));
             }
@@ -254,7 +259,7 @@ impl<'a> Chords<'a> {
         std::mem::swap(&mut self.before, &mut self.motions);
         for (c, motion) in self.before.iter().enumerate() {
             let heading = heading(&state.modes[c], motion);
-            // At rest a contact keeps the sense it had: stopping is no reversal.
+            // A contact at rest keeps its last sense: a stop is no reversal.
             if heading != 0.0 {
                 self.senses[c] = heading.signum();
             }
@@ -262,9 +267,9 @@ impl<'a> Chords<'a> {
         self.bounds.step(state, record)
     }
 
-    /// Rows and looks up to time t of the step that leads to `to`.
+    /// Writes rows and snapshots up to time t in the step that ends at `to`.
     ///
-    /// Looks are shown copies of the memories, each led on one chord to its moment.
+    /// A snapshot shows copies of the slip memories, each moved along one straight path to the time of the snapshot.
     fn write(&mut self, state: &State, t: f64, to: (f64, &[f64]), record: &mut dyn Record) {
         let eq = Equations::on(self.model, state, self.layout, self.crossing);
         let step = Between { from: (state.t, &state.y), to, free: self.layout.free };
@@ -292,8 +297,9 @@ impl<'a> Chords<'a> {
     }
 }
 
-/// Which way a contact goes: by its branch where it keeps to one, for where a step is cut at a turn the last bit of its rate may
-/// still say otherwise.
+/// Returns the sliding direction of a contact: the sense of its branch, otherwise its velocity u̇.
+///
+/// At a reversal that cuts the step, rounding may give u̇ the wrong sign. The branch has the right one.
 pub(super) fn heading(mode: &Mode, motion: &Motion) -> f64 {
     match mode {
         Mode::Slip(branch) => branch.sense(),

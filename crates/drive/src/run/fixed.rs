@@ -1,7 +1,6 @@
-//! Fixed steps, without events.
+//! Runs with fixed time steps and without event location.
 //!
-//! A step is never chosen: an error that events make is the stepper's own, of second order at best. The work of a run is known
-//! beforehand.
+//! Events reduce the order of accuracy to at most two. The work of a run is known in advance.
 
 use super::chords::{Chords, Weakening};
 use super::horizon::{Goal, Progress};
@@ -12,20 +11,21 @@ use crate::state::{FixedWay, Grid, Layout, State, Underway};
 use crate::{Model, Plan, RunError};
 use stickslip_stepper::{FixedStep, Stepping};
 
-/// What is left of a step and below round-off belongs to it: this part of a step.
+/// Largest remainder that is included in a step because it is rounding, as a fraction of the step.
 const REMAINDER: f64 = 1e-9;
 
-/// The least part of a step to which one is cut where a contact's branch ends: what bounds the work.
+/// Shortest length to which a branch end cuts a step, as a fraction of a full step. It bounds the work.
 const LEAST: f64 = 0.125;
-/// The same where its damping weakens.
+/// Shortest length to which decreasing contact damping cuts a step, as a fraction of a full step.
 const BRIEF: f64 = 1e-6;
-/// How often a step is taken anew to where the damping of a contact weakens.
+/// Largest number of repetitions of a step that ends where contact damping decreases.
 const CORRECTIONS: u32 = 2;
-/// Lengths of a step within which the damping of a contact must give way for its stages to lie for that: of a root that lies farther a plain
-/// one misses a millionth.
+/// Number of step lengths ahead within which vanishing contact damping changes the stages of a step.
+///
+/// Beyond it, evenly distributed stages have a relative error of about 10⁻⁶.
 const NEAR: f64 = 4.0;
 
-/// A length of time, s, and the whole number of steps that it takes: of plain fixed steps one.
+/// Length of a frame, s, and its whole number of steps; one step for plain fixed-step methods.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Frame {
     pub(super) length: f64,
@@ -33,49 +33,49 @@ pub(super) struct Frame {
 }
 
 impl Frame {
-    /// Moment `count` of a grid, s. Frames begin where whoever asks for them puts them, to the last bit.
+    /// Returns the grid time after `count` steps, s. Frame k begins exactly at start + k·length.
     fn moment(self, Grid { start, step, .. }: Grid, count: f64) -> f64 {
         let frame = (count / self.steps).floor();
         start + (frame * self.length + (count - frame * self.steps) * step)
     }
 }
 
-/// Which components a method moves.
+/// Components that a method integrates.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Moved {
     All,
-    /// Nothing takes energy by its rate.
+    /// All components except the damping work, for models without velocity-dependent forces.
     WithoutDamping,
 }
 
-/// A run in steps of one length.
+/// Run with time steps of constant length.
 ///
-/// Steps end on a grid, multiplied and not summed up: frame k of n steps begins at start + k·length (s). One that an advance
-/// or an input's piece cuts is followed by its rest.
+/// Steps end on a time grid, where frame k begins at start + k·length (s). Grid times are products, so rounding does
+/// not accumulate. A step that a goal or an input cuts is completed by a second step.
 pub(super) struct Fixed<'a, F> {
     chords: Chords<'a>,
-    /// Made once the state is there.
+    /// Integrator.
     stepper: F,
     name: &'static str,
     grid: Grid,
     frame: Frame,
-    /// Components at the end of the step under way, and how many of them, from the first on, the method moves.
+    /// Components at the end of the current step (`y`), of which the method integrates the first `moved`.
     y: Vec<f64>,
     moved: usize,
-    /// Slopes kept at the start of a step that may be taken back.
+    /// Slopes saved before a step that may be undone.
     slopes: Vec<f64>,
-    /// Evaluations counted so far.
+    /// Number of evaluations already counted in the state.
     counted: u64,
 }
 
 impl<'a, F: FixedStep + for<'e> Stepping<Equations<'e>>> Fixed<'a, F> {
-    /// Fails where a step is as long as the longest with which small motions do not grow.
+    /// Creates the run. `moved` selects the components that the method integrates.
     ///
-    /// `moved` is how many components, from the first on, the method moves: none dissipates beyond those.
+    /// Fails if the step reaches the stability limit of the model.
     pub(super) fn new(model: &'a Model, plan: &Plan, frame: Frame, moved: Moved) -> Result<Self, RunError> {
         let step = frame.length / frame.steps;
         let limit = model.longest_step(plan.stepper).unwrap_or(f64::INFINITY);
-        // Beyond it the stiffest motion grows at every step: refused instead of exploding.
+        // Beyond the limit the stiffest oscillation grows at every step.
         if step >= limit {
             return Err(RunError::Unstable { step, limit });
         }
@@ -100,7 +100,7 @@ impl<'a, F: FixedStep + for<'e> Stepping<Equations<'e>>> Fixed<'a, F> {
         })
     }
 
-    /// Takes up a state: begins a run there, or goes on with one.
+    /// Starts or continues a run at a state.
     pub(super) fn set_out(&mut self, state: &mut State, opening: Opening, record: &mut dyn Record) {
         match &state.underway {
             Some(Underway::Fixed(way)) if way.stepper == self.name && way.grid.step == self.grid.step => {
@@ -115,7 +115,7 @@ impl<'a, F: FixedStep + for<'e> Stepping<Equations<'e>>> Fixed<'a, F> {
         self.chords.set_out(state, opening, record);
     }
 
-    /// Goes as far as a goal says, and puts down in the state what its future depends on.
+    /// Advances the state to a goal and saves in it everything that the next step depends on.
     ///
     /// Fails as [`Chords::accept`] does.
     pub(super) fn go(
@@ -133,7 +133,7 @@ impl<'a, F: FixedStep + for<'e> Stepping<Equations<'e>>> Fixed<'a, F> {
                 Err(error) => outcome = Err(error),
             }
         }
-        // What the caller has supplied ahead begins here: there is room for the piece after it.
+        // Inputs take up the piece supplied in advance, so that the caller can supply another one.
         let turned = match &outcome {
             _ if self.chords.crossing => Ok(state.take_supplied()),
             Ok(()) => self.chords.turn(state, record),
@@ -149,48 +149,49 @@ impl<'a, F: FixedStep + for<'e> Stepping<Equations<'e>>> Fixed<'a, F> {
         outcome
     }
 
-    /// Writes the row of where the run stopped.
+    /// Writes the current state as a row.
     pub(super) fn write_now(&mut self, state: &State, record: &mut dyn Record) {
         self.chords.write_now(state, record);
     }
 
-    /// Tells the range of a watched body so far.
+    /// Passes the extents of the watched bodies to the record.
     pub(super) fn hand_over(&mut self, record: &mut dyn Record) {
         self.chords.output.marks.hand_over(record);
     }
 
-    /// Turning points of contacts made or given up.
+    /// Returns the number of reversals added to or removed from slip memories.
     pub(super) fn touched(&self) -> u64 {
         self.chords.touched()
     }
 
-    /// How many turning points a contact remembers.
+    /// Returns the largest number of reversals that a slip memory keeps.
     pub(super) fn remembers(&self) -> usize {
         self.chords.remembers()
     }
 
-    /// Memories are where the state is after every step, but those of contacts that keep to a branch.
+    /// Commits the slip memories of contacts that keep to a branch. All others are at the current state after every
+    /// step.
     pub(super) fn settle_books(&mut self, state: &mut State) {
         self.chords.settle(state);
     }
 
-    /// Rounding of moments at about a time, s: frames are multiplied by others, and may come out a digit longer.
+    /// Returns the rounding error of grid times near t, s. Callers may compute frame times as other products.
     fn slack(&self, t: f64) -> f64 {
         REMAINDER * self.grid.step + 4.0 * f64::EPSILON * t.abs()
     }
 
-    /// Whether the run is not yet where it was to go; where it stands on a corner, by more than rounding.
+    /// Whether the goal is not yet reached. At a waveform corner, a distance within rounding counts as reached.
     fn goes_on(&self, state: &State) -> bool {
         let t = state.t;
         let on_corner =
             !self.chords.crossing && state.pieces.iter().any(|piece| piece.start == t || piece.end == t);
-        // The end of a run has its row, however near to a corner.
+        // The end of a run always has a row.
         let limit = self.chords.horizon.limit();
         let slack = if on_corner && limit < self.chords.horizon.end { self.slack(t) } else { 0.0 };
         t < limit - slack
     }
 
-    /// One step, up to the next moment of the grid or to where the run is cut before it.
+    /// Takes one step to the next grid time, or to an earlier cut.
     fn step(&mut self, state: &mut State, record: &mut dyn Record) -> Result<Progress, RunError> {
         let aim = self.frame.moment(self.grid, self.grid.count + 1.0);
         let slack = self.slack(aim);
@@ -201,7 +202,7 @@ impl<'a, F: FixedStep + for<'e> Stepping<Equations<'e>>> Fixed<'a, F> {
         let mut turned = !crossing && self.chords.turn(state, record)?;
         let corner = if crossing { state.next_input(self.chords.model) } else { state.next_corner() };
         let until = self.chords.horizon.until;
-        // A corner where a frame ends is that corner, to the last bit, whether a frame ends there or not.
+        // A frame that ends at a corner ends there to the last bit.
         let stop = if (until - corner).abs() <= slack { corner } else { until.min(corner) };
         let mut end = if aim > stop - slack { stop } else { aim };
         end = end.min(state.t + self.chords.longest(state));
@@ -209,7 +210,7 @@ impl<'a, F: FixedStep + for<'e> Stepping<Equations<'e>>> Fixed<'a, F> {
             turned = self.chords.enter(state, end);
         }
         if turned {
-            // Slopes kept from the step before belong to the other side of the corner.
+            // The stored slopes belong to the other side of the corner.
             self.stepper.restart();
         }
         self.y.copy_from_slice(&state.y);
@@ -231,7 +232,7 @@ impl<'a, F: FixedStep + for<'e> Stepping<Equations<'e>>> Fixed<'a, F> {
             let goal = self.chords.horizon.end;
             self.chords.take_steps(state, end, &self.y);
             if self.chords.horizon.is_beyond(end) {
-                // The steps of the drive are constant with this one: it will be taken by who wants the end.
+                // This step ends the run. It is undone here and taken again by the call that finishes the run.
                 self.stepper.keep(&self.slopes);
                 self.counted += self.stepper.evaluations() - spent;
                 self.chords.horizon.steps = before;
@@ -242,15 +243,16 @@ impl<'a, F: FixedStep + for<'e> Stepping<Equations<'e>>> Fixed<'a, F> {
         let whole = if end >= aim - slack { 1.0 } else { 0.0 };
         self.grid.count += whole;
         if self.chords.accept(state, (end, &self.y), record)? {
-            // The next step begins elsewhere, and is the rest of this one.
+            // The run ended inside this step; the next step is the rest of it.
             self.stepper.restart();
             self.grid.count -= whole;
         }
         Ok(Progress::Made)
     }
 
-    /// Takes a step to `end` anew, to where the first branch of a contact ends in it, but to no less than an eighth of a whole
-    /// one, unless the damping of a contact weakens there; gives the end, s.
+    /// Repeats the step to `end` so that it stops at the first branch end. Returns the new end, s.
+    ///
+    /// The step is cut to no less than [`LEAST`] of a full step, or [`BRIEF`] where contact damping decreases.
     fn cut(&mut self, state: &State, mut end: f64) -> f64 {
         self.chords.let_end_decide();
         let mut is_rooted = false;
@@ -258,7 +260,7 @@ impl<'a, F: FixedStep + for<'e> Stepping<Equations<'e>>> Fixed<'a, F> {
             let Some(first) = self.chords.first_end(state, (end, &self.y)) else { break };
             let weakens = self.chords.weakens(state);
             let least = if weakens.is_some() { BRIEF } else { LEAST };
-            // What is used up before the step begins ends as soon as time goes on.
+            // A branch that is used up at the start of the step ends after the shortest step.
             let cut = first.max(state.t + least * self.whole(state));
             let first = if weakens.is_some() { cut } else { first };
             if cut > first || cut >= end {
@@ -280,19 +282,20 @@ impl<'a, F: FixedStep + for<'e> Stepping<Equations<'e>>> Fixed<'a, F> {
         end
     }
 
-    /// Length that a step has which nothing cuts, s: from corner to corner where these are nearer to each other than steps.
+    /// Returns the length of an uncut step, s: the grid step, or the shortest current waveform piece.
     fn whole(&self, state: &State) -> f64 {
         let pieces = state.pieces.iter().map(|piece| piece.end - piece.start).filter(|length| *length > 0.0);
         pieces.fold(self.grid.step, f64::min)
     }
 
-    /// Where the damping of a contact gives way so soon after a step to `end` that its stages are to lie for that, s.
+    /// Returns when contact damping vanishes, s, if it does so within [`NEAR`] steps. The stages are adapted to that
+    /// time.
     fn root_ahead(&mut self, state: &State, end: f64) -> Option<f64> {
         let root = self.chords.gives_way_after(state, (end, &self.y))?;
         (root - state.t < NEAR * (end - state.t)).then_some(root)
     }
 
-    /// Takes a step to `end` anew; where the damping of a contact gives way at a `root`, s, with its stages for that.
+    /// Repeats the step to `end`. The stages are adapted to contact damping that vanishes at time `root`, s.
     fn again(&mut self, state: &State, end: f64, root: Option<f64>) {
         self.y.copy_from_slice(&state.y);
         self.stepper.restart();
@@ -302,7 +305,7 @@ impl<'a, F: FixedStep + for<'e> Stepping<Equations<'e>>> Fixed<'a, F> {
         self.stepper.step_to_a_root(&self.chords.equations(state), state.t, y, way);
     }
 
-    /// The step from where the state is to `end`, s.
+    /// Takes the step from the current state to `end`, s.
     fn attempt(&mut self, state: &State, end: f64) {
         let y = &mut self.y[..self.moved];
         self.stepper.step(&self.chords.equations(state), state.t, y, end - state.t);

@@ -1,4 +1,4 @@
-//! A run that its caller holds.
+//! Run that its caller advances.
 
 use super::fixed::{Fixed, Frame, Moved};
 use super::horizon::Goal;
@@ -10,23 +10,24 @@ use crate::waveform::Command;
 use crate::{CommandError, InputError, Model, Plan, RunError, State, Stepper};
 use stickslip_stepper::{Nystrom4, Rk4, Verlet};
 
-/// A run that its caller moves on: it owns the state and the workspace, and borrows the model.
+/// Run that its caller advances. It owns the state and the workspace and borrows the model.
 ///
-/// Between two calls it stands between two steps, and [`Run::state`] is all that its future depends on: a run made from a
-/// copy of it, in this process or another, goes on to the same bits. After the first call nothing is allocated, but by a
-/// memory that grows deeper than it ever was.
+/// Between two calls, [`Run::state`] contains everything that the future of the run depends on. A run created from a
+/// copy of it, in this process or another, continues with the same bits.
+///
+/// After the first call nothing is allocated, unless a slip memory becomes deeper than before.
 pub struct Run<'m> {
     model: &'m Model,
     plan: Plan,
     state: State,
     way: Way<'m>,
-    /// Whether an earlier run has written what lies up to the state.
+    /// Whether an earlier run has written the output up to the state.
     resumed: bool,
     /// Whether the first call has been made.
     begun: bool,
 }
 
-/// The workspace of a run, by its stepper.
+/// Workspace of a run, by stepper.
 enum Way<'m> {
     Located(LocatedRun<'m>),
     Verlet(Box<Fixed<'m, Verlet>>),
@@ -57,7 +58,7 @@ impl<'m> Way<'m> {
     }
 }
 
-/// One method of whichever run it is.
+/// Calls one method of the run inside any variant.
 macro_rules! each {
     ($way:expr, $run:ident => $call:expr) => {
         match $way {
@@ -69,7 +70,7 @@ macro_rules! each {
     };
 }
 
-/// Moves a state to the end of its plan.
+/// Advances a state to the end of its plan.
 pub(super) fn to_the_end(
     model: &Model,
     plan: &Plan,
@@ -89,7 +90,7 @@ pub(super) fn to_the_end(
 
 impl Way<'_> {
     fn set_out(&mut self, model: &Model, state: &mut State, opening: Opening, record: &mut dyn Record) {
-        // Of a state that was copied or restored; others have it. Bounded as deep as this stepper wants it, whoever came before.
+        // A copied or restored memory has no spare capacity. Each stepper limits the depth itself.
         let most = each!(self, run => run.remembers());
         for (memory, contact) in state.memories.iter_mut().zip(&model.contacts) {
             memory.bound(&contact.interface, most);
@@ -106,7 +107,7 @@ impl Way<'_> {
         each!(self, run => run.write_now(state, record));
     }
 
-    /// The range of a body since its last mark is told: nobody remembers it beyond this call.
+    /// Passes the extents of the watched bodies since the last sample row to the record and forgets them.
     fn hand_over(&mut self, record: &mut dyn Record) {
         each!(self, run => run.hand_over(record));
     }
@@ -115,13 +116,13 @@ impl Way<'_> {
         each!(self, run => run.touched())
     }
 
-    /// Memories come to where the state is.
+    /// Commits all slip memories to the current state.
     fn settle(&mut self, state: &mut State) {
         each!(self, run => run.settle_books(state));
     }
 }
 
-/// Keeps the row that a run sets out with.
+/// Record that keeps the first row of a run.
 struct First<'r>(&'r mut Vec<f64>);
 
 impl Record for First<'_> {
@@ -138,65 +139,70 @@ impl Record for First<'_> {
 }
 
 impl<'m> Run<'m> {
-    /// A run that begins with a state.
+    /// Creates a run that begins at a state.
     ///
-    /// Of the plan its stepper, its limits and the interval of its rows count; its end only for [`Self::approach`] and
-    /// [`Self::finish`].
+    /// The end of the plan matters only for [`Self::approach`] and [`Self::finish`].
     ///
     /// # Errors
     ///
-    /// A fixed step too long for the scene, or the stepper of another library, whose state nobody can hold.
+    /// Returns [`RunError::Unstable`] for a fixed step beyond the stability limit. Returns [`RunError::NotHeld`] for
+    /// the stepper [`Stepper::Dopri5`].
     pub fn new(model: &'m Model, plan: &Plan, state: State) -> Result<Self, RunError> {
         let way = Way::new(model, plan)?;
         Ok(Self { model, plan: *plan, state, way, resumed: false, begun: false })
     }
 
-    /// A run that goes on where an earlier one stood: rows and [looks](Record::look) up to there have been written, and are not
-    /// again. By [`Self::new`] the run would go on to the same bits, and begin with a row.
+    /// Creates a run that continues an earlier one.
+    ///
+    /// Rows and snapshots ([`Record::look`]) up to the state are not written again. A run created by [`Self::new`]
+    /// continues with the same bits, but begins with a row.
     ///
     /// # Errors
     ///
-    /// As [`Self::new`].
+    /// The errors of [`Self::new`].
     pub fn resume(model: &'m Model, plan: &Plan, state: State) -> Result<Self, RunError> {
         Ok(Self { resumed: true, ..Self::new(model, plan, state)? })
     }
 
-    /// Moves on to time `until`, s, and stands there. Rows are written where the plan has them, none because of the stop.
+    /// Advances the run to time `until`, s. Rows are written at the interval of the plan; the stop adds none.
     ///
-    /// Many short advances come to what one long one does: to the bit where motion has a closed form (a single slider on
-    /// paraboloids, straight waveforms), elsewhere within the tolerance, since a step that would go further is cut. A plan
-    /// without rows (`every: None`) and `&mut ()` for a record cost least.
+    /// Many short advances give the same result as a long one. The bits are equal where the motion has a closed form (a
+    /// single slider on paraboloids, straight waveforms). Otherwise results agree within the tolerance, because the
+    /// last step of each advance is cut.
+    ///
+    /// A plan without rows (`every: None`) and the record `&mut ()` are the fastest.
     ///
     /// # Errors
     ///
-    /// As a run; and a time before the present one, or an input that has no value up to there. What was computed before is in
-    /// the state.
+    /// Fails if `until` is before the current time or an input has no value up to `until`. Fails with other
+    /// [`RunError`]s if the run stops. The state then contains the results before the error.
     pub fn advance(&mut self, until: f64, record: &mut dyn Record) -> Result<(), RunError> {
         let t = self.state.t;
-        // Not a number is no time to go on to, either.
+        // NaN is refused, too.
         if until.is_nan() || until < t || until == f64::INFINITY {
             return Err(RunError::Backwards { t, until });
         }
         self.go(Goal::Moment(until), Opening::Grid, until, record)
     }
 
-    /// Goes on as far as whole steps do before the end of the plan, and stands before the one that would reach it.
+    /// Advances the run by whole steps and stops before the step that would reach the end of the plan.
     ///
-    /// What is written up to there does not depend on when the run ends; a run resumed from there may end at another time.
+    /// The output does not depend on the end of the plan. A run resumed here may have another end.
     ///
     /// # Errors
     ///
-    /// As a run. After [`RunError::Interrupted`] it can be called again and goes on as if nobody had asked.
+    /// Fails with a [`RunError`] if the run stops. After [`RunError::Interrupted`], another call continues the run with
+    /// the same bits.
     pub fn approach(&mut self, record: &mut dyn Record) -> Result<(), RunError> {
         let end = self.plan.duration;
         self.go(Goal::BeforeEnd(end), Opening::Row, end, record)
     }
 
-    /// Goes on to the end of the plan and writes the last row, or the row of where the run stopped.
+    /// Advances the run to the end of the plan and writes the last row. After an error, that row is the state reached.
     ///
     /// # Errors
     ///
-    /// As a run.
+    /// Fails with a [`RunError`] if the run stops.
     pub fn finish(&mut self, record: &mut dyn Record) -> Result<(), RunError> {
         let end = self.plan.duration;
         let outcome = self.go(Goal::End(end), Opening::Row, end, record);
@@ -208,7 +214,7 @@ impl<'m> Run<'m> {
         outcome
     }
 
-    /// Writes the row of where the run stands, which ends it here; nothing before the first call.
+    /// Writes the current state as the last row and commits the slip memories. Does nothing before the first call.
     pub fn stop(&mut self, record: &mut dyn Record) {
         if self.begun {
             self.way.write_now(&mut self.state, record);
@@ -216,68 +222,76 @@ impl<'m> Run<'m> {
         }
     }
 
-    /// Holds an input, the waveform at place `input` of the scene, at a value from the present time on: a jump where the
-    /// value is another one. Waveforms have their places in the order of the scenario file.
+    /// Holds the input at index `input` of the waveforms at a value from the current time on.
     ///
-    /// A contact whose body jumps moves along its path straight and in no time, and the work of that is booked. For inputs
-    /// that are held; one that is linear stays where it is by [`Self::lead`] to the value that it has.
+    /// Waveforms are numbered in the order of the scenario file. A different value is a jump. Contacts of the moved
+    /// body then follow a straight path in zero time, and the work of the jump counts as input work.
+    ///
+    /// A linear input is held by [`Self::lead`] to its current value.
     ///
     /// # Errors
     ///
-    /// No input that is held, or a value out of its range.
+    /// Fails if the waveform is not a held input or the value is out of its range.
     pub fn hold(&mut self, input: usize, value: f64) -> Result<(), InputError> {
         self.state.hold(self.model, input, value)
     }
 
-    /// Leads an input, the waveform at place `input` of the scene, straight to `value` at time `until`, s, from where its last
-    /// piece ends, or from where it is. One piece may be supplied ahead of the present one. Before the first piece an input
-    /// holds its initial value, for as long as the caller likes; after one it has no value, and the run does not go there.
+    /// Moves the linear input at index `input` of the waveforms on a straight line to `value` at time `until`, s.
+    ///
+    /// The line begins where the last supplied piece ends, or at the current value. One piece may be supplied in
+    /// advance.
+    ///
+    /// Before its first piece, an input keeps its initial value. After its last piece it has no value, and the run
+    /// cannot advance.
     ///
     /// # Errors
     ///
-    /// No input that is linear, a value out of its range, a time that is not after the piece before, or a piece too many.
+    /// Fails if the waveform is not a linear input, the value is out of range, or `until` is not after the previous
+    /// piece. Fails if a piece has already been supplied in advance.
     pub fn lead(&mut self, input: usize, until: f64, value: f64) -> Result<(), InputError> {
         self.state.lead(self.model, input, (until, value))
     }
 
-    /// Commands a generator, the waveform at place `generator` of the scene: what its cycles are that begin at the present time or
-    /// later. A cycle that is under way goes on to its end as it began; a generator that rests begins at once.
+    /// Sets the command of the generator at index `generator` of the waveforms.
     ///
-    /// [`State::generated`] tells what it does and how many steps are left.
+    /// The command applies to cycles that begin at the current time or later. The current cycle is completed unchanged;
+    /// an idle generator starts at once. [`State::generated`] returns the activity and the number of remaining steps.
     ///
     /// # Errors
     ///
-    /// No generator, a stroke or a frequency out of its range.
+    /// Fails if the waveform is not a generator, or if stroke or frequency is out of range.
     pub fn command(&mut self, generator: usize, command: Command) -> Result<(), CommandError> {
         self.state.command(self.model, generator, command)
     }
 
-    /// Where the run stands, and all that its future depends on. Memories of contacts may wait for the next event, where one
-    /// move leads them further.
+    /// Returns the current state. Slip memories of contacts may lag behind until their next event.
     pub fn state(&self) -> &State {
         &self.state
     }
 
-    /// Turning points of contacts that this run has made or given up: with the steps of [`State::counts`] what a frame's work
-    /// is counted in.
+    /// Returns the number of reversals that this run has added to or removed from slip memories.
+    ///
+    /// This number and the steps in [`State::counts`] measure the work of a frame.
     pub fn touched(&self) -> u64 {
         self.way.touched()
     }
 
-    /// The same, given away.
+    /// Returns the current state and drops the run.
     pub fn into_state(self) -> State {
         self.state
     }
 
-    /// The values of all channels where the run stands, into the room of `row`; their names and units are those of
-    /// [`Model::channels`], in that order. Before the first advance it is the first row that the run will write.
+    /// Writes the values of all channels at the current state into `row`.
+    ///
+    /// [`Model::channels`] has the names and units in the same order. Before the first advance, the values are those of
+    /// the first row of the run.
     pub fn row(&self, row: &mut Vec<f64>) {
         if self.begun || self.resumed {
             return self.state.write_row(self.model, row);
         }
         let mut state = self.state.clone();
         if let Ok(mut way) = Way::new(self.model, &self.plan) {
-            // As its first row will be: a run that sets out works out what a start leaves open.
+            // The start of a run chooses contact laws, which the first row contains.
             row.clear();
             way.set_out(self.model, &mut state, Opening::Row, &mut First(row));
             if row.is_empty() {

@@ -1,34 +1,36 @@
-//! Where a run ends, and the next moment that a step may not cross.
+//! End of a run, and the next time that no step may cross.
 //!
-//! A run to the end of its plan takes no notice of the end until a step reaches it: what lies before it is the same whatever
-//! the end, and a run that was ended goes on from its last whole step. An advance to a moment cuts its last step there. The
-//! next corner is set whenever waveforms turn. Events are not here: no step has to stop before one.
+//! Steps of a run to the end of its plan are not cut at the end: the last step may pass it. Results before the end are
+//! therefore independent of it. An ended run can continue from its last whole step.
+//!
+//! An advance to a given time cuts its last step there. The next corner is updated when waveforms reach a corner.
+//! Events are not part of the horizon, because no step stops before an event.
 
 use super::steady::Steps;
 use crate::{Model, Plan};
 
-/// Moments ahead.
+/// Times that end a run or its next step.
 pub(super) struct Horizon {
-    /// What no step crosses, s: the moment to which a run is advanced.
+    /// Goal of an advance, s; no step crosses it.
     pub(super) until: f64,
-    /// End of the run, s, which steps do not see.
+    /// End of the run, s; steps may pass it.
     pub(super) end: f64,
-    /// What the last step is to reach, s; it may go further.
+    /// Time that the last step must reach, s; it may pass it.
     past: f64,
-    /// From when on a moment is the end, s.
+    /// Time from which on the end counts as reached, s.
     pub(super) nearly: f64,
     /// Whether the step that reaches the end is taken; otherwise the run stops before it.
     pub(super) takes_last: bool,
-    /// Earliest corner of a waveform, s.
+    /// Next corner of any waveform, s.
     pub(super) corner: f64,
-    /// The steps of the drive, where they may end the run.
+    /// Step lengths of the drive, which may end the run.
     pub(super) steps: Steps,
-    /// The same before the first.
+    /// Initial value of `steps`, before the first period end.
     pub(super) unmade: Steps,
 }
 
 impl Horizon {
-    /// Nothing ahead yet.
+    /// Creates a horizon without a goal.
     pub(super) fn new(model: &Model, plan: &Plan) -> Self {
         let never = f64::INFINITY;
         let steps = Steps::of(model, plan);
@@ -44,7 +46,7 @@ impl Horizon {
         }
     }
 
-    /// Goes as far as a goal says.
+    /// Sets the goal.
     pub(super) fn aim(&mut self, goal: Goal) {
         let never = f64::INFINITY;
         (self.until, self.end, self.takes_last) = match goal {
@@ -57,39 +59,39 @@ impl Horizon {
         self.nearly = self.end;
     }
 
-    /// The first moment that a step may not cross, s.
+    /// Returns the next time that no step may cross, s.
     pub(super) fn next(&self) -> f64 {
         self.corner.min(self.until)
     }
 
-    /// Where a run stops.
+    /// Returns the time at which the run stops, s.
     pub(super) fn limit(&self) -> f64 {
         self.until.min(self.end).min(self.past)
     }
 
-    /// Whether a step that ends at t is one too far.
+    /// Whether a step that ends at time t reaches the end of a run that stops before that step.
     #[inline(always)]
     pub(super) fn is_beyond(&self, t: f64) -> bool {
         t >= self.nearly && !self.takes_last
     }
 }
 
-/// How far a run is to go.
+/// Goal of a run.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Goal {
-    /// To this moment, s, its last step cut there.
+    /// Time at which the last step is cut, s.
     Moment(f64),
-    /// As far as whole steps go before this end, s.
+    /// End of the run, s; the run stops after the last whole step before it.
     BeforeEnd(f64),
-    /// To this end, s, with its last row.
+    /// End of the run, s, with its last row.
     End(f64),
-    /// Until a step has reached this moment, s, or gone further.
+    /// Time that a step must reach or pass, s.
     #[cfg_attr(not(test), expect(dead_code, reason = "tests look at one step after another"))]
     Past(f64),
 }
 
 impl Goal {
-    /// When rows end, s.
+    /// Returns the time of the last row, s; ∞ without one.
     pub(super) fn last_row(self) -> f64 {
         match self {
             Self::BeforeEnd(end) | Self::End(end) => end,
@@ -98,11 +100,11 @@ impl Goal {
     }
 }
 
-/// How a step left the run.
+/// Result of a step.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Progress {
-    /// Further on, or with a shorter wish.
+    /// The time has advanced, or the next step is shorter.
     Made,
-    /// Where it was: the next step would reach the end.
+    /// Nothing has changed: the next step would reach the end.
     Short,
 }

@@ -1,9 +1,10 @@
-//! What the contacts commit of an accepted step: the only place where memories move.
+//! Commit of accepted paths to the memories of contacts and blocks.
 //!
-//! A run clears the page, writes down one path for every contact that is to move, and commits all of it at
-//! once. Whatever is not finite or out of range is refused by a memory here, with the contact's name. How
-//! long a path took goes with it, from the time at which that contact's last one was written down: contacts
-//! of closed form move at events only.
+//! A run collects the paths of all contacts that move and commits them together. A slip memory refuses values that are
+//! not finite or out of range; the error names the contact.
+//!
+//! Each path has a duration that counts from the end of the contact's previous path. A contact with a closed-form force
+//! has paths at events only.
 
 use crate::RunError;
 use crate::component::{Passage, Refused};
@@ -15,24 +16,24 @@ use crate::record::Record;
 use crate::state::{Booked, Books, Layout, State};
 use stickslip_contact::{Memory, Segment, Timed};
 
-/// What the contacts commit.
+/// Paths to be committed, and the times of the last commits.
 pub(super) struct Ledger {
-    /// Contacts, by their places, and the segments that lead them to the end of the step.
+    /// Contact index and path segment of each path, in order of time.
     segments: Vec<(usize, Timed<Segment>)>,
-    /// Up to when that has been done.
+    /// Times up to which paths have been committed.
     pub(super) booked: Booked,
-    /// Turning points that commits have made or given up.
+    /// Number of reversals that commits have added or removed.
     pub(super) touched: u64,
-    /// The blocks' paths.
+    /// Paths of the blocks.
     passages: Vec<Passage>,
-    /// Blocks that a jump has led to another law, and what that is called.
+    /// Blocks that a jump has moved to another law, and the events of these changes.
     pub(super) led: Vec<(usize, EventKind)>,
-    /// What was committed since the record was told last, where it wants to know.
+    /// Paths committed since the last report, for a record that requests paths.
     told: Option<Vec<(usize, Segment)>>,
 }
 
 impl Ledger {
-    /// Room for a segment of every contact, and `more`.
+    /// Creates storage for one segment per contact and `more` segments.
     pub(super) fn new(model: &Model, more: usize) -> Self {
         let blank = Self {
             segments: Vec::new(),
@@ -45,7 +46,7 @@ impl Ledger {
         blank.renewed(model, more)
     }
 
-    /// The same in the room there is.
+    /// Returns an empty ledger in the same storage.
     pub(super) fn renewed(mut self, model: &Model, more: usize) -> Self {
         let passage = |wired: &Wired| Passage {
             t: 0.0,
@@ -67,17 +68,17 @@ impl Ledger {
         Self { touched: 0, told: None, ..self }
     }
 
-    /// Keeps what is committed from here on for a record that wants to know.
+    /// Begins to keep committed paths if the record requests paths.
     pub(super) fn begin_telling(&mut self, record: &dyn Record) {
         self.told = record.follows().then(Vec::new);
     }
 
-    /// Whether a record wants to know.
+    /// Whether the record requests the committed paths.
     pub(super) fn is_told(&self) -> bool {
         self.told.is_some()
     }
 
-    /// Notes a path that the memory of contact `c` has committed.
+    /// Keeps a path that the slip memory of contact `c` has committed, for the record.
     #[inline]
     pub(super) fn note(&mut self, model: &Model, state: &State, c: usize, path: Segment) {
         if let Some(told) = &mut self.told {
@@ -85,7 +86,7 @@ impl Ledger {
         }
     }
 
-    /// Tells a record what was committed.
+    /// Passes the kept paths to the record.
     #[inline]
     pub(super) fn tell(&mut self, record: &mut dyn Record) {
         if let Some(told) = &mut self.told {
@@ -93,32 +94,31 @@ impl Ledger {
         }
     }
 
-    /// Begins at a time, s.
+    /// Sets the time of the last commit of all contacts and blocks to t, s.
     pub(super) fn set_out(&mut self, t: f64) {
         self.booked.last.fill(t);
         self.booked.blocks = t;
     }
 
-    /// Begins a page.
+    /// Removes all collected paths.
     pub(super) fn clear(&mut self) {
         self.segments.clear();
     }
 
-    /// Writes down the path of contact `c` up to time t, s.
+    /// Adds the path of contact `c` up to time t, s.
     ///
-    /// A growing contact has several of them in a step, in order; each takes the time since the one before.
+    /// A contact growing in full stick has several paths in a step, in order of time.
     #[inline]
     pub(super) fn push(&mut self, c: usize, t: f64, path: Segment) {
-        // Since its own last path and not since the last step: a contact of closed form writes one down at
-        // events only.
+        // The duration counts from the contact's last path, which may be older than the last step.
         let duration = t - std::mem::replace(&mut self.booked.last[c], t);
         self.segments.push((c, Timed { path, duration }));
     }
 
-    /// All contacts move their memory to where the step ended, at time t, s.
+    /// Commits all collected paths of a step that ends at time t, s.
     ///
-    /// Books friction (J) of all of a contact's identical members, unless it is an integral of the run. Fails
-    /// where a memory refuses its path.
+    /// Adds the friction work of all identical contacts to the state, J, unless the run integrates it. Fails if a slip
+    /// memory refuses its path.
     pub(super) fn commit(
         &mut self,
         (model, layout): (&Model, Layout),
@@ -132,27 +132,24 @@ impl Ledger {
             let is_integral = contact.slot.is_some() && layout.growing > 0;
             let whole = matches!(state.modes[c], Mode::Whole { .. });
             let by_commits = !is_integral || whole || contact.goes_straight(&state.pieces);
-            // Of an integral the rest alone, which no power tells. Waveforms are still on the pieces on which the path went.
+            // If the run integrates the friction work, only the part without a power is added here.
             let memory = &mut state.memories[c];
             let friction = match by_commits {
                 true => memory.commit(&contact.interface, segment),
                 false => memory.commit_beside_power(&contact.interface, segment),
             };
             state.friction[c] += contact.count * friction.map_err(|source| model.refused(c, t, source))?;
-            // A path may make two, and of those that were there as many go; a row of springs has none.
+            // A path adds at most two reversals to a memory curve and none to a spring row.
             let made = if matches!(state.memories[c], Memory::Curve(_)) { 2 } else { 0 };
             self.touched += (knots + made).saturating_sub(state.memories[c].knot_count()) as u64;
             self.note(model, state, c, segment.path);
-            // Growth that goes on joins the piece before it; anything else ends that piece.
+            // Continued growth joins the previous piece; any other path ends that piece.
             state.grew[c] = matches!(segment.path, Segment::Grown { .. });
         }
         Ok(())
     }
 
-    /// All blocks move theirs to where the state is.
-    ///
-    /// Every accepted step, other than contacts of closed form: what a block remembers may be anything. Books
-    /// what they lose, J.
+    /// Commits all blocks at the current state, after every accepted step. Adds their losses to the state, J.
     pub(super) fn commit_blocks(
         &mut self,
         (model, layout): (&Model, Layout),
@@ -165,7 +162,9 @@ impl Ledger {
         Ok(())
     }
 
-    /// All blocks follow a jump of what they read: states, memory and law of each, before the next one asks for its signal.
+    /// Moves all blocks along a jump of their inputs.
+    ///
+    /// States, memory and law of a block change before the next block reads its signal.
     pub(super) fn jump_blocks(
         &mut self,
         (model, layout): (&Model, Layout),
@@ -185,7 +184,7 @@ impl Ledger {
         Ok(())
     }
 
-    /// One of them. `crossing` says whether a piece that ends before now gives way to the one that holds.
+    /// Commits one block. `crossing` selects the next waveform piece where the current one has ended.
     fn commit_block(
         &mut self,
         (model, layout, crossing): (&Model, Layout, bool),
@@ -193,7 +192,7 @@ impl Ledger {
         state: &mut State,
     ) -> Result<(), RunError> {
         let (t, wired, passage) = (state.t, &model.blocks[k], &mut self.passages[k]);
-        // Made here and not kept: the inputs may depend on blocks committed before.
+        // The inputs may depend on blocks that have just been committed.
         let equations = Equations::on(model, state, layout, crossing);
         lay_out(passage, (&equations, k), (t, &state.y), t - self.booked.blocks);
         let lost = wired.block().commit(&mut state.blocks[k].memory, passage);
@@ -201,8 +200,9 @@ impl Ledger {
         Ok(())
     }
 
-    /// What all blocks would lose on the way to both ends of the halves of a step that is only tried, J. `kept` is room for what one of
-    /// them remembers.
+    /// Returns the work that all blocks would lose in a trial step, J.
+    ///
+    /// `ends` are the ends of the two half steps. `kept` is scratch for the memory of a block.
     pub(super) fn would_lose(
         &mut self,
         equations: &Equations<'_>,
@@ -224,7 +224,7 @@ impl Ledger {
     }
 }
 
-/// Writes down the path of block `k` up to a time and components.
+/// Fills in the path of block `k` up to time t with components y.
 fn lay_out(
     passage: &mut Passage,
     (equations, k): (&Equations<'_>, usize),

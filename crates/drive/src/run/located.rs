@@ -1,14 +1,21 @@
-//! The event-aware run: smooth laws between located events.
+//! Runs with located events: smooth contact laws between two events.
 //!
-//! Each contact follows the law set at its last event, which goes on smoothly beyond the event that will end it. A step is
-//! attempted on these laws; if a guard falls below zero inside it, the moment is found on the dense output and the step
-//! ends there, in the state that the dense output has. Then memories move, all that do together, and contacts whose
-//! guard fell get their next law. The memory of a contact of closed form waits for an event of its own. Corners of waveforms end steps exactly. Where an interval has a closed form, no step is attempted: one leap takes
-//! it to its end.
+//! Each contact follows the law that its last event has set. The law stays smooth beyond the event that will end it. A
+//! step is attempted on these laws. If an event function crosses zero inside the step, the event is located on the
+//! dense output, and the step ends there.
 //!
-//! The sentence is [`Located::step`]. Its parts own what they change: [`Motion`] the solver and what steers it, [`Watch`] the
-//! contacts at both ends of the step and the guards that fell, [`Ledger`] what the memories commit, [`Output`] rows and
-//! looks, [`Horizon`] where the run ends, [`Turning`] what waveforms do at a corner.
+//! Then the slip memories commit their paths, and contacts with an event get their next law. A contact with a
+//! closed-form force commits at its own events only. Waveform corners end steps exactly. An interval with a closed-form
+//! solution is passed in one leap, without steps.
+//!
+//! [`Located::step`] advances a run by one step or leap. It uses these parts:
+//!
+//! * [`Motion`]: integrator and step length.
+//! * [`Watch`]: contacts at both ends of the step, and zero crossings at its end.
+//! * [`Ledger`]: paths that the slip memories commit.
+//! * [`Output`]: rows and snapshots.
+//! * [`Horizon`]: end of the run.
+//! * [`Turning`]: waveforms at a corner.
 
 mod aim;
 mod allowance;
@@ -56,42 +63,42 @@ use turning::Turning;
 use watch::Watch;
 use whole::Halves;
 
-/// What stays the same throughout a run. Small and copied: parts that own what they change borrow nothing from it.
+/// Constants of a run. They are small and copied, so that users of a setting borrow nothing.
 #[derive(Clone, Copy)]
 struct Setting<'a> {
-    /// The scene's constants.
+    /// Constants of the model.
     model: &'a Model,
-    /// Places of the components.
+    /// Layout of the components.
     layout: Layout,
     tolerance: f64,
-    /// The method of intervals without a closed form.
+    /// Integration method of intervals without a closed-form solution.
     method: Method,
 }
 
-/// The laws with which a run begins.
+/// Contact laws at the start of a run.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Laws {
-    /// Those of the state: an earlier run between located events has left them.
+    /// Laws of the state, set by an earlier run with located events.
     Kept,
-    /// Chosen from the motion: nothing has run yet, or a run that knows no laws.
+    /// Laws chosen from the motion, for a first run or after a run without located events.
     Chosen,
 }
 
-/// Scratch of one run; all that its future depends on is in the [`State`] whenever a caller holds that.
+/// Workspace of a run. Between two calls the [`State`] contains everything that the future of the run depends on.
 pub(super) struct Located<'a, A> {
     setting: Setting<'a>,
     horizon: Horizon,
-    /// What stays the same until the next event.
+    /// Closed forms of the contacts until the next event.
     interval: Interval<'a>,
-    /// The motion of a single slider until then, where the interval leaps.
+    /// Closed-form motion of a single slider until the next event.
     swing: Swing<'a>,
-    /// Work put in before it began, J, while it is under way.
+    /// Input work at the start of the current leap, J; `None` outside leaps.
     takeoff: Option<f64>,
-    /// The stretch that is taken by the whole law, and room for its steps.
+    /// Current interval of step doubling (`detour`), the last one, and storage for its steps (`halves`).
     detour: Option<Detour>,
     last_detour: Detour,
     halves: Option<Box<Halves>>,
-    /// Whether springs are damped: then the law jumps between stick and slip.
+    /// Whether any contact has contact damping. The law then jumps between stick and slip.
     slides: bool,
     motion: Motion<A>,
     control: StepControl,
@@ -100,12 +107,12 @@ pub(super) struct Located<'a, A> {
     turning: Turning,
     output: Output,
     bounds: Bounds,
-    /// Room for what is put down with a state that has none.
+    /// Storage for the run data of a state that has none.
     spare: Option<Box<LocatedWay>>,
 }
 
 impl<'a> Setting<'a> {
-    /// The equations on a state as it stands, with what is known of the interval.
+    /// Returns the equations of motion at a state, with the closed forms of the interval.
     #[inline(always)]
     fn equations<'s>(&self, state: &'s State, interval: &'s Interval<'a>) -> Equations<'s>
     where
@@ -114,7 +121,7 @@ impl<'a> Setting<'a> {
         Equations { interval: Some(interval), ..self.plain(state) }
     }
 
-    /// The equations on a state as it stands, by the general law alone.
+    /// Returns the equations of motion at a state, without closed forms.
     #[inline(always)]
     fn plain<'s>(&self, state: &'s State) -> Equations<'s>
     where
@@ -125,21 +132,21 @@ impl<'a> Setting<'a> {
 }
 
 impl<'a, A: for<'e> Attempt<Equations<'e>>> Located<'a, A> {
-    /// `order` is that of the solver, for step control, and `limits` what its steps may do.
+    /// Creates the run. `order` is the order of the integrator for step control, `limits` are the limits of its steps.
     fn new(setting: Setting<'a>, plan: &Plan, solver: A, control: (u32, StepLimits)) -> Self {
         Self::within(Room::of(solver, setting.layout), setting, plan, control)
     }
 
-    /// The same in the room of another run.
+    /// Creates the run in the storage of an earlier one.
     fn within(room: Room<A>, setting: Setting<'a>, plan: &Plan, (order, limits): (u32, StepLimits)) -> Self {
         let model = setting.model;
         let motion = Motion::new(&setting, room.solver, room.scale);
-        // No step leaps over a smooth wave.
+        // Steps resolve every smooth wave.
         let limits = StepLimits { longest: motion.pace.longest, ..limits };
-        // Only contacts that grow have more than one path in a step.
+        // Only contacts growing in full stick have more than one path in a step.
         let grows = model.contacts.iter().any(|contact| contact.slot.is_some());
         let pieces = if grows { FINEST_PIECES as usize } else { 0 };
-        // Where nothing is free nothing swings, and a walk has no pace.
+        // Without free coordinates there is no oscillation.
         let period = if model.fastest > 0.0 { std::f64::consts::TAU / model.fastest } else { 0.0 };
         Self {
             horizon: Horizon::new(model, plan),
@@ -162,7 +169,7 @@ impl<'a, A: for<'e> Attempt<Equations<'e>>> Located<'a, A> {
         }
     }
 
-    /// Takes up a state: begins a run there, or goes on with one.
+    /// Starts or continues a run at a state.
     pub(super) fn set_out(&mut self, state: &mut State, opening: Opening, record: &mut dyn Record) {
         state.carry_over(self.setting.model, self.setting.layout);
         self.forget();
@@ -171,7 +178,7 @@ impl<'a, A: for<'e> Attempt<Equations<'e>>> Located<'a, A> {
             Some(Underway::Located(way)) if way.tolerance == self.setting.tolerance => {
                 self.take_up(state, &way);
             }
-            // At another tolerance the motion goes on, and its laws with it.
+            // The tolerance has changed: motion and contact laws continue.
             Some(Underway::Located(way)) => {
                 self.control.set_history(way.history);
                 self.begin(state, Laws::Kept);
@@ -187,7 +194,7 @@ impl<'a, A: for<'e> Attempt<Equations<'e>>> Located<'a, A> {
         record.enters(state);
     }
 
-    /// Whatever it has done before: the workspace knows nothing of a state that it has yet to take up.
+    /// Resets everything that depends on an earlier state.
     fn forget(&mut self) {
         self.takeoff = None;
         (self.detour, self.last_detour) = (None, Detour::NONE);
@@ -196,13 +203,13 @@ impl<'a, A: for<'e> Attempt<Equations<'e>>> Located<'a, A> {
         self.horizon.steps = self.horizon.unmade;
         self.bounds.begin_anew();
         self.ledger.booked.books = Books::Current;
-        // What was tried and given up is not counted.
+        // Abandoned attempts are not counted.
         self.output.evaluations = self.motion.solver.evaluations();
     }
 
-    /// Goes as far as a goal says, and puts down in the state what its future depends on.
+    /// Advances the state to a goal and saves in it everything that the next step depends on.
     ///
-    /// A run that fails leaves the state of its last accepted step.
+    /// After an error the state is that of the last accepted step.
     pub(super) fn go(
         &mut self,
         state: &mut State,
@@ -210,7 +217,7 @@ impl<'a, A: for<'e> Attempt<Equations<'e>>> Located<'a, A> {
         record: &mut dyn Record,
     ) -> Result<(), RunError> {
         self.horizon.aim(goal);
-        // A run that does not end there has no last row, and no row that is as good as that.
+        // Only a run that ends at its goal has a last row.
         let end = self.output.end_at(goal.last_row());
         self.horizon.nearly = end.min(self.horizon.end);
         let mut outcome = self.bounds.tried(state).and_then(|_| self.turn_due(state, record));
@@ -227,22 +234,22 @@ impl<'a, A: for<'e> Attempt<Equations<'e>>> Located<'a, A> {
         outcome
     }
 
-    /// Tells the range of a watched body so far.
+    /// Passes the extents of the watched bodies to the record.
     pub(super) fn hand_over(&mut self, record: &mut dyn Record) {
         self.output.marks.hand_over(record);
     }
 
-    /// Turning points of contacts made or given up.
+    /// Returns the number of reversals added to or removed from slip memories.
     pub(super) fn touched(&self) -> u64 {
         self.ledger.touched
     }
 
-    /// How many turning points a contact remembers.
+    /// Returns the largest number of reversals that a slip memory keeps.
     pub(super) fn remembers(&self) -> usize {
         Memory::DEFAULT_CAPACITY
     }
 
-    /// Brings memories that wait for an event to where the state is. For who will read them, at the end of a run.
+    /// Commits the slip memories that wait for an event. Needed at the end of a run, where they may be read.
     pub(super) fn settle_books(&mut self, state: &mut State) {
         if self.ledger.booked.books == Books::Behind {
             self.settle(state);
@@ -251,12 +258,12 @@ impl<'a, A: for<'e> Attempt<Equations<'e>>> Located<'a, A> {
         self.put_down(state);
     }
 
-    /// Writes the row of where the run stopped.
+    /// Writes the current state as a row.
     pub(super) fn write_now(&mut self, state: &State, record: &mut dyn Record) {
         self.output.write_now(&self.setting.plain(state), state, record);
     }
 
-    /// Begins with a state; where its laws are to be chosen, with them and with a first step.
+    /// Begins at a state. If `laws` requires it, chooses the contact laws and the first step length.
     ///
     /// The first step is at most one natural period of the fastest contact.
     fn begin(&mut self, state: &mut State, laws: Laws) {
@@ -274,7 +281,7 @@ impl<'a, A: for<'e> Attempt<Equations<'e>>> Located<'a, A> {
             return;
         }
         let contacts = self.setting.model.contacts.iter();
-        // A guess that begins above the fastest ringing would be thrown away.
+        // A longer first step would be rejected.
         let natural = contacts.map(|c| std::f64::consts::TAU / c.natural.frequency);
         let longest = natural.fold(self.motion.longest(state.t), f64::min);
         state.step = if self.setting.layout.dimension() == 0 {
@@ -285,7 +292,7 @@ impl<'a, A: for<'e> Attempt<Equations<'e>>> Located<'a, A> {
         };
     }
 
-    /// From an event or a corner, at which the state is, into the next interval.
+    /// Passes an event or a corner at the current time and begins the next interval.
     fn pass_event(
         &mut self,
         state: &mut State,
@@ -306,7 +313,7 @@ impl<'a, A: for<'e> Attempt<Equations<'e>>> Located<'a, A> {
         if !self.setting.model.balanced.is_empty() {
             self.check_balance(state)?;
         }
-        // Here and nowhere else: the solver starts anew at once and keeps no place counted from before.
+        // Origins move only here, because the integrator restarts and keeps no old positions.
         let moves = shift::shift(self.setting.model, state);
         if is_corner || moves || !self.renew_interval(state) {
             self.begin_interval(state);
@@ -316,16 +323,15 @@ impl<'a, A: for<'e> Attempt<Equations<'e>>> Located<'a, A> {
         Ok(())
     }
 
-    /// The laws, and perhaps the forces of growing contacts, have changed.
-    ///
-    /// The solver is caught up only where steps follow: a leap has no use for the slopes, and the next event
-    /// may bring another.
+    /// Begins the next interval after the contact laws have changed.
     fn restart(&mut self, state: &mut State) {
         self.begin_interval(state);
         self.go_on_from(state);
     }
 
-    /// Into an interval that has begun.
+    /// Continues in the interval that has begun.
+    ///
+    /// The integrator restarts only if steps follow. A leap needs no slopes.
     fn go_on_from(&mut self, state: &State) {
         self.motion.pace.restart();
         self.motion.whereabouts = Whereabouts::Behind;
@@ -334,10 +340,9 @@ impl<'a, A: for<'e> Attempt<Equations<'e>>> Located<'a, A> {
         }
     }
 
-    /// Puts the solver where the state is.
+    /// Restarts the integrator at the current state, with one evaluation.
     ///
-    /// Everything that is read of its start follows: the watch, the allowances, whether all is at rest. One
-    /// evaluation.
+    /// Updates what depends on it: contact motions, allowed errors and the check for rest.
     fn catch_up(&mut self, state: &State) {
         let eq = self.setting.equations(state, &self.interval);
         self.motion.start(&eq, state);
@@ -346,7 +351,7 @@ impl<'a, A: for<'e> Attempt<Equations<'e>>> Located<'a, A> {
         self.motion.rest(self.setting.model, state);
     }
 
-    /// Waveforms are on new pieces.
+    /// Updates the next corner and the power of the followers after waveforms have changed their pieces.
     fn turned(&mut self, state: &State) {
         self.horizon.corner = state.next_corner();
         self.motion.allowance.allowed.power = allowance::follower_power(self.setting.model, state);

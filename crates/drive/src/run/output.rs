@@ -1,8 +1,8 @@
-//! What a run hands to its record: rows on a regular grid, events, looks into the contacts.
+//! Output of a run: rows on a regular time grid, events, snapshots of slip memories, and sample rows.
 //!
-//! When something is due is decided here, what it is is worked out by the run: inside a step from its dense
-//! output, inside a leap from its closed form. No step ends because of output, and evaluations that it costs
-//! are counted apart.
+//! A record requests the times of snapshots and sample rows. This module decides when output is due. The run computes
+//! its values from the dense output of a step or from the closed form of a leap. Output never ends a step, and its
+//! evaluations are counted separately.
 
 mod marks;
 mod rows;
@@ -19,8 +19,9 @@ pub(super) use marks::Marks;
 pub(super) use rows::Rows;
 pub(super) use turns::Turns;
 
-/// What a run hands to its record. It reads states and dense outputs and changes neither: with it and without it a run has
-/// the same bits.
+/// Output of a run to its record.
+///
+/// It only reads states and dense outputs. With and without output a run has the same bits.
 pub(super) struct Output {
     /// Interval of the rows, s.
     pub(super) every: Option<f64>,
@@ -30,9 +31,9 @@ pub(super) struct Output {
     pub(super) turns: Turns,
     pub(super) rows: Rows,
     row: Vec<f64>,
-    /// Scratch: components of a moment, or their slopes.
+    /// Scratch for the components at one time, or for their slopes.
     pub(super) components: Vec<f64>,
-    /// Evaluations made for rows and looks, and others that are no part of the run.
+    /// Number of evaluations for output and other purposes that do not belong to the run.
     pub(super) evaluations: u64,
 }
 
@@ -45,7 +46,7 @@ impl Output {
         blank.renewed(every, layout)
     }
 
-    /// The same in the room there is.
+    /// Returns an empty output in the same storage.
     pub(super) fn renewed(mut self, every: Option<f64>, layout: Layout) -> Self {
         self.components.clear();
         self.components.resize(layout.total(), 0.0);
@@ -54,13 +55,13 @@ impl Output {
         Self { every, grid, looks: Looks::NONE, marks, turns, rows, evaluations: 0, ..self }
     }
 
-    /// Begins the rows after a time, s. Rows in a run that `begins` there: the first one is at hand if it is on the grid.
+    /// Starts the rows after time `from`, s, within the time window of the record.
     pub(super) fn set_out(&mut self, from: f64, record: &dyn Record) {
         let row = std::mem::take(&mut self.grid.row);
         self.grid = Grid { row, ..Grid::new(self.every, from, record.rows_within()) };
     }
 
-    /// Asks for the first look and the first mark, and takes them if they are at hand.
+    /// Requests the first snapshot and the first sample row, and writes those that are due now.
     pub(super) fn begin_looks(
         &mut self,
         equations: &Equations<'_>,
@@ -70,36 +71,35 @@ impl Output {
     ) {
         self.looks = Looks::begin(at, opening, record);
         self.turns.begin(at.0, record.watched()[0].filter(|_| record.wants_events()));
-        // Whoever listens now: a run may be told to another record on its way.
+        // The record may change during a run.
         self.rows.begin(at.0);
         self.marks.begin(equations, at, opening == Opening::Resumed, record);
     }
 
-    /// Whether a row, a look or a mark is due at t or before it, or every step is read.
-    ///
-    /// A few comparisons: all that a step without output pays for it.
+    /// Whether output is due at time t or before, or the record reads every step. Costs a few comparisons.
     #[inline(always)]
     pub(super) fn due(&self, t: f64) -> bool {
         self.marks.watches() || self.reads(t)
     }
 
-    /// Whether something is read inside a step that ends at t.
+    /// Whether output is due inside a step that ends at time t.
     #[inline(always)]
     pub(super) fn reads(&self, t: f64) -> bool {
         self.grid.due(t).is_some() || self.looks.due(t).is_some() || self.marks.due(t).is_some()
     }
 
-    /// Ends the rows at a time, s; the last of them is there, on the grid or not. Gives from when on a moment is the end.
+    /// Sets the end of the rows, s, where the last row lies. Returns the time from which on the end counts as reached,
+    /// s.
     pub(super) fn end_at(&mut self, end: f64) -> f64 {
         self.grid.end_at(end)
     }
 
-    /// Writes a row off the grid: the first and the last one.
+    /// Writes a row outside the grid: the first or the last row of a run.
     pub(super) fn write_now(&mut self, equations: &Equations<'_>, state: &State, record: &mut dyn Record) {
         self.grid.write_now(equations, state, record);
     }
 
-    /// Writes an event and the row after it.
+    /// Reports an event with the row after it.
     pub(super) fn event(
         &mut self,
         equations: &Equations<'_>,
@@ -111,7 +111,7 @@ impl Output {
         record.event(event, &self.row);
     }
 
-    /// Tells turns of u up to a moment, s, of the present step; `y` reads a component at a moment.
+    /// Reports the turning points of u up to time `until`, s, in the current step. `y` returns a component at a time.
     pub(super) fn tell_turns(
         &mut self,
         equations: &Equations<'_>,
@@ -127,19 +127,19 @@ impl Output {
     }
 }
 
-/// How the output of a run begins.
+/// First output of a run.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Opening {
-    /// With a row of where it begins.
+    /// A row at the start.
     Row,
-    /// With a row only if one is due there.
+    /// A row at the start only if the grid has one there.
     Grid,
-    /// After what an earlier run has written up to there.
+    /// Nothing at the start, because an earlier run has written it.
     Resumed,
 }
 
 impl Opening {
-    /// Whether a row is to be written where a run begins, at t.
+    /// Whether a row is written at the start of a run, at time t.
     pub(super) fn has_row(self, every: Option<f64>, t: f64) -> bool {
         match self {
             Self::Row => true,
@@ -149,17 +149,17 @@ impl Opening {
     }
 }
 
-/// No window: rows are wanted all the way.
+/// Time window without limits, s.
 const EVERYWHERE: [f64; 2] = [0.0, f64::INFINITY];
-/// A row this near to the end of its window, in intervals, is in it: ends are rounded.
+/// Largest distance behind the end of a time window that counts as rounding, in row intervals.
 const SAME: f64 = 1e-9;
 
-/// Rows due at multiples of an interval, within a window, and at the end of a run.
+/// Rows at multiples of an interval within a time window, and at the end of a run.
 pub(super) struct Grid {
     schedule: Schedule,
-    /// From when on none is wanted but the last, s.
+    /// End of the time window, s; later only the last row of the run is written.
     until: f64,
-    /// The next row, s; infinite after the last one.
+    /// Time of the next row, s; ∞ after the last one.
     next: f64,
     end: f64,
     row: Vec<f64>,
@@ -179,19 +179,19 @@ impl Grid {
         grid
     }
 
-    /// The next row of the interval, s; infinite after the last one that is wanted.
+    /// Returns the next time of the interval within the window, s; ∞ after the last one.
     fn scheduled(&self) -> f64 {
         let due = self.schedule.due();
         if due <= self.until { due } else { f64::INFINITY }
     }
 
-    /// The next row's time, if it lies at `t` or before it.
+    /// Returns the time of the next row if it is at or before `t`.
     #[inline]
     pub(super) fn due(&self, t: f64) -> Option<f64> {
         (self.next <= t && self.next < f64::INFINITY).then_some(self.next)
     }
 
-    /// Ends the rows at another time, s.
+    /// Sets the end of the rows, s. Returns the time from which on the end counts as reached, s.
     pub(super) fn end_at(&mut self, end: f64) -> f64 {
         self.end = end;
         self.schedule.end_at(end);
@@ -199,7 +199,7 @@ impl Grid {
         self.schedule.nearly()
     }
 
-    /// Writes the row at time t and moves on to the next.
+    /// Writes the row at time t and moves to the next one.
     pub(super) fn write(
         &mut self,
         equations: &Equations<'_>,
@@ -213,7 +213,7 @@ impl Grid {
         self.pass(t);
     }
 
-    /// Moves on to the row after one at time t.
+    /// Moves to the row after time t.
     pub(super) fn pass(&mut self, t: f64) {
         if self.schedule.due() <= t {
             self.schedule.advance();
@@ -221,24 +221,24 @@ impl Grid {
         self.next = if t < self.end { self.scheduled().min(self.end) } else { f64::INFINITY };
     }
 
-    /// Writes a row off the grid: the first and the last one.
+    /// Writes a row outside the grid: the first or the last row of a run.
     pub(super) fn write_now(&mut self, equations: &Equations<'_>, state: &State, record: &mut dyn Record) {
         record::fill(equations, state, state.t, &|i| state.y[i], &mut self.row);
         record.row(&self.row);
     }
 }
 
-/// The looks into the contacts that a record asks for.
+/// Snapshots of the slip memories that a record requests.
 pub(super) struct Looks {
-    /// The next moment, s; infinite where none is left.
+    /// Time of the next snapshot, s; ∞ if there is none.
     due: f64,
 }
 
 impl Looks {
-    /// Before a run: nobody has asked yet.
+    /// State without any request, before a run.
     pub(super) const NONE: Self = Self { due: f64::INFINITY };
 
-    /// Asks for the first moment after the run's beginning; a look at the beginning itself is taken at once.
+    /// Requests the first snapshot after the start of a run. A snapshot at the start is taken at once.
     fn begin((model, state): (&Model, &State), opening: Opening, record: &mut dyn Record) -> Self {
         let mut looks = Self { due: f64::NEG_INFINITY };
         looks.ask(record);
@@ -253,15 +253,15 @@ impl Looks {
         looks
     }
 
-    /// The next moment, if it lies at `t` or before it.
+    /// Returns the time of the next snapshot if it is at or before `t`.
     #[inline]
     pub(super) fn due(&self, t: f64) -> Option<f64> {
         (self.due <= t).then_some(self.due)
     }
 
-    /// Shows the memories at the moment that is due and asks for the next one.
+    /// Passes the slip memories at the time of the snapshot to the record and requests the next one.
     ///
-    /// Without memories, where a contact could not be followed to that moment, the look is left out.
+    /// Without memories the snapshot is omitted: a contact could not follow its path to that time.
     pub(super) fn show(&mut self, memories: Option<&[Memory]>, record: &mut dyn Record) {
         if let Some(memories) = memories {
             record.look(self.due, memories);
@@ -269,7 +269,7 @@ impl Looks {
         self.ask(record);
     }
 
-    /// Moments that do not ascend end the looks.
+    /// Requests the next snapshot. A time that is not later than the last one ends the snapshots.
     fn ask(&mut self, record: &mut dyn Record) {
         let next = record.next_look().unwrap_or(f64::INFINITY);
         self.due = if next > self.due { next } else { f64::INFINITY };

@@ -1,4 +1,4 @@
-//! The plain explicit reference: Dormand–Prince 5(4), one call per smooth stretch, no events.
+//! Plain adaptive reference integrator: Dormand–Prince 5(4), one call between two corners, no event location.
 
 use super::chords::Chords;
 use super::horizon::Goal;
@@ -8,14 +8,16 @@ use crate::{Model, Plan, RunError, State, Waveform};
 use stickslip_stepper::System;
 use stickslip_stepper::reference::{Accepting, ReferenceError, ReferenceOptions, integrate};
 
-/// Longest step, in quarters of the shortest wave. In gross slip nothing in the equations tells of a wave that goes by under
-/// a long step, nor of the short time in which it holds a body.
-// Ten times as much: a sine drive ends 1.6 u_c away at a tolerance of 1e-6, instead of 0.3. A tenth: 2e-3 u_c at 1e-9, for 2.5
-// times the work.
+/// Longest time step, as a fraction of the waveform resolution, which is a quarter of the shortest wave.
+///
+/// In gross slip the equations do not depend on the waveform. Without the limit, a long step would miss a wave in which
+/// the contact sticks for a short time.
 const SEEN: f64 = 0.125;
 
-/// A run whose steps a solver chooses by itself: it asks for slopes on shared borrows and hands each accepted step to the
-/// chords, which commit it. An error of a commit waits here until the solver returns.
+/// Run whose solver chooses the steps itself.
+///
+/// The solver evaluates slopes and passes each accepted step to [`Chords`], which commits it. The error of a commit is
+/// kept in `outcome` until the solver returns.
 struct Driven<'a> {
     chords: Chords<'a>,
     state: &'a mut State,
@@ -42,7 +44,7 @@ impl System for Driven<'_> {
 }
 
 impl Accepting for Driven<'_> {
-    /// What does not advance time is no step of the run's.
+    /// Accepts a step. A step that does not advance the time is ignored.
     fn accept(&mut self, t: f64, y: &[f64]) -> bool {
         if t > self.state.t {
             self.chords.take_steps(self.state, t, y);
@@ -52,11 +54,12 @@ impl Accepting for Driven<'_> {
     }
 }
 
-/// Runs from corner to corner.
+/// Runs a plan from corner to corner.
 ///
-/// Between two corners the solver chooses its steps by `tolerance`, relative to natural lengths,
-/// speeds and the scales of blocks' states; at each corner a new call begins with the step the last one
-/// ended with. Fails as its solver does, with too many steps or one too small, or as [`Chords::accept`] does.
+/// The solver controls its steps by `tolerance`, relative to natural lengths, natural speeds and the scales of block
+/// states. At a corner, a new call begins with the last step length.
+///
+/// Fails with too many steps, a step that is too small, or as [`Chords::accept`] does.
 pub(super) fn run(
     model: &Model,
     plan: &Plan,
@@ -74,8 +77,6 @@ pub(super) fn run(
     chords.aim(Goal::End(plan.duration));
     let mut driven = Driven { chords, state, record, outcome: Ok(()) };
     let waves = model.waveforms.iter().map(Waveform::resolution).fold(f64::INFINITY, f64::min);
-    // In gross slip nothing in its equations says that a wave goes by: it leapt over several, at every
-    // tolerance.
     let longest = SEEN * waves;
     let mut options = ReferenceOptions { longest, ..ReferenceOptions::default() };
     while driven.chords.goes_on(driven.state) && driven.outcome.is_ok() {
@@ -88,13 +89,12 @@ pub(super) fn run(
             .map_err(|error| failure(&error, plan, driven.state.t));
         match stretch {
             Ok(stretch) => {
-                // The step goes on across a corner: each stretch would otherwise begin with a guess of its
-                // own.
+                // A call begins with the last step length of the previous one.
                 options.first = Some(stretch.step);
                 driven.state.counts.rejected += stretch.rejected;
                 driven.state.counts.evaluations += stretch.evaluations;
             }
-            // A step that was refused ends the stretch, too: its own reason counts, not the solver's.
+            // A refused commit also ends the solver call; its own error counts.
             Err(error) if driven.outcome.is_ok() => driven.outcome = Err(error),
             Err(_) => {}
         }
@@ -109,7 +109,7 @@ pub(super) fn run(
 }
 
 impl Driven<'_> {
-    /// Puts every waveform whose piece is over on its next piece.
+    /// Moves every waveform whose piece has ended to its next piece.
     fn turn_corners(&mut self, model: &Model) {
         let state = &mut *self.state;
         for (w, waveform) in model.waveforms.iter().enumerate() {
@@ -121,7 +121,7 @@ impl Driven<'_> {
     }
 }
 
-/// The solver's error in a run's words, at the time reached.
+/// Converts an error of the solver at time t to a run error.
 fn failure(error: &ReferenceError, plan: &Plan, t: f64) -> RunError {
     match error {
         ReferenceError::TooManySteps { .. } => RunError::TooManySteps { t, limit: plan.limits.steps },

@@ -1,45 +1,46 @@
-//! Steps of a periodic drive, watched until they are constant.
+//! Detection of a constant step length of a periodic drive.
 
 use crate::model::Binding;
 use crate::scene::Axis;
 use crate::state::{State, Stepped};
 use crate::{Model, Plan, UntilSteady};
 
-/// How many times running a step must agree with the one before it.
+/// Number of consecutive step lengths that must agree with the previous one.
 pub(super) const AGREEING: u32 = 3;
-/// A moment this near to the end of a period, relative to the time, is the end: a corner is a rounded sum.
+/// Largest relative distance from a period end that counts as rounding.
 const SAME: f64 = 4.0 * f64::EPSILON;
 
-/// The ends of the periods, and what the steps between them have come to.
+/// Period ends and the step lengths between them.
 #[derive(Clone, Copy)]
 pub(super) struct Steps {
-    /// Place of the body's x among the free coordinates.
+    /// Index of the body's x among the free coordinates.
     pub(super) coordinate: usize,
-    /// Start of the first period and length of all, s.
+    /// Start of the first period (`start`) and length of a period (`period`), s.
     start: f64,
     period: f64,
     /// Number of whole periods; may be infinite.
     periods: f64,
-    /// When the next end is due, s; infinite after the last.
+    /// Next period end, s; ∞ after the last one.
     due: f64,
-    /// From when on a moment is as good as that, s.
+    /// Time from which on `due` counts as reached, s.
     nearly: f64,
-    /// Largest change of a step, as a share of it or of the body's natural length, m.
+    /// Largest change of a constant step length (`change`), relative to the step length or to `natural`, m, if that is
+    /// longer.
     change: f64,
     natural: f64,
-    /// So far.
+    /// Period ends and step lengths found so far.
     so_far: Stepped,
 }
 
 impl Steps {
-    /// The steps that a plan asks for; never due where it does not, or where there are none.
+    /// Returns the detection that a plan requests. Without a request or a periodic waveform it is never due.
     pub(super) fn of(model: &Model, plan: &Plan) -> Self {
         plan.until_steady.and_then(|asked| Self::asked(model, asked)).unwrap_or(Self::NEVER)
     }
 
-    /// Begins with the first period that begins now or later: what was before the state is not known.
+    /// Begins with the first period end at or after the current time; earlier ones are unknown.
     pub(super) fn begin(&mut self, state: &State) {
-        // Not period by period: a state may come from any time.
+        // Skips all past periods at once, because the state may have any time.
         let passed = ((state.t - self.start) / self.period).floor() - 1.0;
         if passed > self.so_far.next && passed < self.periods {
             self.so_far.next = passed;
@@ -53,17 +54,17 @@ impl Steps {
         }
     }
 
-    /// What they have come to, where they are asked for.
+    /// Returns the step lengths found so far; `None` if the plan requests no detection.
     pub(super) fn so_far(&self) -> Option<Stepped> {
         (self.period > 0.0).then_some(self.so_far)
     }
 
-    /// Goes on from there.
+    /// Continues from saved results.
     pub(super) fn take_up(&mut self, so_far: Stepped, state: &State) {
         if self.period > 0.0 {
             self.so_far = so_far;
             self.look_ahead();
-            // No run leaves an end behind that it has passed.
+            // A period end in the past shows that the saved results do not belong to this run.
             if self.due * (1.0 + SAME) < state.t {
                 self.so_far = Self::NEVER.so_far;
                 self.look_ahead();
@@ -84,7 +85,7 @@ impl Steps {
         so_far: Stepped { next: 0.0, place: None, step: None, agreed: 0 },
     };
 
-    /// None where the waveform has no period or the body's x is not free.
+    /// Returns the requested detection. `None` if the waveform has no period or the body's x is not free.
     fn asked(model: &Model, UntilSteady { waveform, body, change }: UntilSteady) -> Option<Self> {
         let waveform = model.waveforms.get(waveform)?;
         let Binding::Free(coordinate) = model.bodies.get(body)?.bindings[Axis::X as usize] else {
@@ -104,7 +105,7 @@ impl Steps {
         })
     }
 
-    /// The next end of a period, if it lies at `t` or before it; `t` itself where it is as good as there.
+    /// Returns the next period end if it is at or before `t`; `t` itself if both agree within rounding.
     #[inline]
     pub(super) fn due(&self, t: f64) -> Option<f64> {
         if t < self.nearly {
@@ -113,16 +114,16 @@ impl Steps {
         Some(if t > self.due * (1.0 + SAME) { self.due } else { t })
     }
 
-    /// Takes the place at the end of a period, its origin and what is counted from there, m. Tells whether the steps have
-    /// become constant.
+    /// Adds the position at a period end: its origin and the distance from there, m. Returns whether steps are
+    /// constant.
     ///
-    /// Constant are steps of which three running differ from the one before by no more than the asked share
-    /// of the step or, if that is longer, of the body's natural length: steps of nothing agree, too.
+    /// The step length is constant if [`AGREEING`] consecutive values each differ little from the previous one. The
+    /// limit is `change` times the step length, or times the body's natural length if that is longer. Steps of zero
+    /// length agree.
     pub(super) fn take(&mut self, origin: f64, place: f64) -> bool {
         self.advance();
         let Some(before) = self.so_far.place.replace((origin, place)) else { return false };
-        // Differences of origins and of places apart: a sum of both would have lost the digits that shifting
-        // keeps.
+        // Origins and distances are subtracted separately, so that no digits are lost.
         let step = (origin - before.0) + (place - before.1);
         let last = self.so_far.step.replace(step);
         let agrees =
@@ -132,7 +133,7 @@ impl Steps {
         *agreed >= AGREEING
     }
 
-    /// The next end is a product, not a sum of periods: it does not drift.
+    /// Moves to the next period end. Its time is a product, so rounding does not accumulate.
     fn advance(&mut self) {
         self.so_far.next += 1.0;
         self.look_ahead();

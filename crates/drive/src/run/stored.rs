@@ -1,4 +1,4 @@
-//! What a jump of a waveform does to the energy that is stored.
+//! Stored energy, from which the work of a waveform jump follows.
 
 use crate::contact::Contact;
 use crate::equations::Equations;
@@ -6,12 +6,11 @@ use crate::record;
 use crate::state::State;
 use stickslip_contact::Memory;
 
-/// Energy of contacts and links, J, at the committed state; without that of a prescribed normal load.
+/// Returns the energy of contacts and links at the committed state, J, without that of a prescribed normal load.
 pub(super) fn stored(eq: &Equations<'_>, state: &State) -> f64 {
     let energy = |(contact, memory): (&Contact, &Memory)| {
         let apex = memory.apex();
-        // What a prescribed load stores it has put in itself: it is read off the present depth, and no
-        // jump of the books.
+        // The work of a prescribed load equals its stored energy, which follows from the current indentation.
         let normal = contact.coupling().map_or(0.0, |_| contact.interface.normal_energy(apex.d));
         contact.count * (normal + memory.preview(&contact.interface, apex).elastic)
     };

@@ -1,4 +1,4 @@
-//! Runs of scenes that differ in numbers alone, one after the other in one room.
+//! Consecutive runs of models that differ in numbers only, in the same storage.
 
 use super::located::Workspace;
 use super::run;
@@ -8,12 +8,15 @@ use crate::state::Underway;
 use crate::{Model, Plan, RunError, Scene, SceneError, State, Stepper};
 use thiserror::Error;
 
-/// Runs one scene after another: model, state and workspace of each are made in the room of the one before.
+/// Storage for consecutive runs, in which model, state and workspace are reused.
 ///
-/// What comes out is what [`Model::new`], [`Model::start`] and [`run`](crate::run()) make of each scene alone, to the last bit.
-/// Nothing is allocated for scenes of the shape of an earlier one (as many bodies, contacts, links and loads, bound alike) with
-/// one free coordinate, no block and a given start, stepped between located events; elsewhere only the model's eigenvalues, an
-/// equilibrium, blocks, or parts that are stepped apart are. Memories deeper than any before take room, too.
+/// The results agree to the last bit with [`Model::new`], [`Model::start`] and [`run`](crate::run()) of each [`Scene`]
+/// alone.
+///
+/// A [`Scene`] has the same shape as an earlier one if numbers and bindings of bodies, contacts, links and loads are
+/// equal. Its run allocates nothing if it has one free coordinate, no block, a given start and the stepper
+/// [`Stepper::Event`]. Other runs allocate, for example for eigenvalues, an equilibrium or blocks. A slip memory that
+/// is deeper than before allocates, too.
 pub struct Variants {
     model: Model,
     state: State,
@@ -22,13 +25,13 @@ pub struct Variants {
     row: Vec<f64>,
 }
 
-/// Why a variant did not come to its end.
+/// Reason why a variant has failed.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum VariantError {
-    /// Its scene makes no model, or no start.
+    /// The [`Scene`] has no valid model or no start.
     #[error(transparent)]
     Scene(#[from] SceneError),
-    /// The run stopped itself.
+    /// The run has stopped with an error.
     #[error(transparent)]
     Run(#[from] RunError),
 }
@@ -40,7 +43,7 @@ impl Default for Variants {
 }
 
 impl Variants {
-    /// Room that has yet to grow.
+    /// Creates empty storage.
     #[must_use]
     pub fn new() -> Self {
         Self {
@@ -52,11 +55,11 @@ impl Variants {
         }
     }
 
-    /// Builds the model of a scene, starts it and moves it to the end of a plan.
+    /// Builds the model of a [`Scene`], starts it and runs it to the end of a plan.
     ///
     /// # Errors
-    /// What [`Model::new`], [`Model::start`] and [`run`](crate::run()) refuse; of a run that stopped itself the state is that
-    /// where it did.
+    /// The errors of [`Model::new`], [`Model::start`] and [`run`](crate::run()). After an error of the run,
+    /// [`Self::state`] is the state in which it stopped.
     pub fn run(&mut self, scene: &Scene, plan: &Plan, record: &mut dyn Record) -> Result<(), VariantError> {
         self.model.rebuild(scene, &mut self.scaffold)?;
         let way = match self.state.underway.take() {
@@ -74,13 +77,13 @@ impl Variants {
         Ok(())
     }
 
-    /// The constants of the last variant; after an error in its scene those of none.
+    /// Returns the model of the last variant. After an error in its [`Scene`] the model has no meaning.
     #[must_use]
     pub fn model(&self) -> &Model {
         &self.model
     }
 
-    /// The state in which the last variant ended.
+    /// Returns the state in which the last variant ended.
     #[must_use]
     pub fn state(&self) -> &State {
         &self.state

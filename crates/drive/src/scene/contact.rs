@@ -1,67 +1,67 @@
-//! Contacts of a scene.
+//! Contacts of a [`Scene`](super::Scene).
 
 use super::{Point, Side, Varying};
 use stickslip_contact::Interface;
 
-/// A frictional contact: u = x(first) - x(second) at the contact point; F_x(u) acts on the second body, -F_x on the
-/// first. The first body lies below.
+/// Frictional contact. Its displacement is u = x(first) - x(second) at the contact point. F_x(u) acts on the second body and -F_x
+/// on the first, which is the lower one.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Contact {
     /// First (lower) and second body.
     pub between: [Side; 2],
-    /// The contact point on either body.
+    /// Contact point on both bodies.
     pub at: [Point; 2],
-    /// Effective moduli, profile of the gap, Coulomb's coefficient of friction and the time constant of the stuck springs.
+    /// Effective moduli, profile, friction coefficient and damping time of sticking springs.
     pub interface: Interface,
-    /// What presses the contact.
+    /// Normal load.
     pub normal: Normal,
-    /// Gap between the bodies in the position drawn, m; negative: pressed. For [`Normal::Coupled`].
+    /// Gap between the bodies in the reference position, m; negative if pressed. Used for [`Normal::Coupled`].
     pub gap: f64,
-    /// The contact's own starting state.
+    /// Initial state of the contact.
     pub start: ContactStart,
-    /// How the tangential problem is solved.
+    /// Solution of the tangential problem.
     pub engine: EngineChoice,
-    /// Number of identical contacts that share this motion, at least 1.
+    /// Number of identical contacts with this motion, at least 1.
     pub count: u32,
 }
 
-/// What presses a contact.
+/// Normal load of a contact.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Normal {
     /// Normal force of one contact, N, at least 0.
     Force(Varying),
-    /// Indentation, m; negative: open.
+    /// Indentation, m; negative when open.
     Indentation(Varying),
     /// Contact radius, m, at least 0.
     Radius(Varying),
-    /// From the bodies' motion: d = z(first) - z(second) - gap at the contact point.
+    /// Indentation from the motion of the bodies: d = z(first) - z(second) - gap at the contact point.
     Coupled,
 }
 
-/// A contact's starting state; both kinds are reached monotonically from the untouched contact.
+/// Initial state of a contact, which monotonic loading of the untouched contact reaches.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub enum ContactStart {
     /// Springs unstretched.
     #[default]
     Untouched,
-    /// Preloaded to this tangential force of one contact, N; below μF_N in magnitude.
+    /// Loaded to this tangential force of one contact, N; its magnitude must be below μF_N.
     Force(f64),
-    /// Preloaded by this displacement, m.
+    /// Loaded to this displacement, m.
     Displacement(f64),
 }
 
-/// How the tangential problem of a contact is solved.
+/// Solution of the tangential problem of a contact.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub enum EngineChoice {
-    /// The exact memory curve.
+    /// Exact memory curve.
     #[default]
     Curve,
-    /// A row of springs.
+    /// Row of springs.
     Springs {
         /// Number of springs.
         count: usize,
-        /// Length of the row, m; by default the contact's width at the largest indentation known, or as much as it takes to bear the
-        /// largest force known.
+        /// Length of the row, m. The default is the width of the contact at its largest known indentation, or enough to carry the
+        /// largest known force.
         span: Option<f64>,
     },
 }

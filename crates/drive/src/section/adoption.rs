@@ -1,4 +1,4 @@
-//! A state of one drive as one of another that differs from it in its numbers alone.
+//! Transfer of a state to another model of the same structure.
 
 use super::legs::take_over;
 use super::{Section, Unknown};
@@ -7,12 +7,12 @@ use crate::state::Counts;
 use crate::{Model, State};
 
 impl Section<'_> {
-    /// A state at this section as a state of another model at a time, s, its numbers moved by as much, each in its own unit: free
-    /// coordinates, speeds and states of blocks are the same but for that, and the form of every memory; what follows a waveform
-    /// stands where the other model has it.
+    /// Returns a state at this section as a state of another model at a time (s), with changed coordinates, in their units. Free
+    /// coordinates, velocities, states of blocks and the form of memories are kept. Prescribed motions are those of the other
+    /// model.
     ///
-    /// The books of energies are those of the first one. None where the models are not of one kind, where a contact touches in
-    /// one and not in the other, or a memory has no such form.
+    /// The energy balance is that of the original state. None if the models differ in structure, a contact is closed in one model
+    /// only, or a memory cannot have this form.
     #[must_use]
     pub fn elsewhere(&self, state: &State, by: &[f64], to: &Model, t: f64) -> Option<State> {
         let (from, layout) = (self.model, to.layout());
@@ -56,7 +56,7 @@ impl Section<'_> {
 }
 
 impl Model {
-    /// Whether states of another model have the form of states of this one.
+    /// Whether states of another model have the same structure.
     pub(crate) fn is_alike(&self, other: &Self) -> bool {
         let form = |model: &Self| {
             let blocks: Vec<usize> = model.blocks.iter().map(|block| block.count()).collect();

@@ -1,29 +1,28 @@
-//! Motions along which nothing changes but the place.
+//! Drift directions of a drive, along which only the position changes.
 //!
-//! A coordinate that no spring or actuator, no pressing contact and no block measures may be counted from anywhere, if the anchors of its
-//! contacts are counted from there, too: after a period a drive stands where it stood, but for its step. Several bodies that
-//! are tied to each other and to nothing else travel together.
+//! A coordinate that no spring, actuator, coupled contact or block measures may have any origin, if the memories of its contacts
+//! move with it. Bodies that are only connected with each other drift together.
 
 use crate::Model;
 use crate::model::{Measure, Wire};
 
-/// What an entry of a row is cleared to, as a part of the row's largest.
+/// Relative size below which an entry of a row counts as zero.
 const NOTHING: f64 = 1e-12;
 
-/// A motion along which the drive may have gone on after a period.
+/// Direction in which the drive may move on from period to period.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Drift {
-    /// The coordinate by which it is counted.
+    /// Coordinate that measures the drift.
     pub(super) pivot: usize,
-    /// How far each free coordinate goes with 1 m, or 1 rad, of that.
+    /// Displacement of each free coordinate per unit of that coordinate.
     pub(super) shape: Vec<f64>,
 }
 
-/// All of them, each by a coordinate of its own.
+/// Returns all drift directions, each with its own coordinate.
 pub(super) fn drifts(model: &Model) -> Vec<Drift> {
     let count = model.free.len();
     let mut rows: Vec<Vec<f64>> = measures(model).map(|measure| row(measure, count)).collect();
-    // Reduced from the last coordinate on, so that drifts are counted by the first of those that go together.
+    // Reduced from the last coordinate, so that the first of connected coordinates measures the drift.
     let mut leading: Vec<(usize, usize)> = Vec::new();
     let mut next = 0;
     for column in (0..count).rev() {
@@ -53,9 +52,9 @@ pub(super) fn drifts(model: &Model) -> Vec<Drift> {
     (0..count).filter(is_free).map(shape).collect()
 }
 
-/// What depends on places themselves.
+/// Returns the lengths on which forces depend.
 fn measures(model: &Model) -> impl Iterator<Item = &Measure> {
-    // A damper alone holds nothing in its place.
+    // A damper alone does not fix a position.
     let holding = model.links.iter().filter(|link| link.stiffness != 0.0);
     let links = holding.map(|link| &link.elongation);
     let pulls = model.balanced.iter().flat_map(|b| b.pull.links.iter().chain(&b.own.links));
@@ -70,7 +69,7 @@ fn measures(model: &Model) -> impl Iterator<Item = &Measure> {
 fn row(measure: &Measure, count: usize) -> Vec<f64> {
     let mut row = vec![0.0; count];
     measure.free.iter().for_each(|(i, a)| row[*i] += a);
-    // Arms of a pitch are lengths: by the largest entry all rows count alike.
+    // Normalised by the largest entry, because arms of a pitch are lengths.
     let largest = row.iter().fold(0.0_f64, |most, a| most.max(a.abs()));
     if largest > 0.0 {
         row.iter_mut().for_each(|a| *a /= largest);

@@ -1,25 +1,25 @@
-//! What of a contact's memory is a number of a state.
+//! Memory coordinates of a contact.
 
 use super::Unknown;
 use crate::contact::Contact;
 use stickslip_contact::{Apex, Legs, Memory, Segment};
 
-/// The numbers of a form: heights of its knots, and slopes of pieces that no edge has made.
+/// Returns the coordinates of a memory: heights of its knots, and slopes of pieces that no slip has made.
 pub(super) fn unknowns(contact: &Contact, c: usize, legs: &Legs) -> Vec<Unknown> {
     let heights = (0..legs.heights.len()).map(|k| Unknown::Height(c, k));
     let grown = (0..legs.slopes.len()).filter(|k| legs.sense(&contact.interface, *k).is_none());
     heights.chain(grown.map(|k| Unknown::Slope(c, k))).collect()
 }
 
-/// A knot nearer than this to the centre or the apex, as a part of the depth, may be one of rounding.
+/// Relative distance of a knot from the centre or the apex below which it may be rounding.
 const ROUNDING: f64 = 1e-6;
 
-/// Whether a memory has a knot that is none of rounding.
+/// Whether a memory has a knot beyond rounding.
 pub(super) fn holds(legs: &Legs, d: f64) -> bool {
     legs.heights.iter().any(|height| height.min(d - height) > ROUNDING * d)
 }
 
-/// A number of one memory less that of another; none where they have other knots.
+/// Returns the difference of two memories in a coordinate. None if their knots differ.
 pub(super) fn difference(unknown: Unknown, of: [&Memory; 2], contact: &Contact) -> Option<f64> {
     let [Memory::Curve(one), Memory::Curve(other)] = of else { return None };
     let (one, other) = (one.legs(), other.legs());
@@ -34,10 +34,8 @@ pub(super) fn difference(unknown: Unknown, of: [&Memory; 2], contact: &Contact) 
     }
 }
 
-/// The memory of a contact that stands elsewhere, d and u gone on by `gone`, m, and whose form is another one.
-///
-/// Anchors come along with u: what of a memory is its own is how it lies below its apex. A row of springs comes along,
-/// too, and follows d by a path that is straight.
+/// Returns the memory of a contact after a displacement `gone` of (d, u), m, with changed coordinates. The memory moves with u; a
+/// row of springs follows d on a straight path.
 pub(super) fn moved(
     contact: &Contact,
     memory: &Memory,
@@ -55,8 +53,8 @@ pub(super) fn moved(
     follow(memory, (contact, to), gone)
 }
 
-/// The memory of a contact as that of one of another model, d and u gone on by `gone`, m, and its form another one: its edges are as
-/// steep as the other law has them.
+/// Returns the memory of a contact as that of another model, after a displacement `gone` of (d, u), m, with changed coordinates.
+/// Slopes of slipped pieces are those of the other material pair.
 pub(super) fn take_over(
     (contact, from): (&Contact, &Contact),
     memory: &Memory,
@@ -65,7 +63,7 @@ pub(super) fn take_over(
 ) -> Option<Memory> {
     let to = Apex { d: memory.apex().d + gone.0, u: memory.apex().u + gone.1 };
     if contact.inert {
-        // It holds nothing, and nobody keeps it where it stands.
+        // It has no force and needs no memory.
         return Some(contact.engine.memory(&contact.interface, to));
     }
     let Memory::Curve(curve) = memory else { return follow(memory, (contact, to), gone) };
@@ -83,7 +81,7 @@ pub(super) fn take_over(
     fresh.standing(&contact.interface, to, &legs).map(Memory::Curve)
 }
 
-/// Moves the numbers of a form that are its contact's.
+/// Changes the coordinates of a contact's memory.
 fn reform(legs: &mut Legs, contact: &Contact, numbers: impl Iterator<Item = (Unknown, f64)>) -> Option<()> {
     for (unknown, by) in numbers {
         match unknown {
@@ -95,7 +93,7 @@ fn reform(legs: &mut Legs, contact: &Contact, numbers: impl Iterator<Item = (Unk
     Some(())
 }
 
-/// A memory that comes along to an apex, straight where d changes.
+/// Returns a memory moved to an apex, on a straight path if d changes.
 fn follow(memory: &Memory, (contact, to): (&Contact, Apex), gone: (f64, f64)) -> Option<Memory> {
     let mut memory = memory.clone();
     memory.shift(gone.1);

@@ -1,16 +1,16 @@
-//! A state as bytes: plain data, from which a run goes on to the same bits in another process.
+//! Serialisation of a state. A run from the read state has identical bits, also in another process.
 //!
-//! | bytes | what |
+//! | bytes | content |
 //! | --- | --- |
 //! | 8 | `stickslp` |
 //! | 8 | version of the format |
 //! | 32 | key of the model |
 //! | 8 | number of words that follow |
 //! | 8 each | words: numbers by their bits, counts, flags |
-//! | 8 | CRC-32 of all before |
+//! | 8 | CRC-32 of all preceding bytes |
 //!
-//! Everything is little-endian. What the model holds is not inside: no stiffness, no limit, no place of a spring; pieces of
-//! waveforms are their index, but for those that are supplied or generated. A reader takes words of this model only and refuses all others; none makes it panic.
+//! All words are little-endian. Properties of the model are not stored. Pieces of waveforms are stored by index, except supplied
+//! or generated ones. Reading fails for states of other models and never panics.
 
 mod generated;
 mod read;
@@ -22,54 +22,51 @@ use stickslip_contact::Words;
 use thiserror::Error;
 
 const MAGIC: [u8; 8] = *b"stickslp";
-/// Version of the format: 2 counts the steps whose estimate missed, 3 has parts, one method more, and a driver's charge of strain,
-/// 4 an implicit method, 5 one of few stages more.
+/// Version of the format.
 const VERSION: u64 = 5;
-/// Steppers at fixed step, by their number.
+/// Names of fixed-step steppers by number.
 const FIXED: [&str; 3] = ["rk4", "verlet", "frames"];
-/// Bytes before the words.
+/// Number of bytes before the words.
 const HEAD: usize = 56;
-/// Bytes of a word.
+/// Number of bytes in a word.
 const WORD: usize = 8;
 
-/// Why bytes are no state of a model.
+/// Reason why bytes are not a state of a model.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Error)]
 pub enum BytesError {
-    /// They begin otherwise.
-    #[error("not the state of a run")]
+    /// The bytes do not begin with the format's name.
+    #[error("this is not the state of a run")]
     Foreign,
-    /// Of a later program.
+    /// The format is newer than this program.
     #[error("the state has format {0}, this program reads up to {VERSION}")]
     Newer(u64),
-    /// Of an earlier program.
+    /// The format is older than this program supports.
     #[error("the state has format {0}, this program reads format {VERSION}")]
     Older(u64),
-    /// Of another model.
-    #[error("the state of a run of another scenario")]
+    /// The state belongs to another model.
+    #[error("this is the state of a run of another scenario")]
     OtherModel,
-    /// Some are missing, or too many.
-    #[error("the state has {got} bytes where {expected} are expected")]
+    /// The number of bytes is wrong.
+    #[error("the state has {got} bytes, expected {expected}")]
     Length {
-        /// Bytes that its head tells of, or that a head has.
+        /// Number of bytes according to the header, or the size of the smallest state.
         expected: u64,
-        /// Bytes there are.
+        /// Number of bytes given.
         got: u64,
     },
-    /// Their checksum is another one.
-    #[error("the state is damaged: its checksum is not that of its bytes")]
+    /// The checksum is wrong.
+    #[error("the state is damaged: its checksum does not match")]
     Damaged,
-    /// Whole, but nothing that a run of this model could have left.
+    /// The bytes are intact, but no run of this model could have this state.
     #[error("the state does not fit its scenario")]
     Unfit,
 }
 
 impl State {
-    /// The state as bytes, under a key that tells its model from all others.
+    /// Returns the state as bytes, with a key that identifies its model.
     ///
-    /// `key` is the caller's: a hash of whatever the model was made from, such as the crate `stickslip-run` makes of a
-    /// scenario. What inputs have been supplied is inside, and what
-    /// generators have been commanded. Bytes are read on any machine; to the same bits goes on whatever
-    /// computes alike, which one build does.
+    /// `key` is chosen by the caller, such as the hash of a scenario that the crate `stickslip-run` computes. Supplied inputs and
+    /// commands of generators are included. Bytes are portable; the same build continues with identical bits.
     pub fn to_bytes(&self, model: &Model, key: &[u8; 32]) -> Vec<u8> {
         let mut words = Vec::new();
         write::state(self, model, &mut words);
@@ -84,11 +81,11 @@ impl State {
         bytes
     }
 
-    /// The state that [`Self::to_bytes`] wrote of a model under a key.
+    /// Reads a state of a model that [`Self::to_bytes`] wrote with the same key.
     ///
     /// # Errors
     ///
-    /// Bytes of something else, of another format, of another model; too few, too many, damaged.
+    /// [`BytesError`]: other content, another format or model, a wrong length, or damaged bytes.
     pub fn from_bytes(model: &Model, key: &[u8; 32], bytes: &[u8]) -> Result<Self, BytesError> {
         let words = words(key, bytes)?;
         let mut reader = Words::new(&words);
@@ -97,7 +94,7 @@ impl State {
     }
 }
 
-/// The words of whole bytes under a key.
+/// Returns the words of intact bytes with a key.
 fn words(key: &[u8; 32], bytes: &[u8]) -> Result<Vec<u64>, BytesError> {
     let got = bytes.len() as u64;
     let short = BytesError::Length { expected: (HEAD + WORD) as u64, got };
@@ -109,7 +106,7 @@ fn words(key: &[u8; 32], bytes: &[u8]) -> Result<Vec<u64>, BytesError> {
         return Err(BytesError::Newer(version));
     }
     let (count, rest) = (word(bytes, 6).ok_or(short)?, bytes.get(HEAD..).ok_or(short)?);
-    // What a damaged head asks for may be more than there is in the world.
+    // A damaged header may contain any number.
     let expected = count.saturating_add(1).saturating_mul(WORD as u64).saturating_add(HEAD as u64);
     if expected != got {
         return Err(BytesError::Length { expected, got });
@@ -127,7 +124,7 @@ fn words(key: &[u8; 32], bytes: &[u8]) -> Result<Vec<u64>, BytesError> {
     Ok((0..body.len() / WORD).filter_map(|i| word(body, i)).collect())
 }
 
-/// Word `i` of some bytes.
+/// Returns word `i`, if it exists.
 fn word(bytes: &[u8], i: usize) -> Option<u64> {
     let bytes = bytes.get(i * WORD..(i + 1) * WORD)?;
     bytes.try_into().ok().map(u64::from_le_bytes)

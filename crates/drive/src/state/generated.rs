@@ -1,7 +1,7 @@
-//! What generators do: the cycle under way, and what has been commanded.
+//! State of generators: the present cycle and commands.
 //!
-//! Cycles of the same parameters that follow each other are a *span*: cycle k begins at origin + k·period, a product and never
-//! a sum, as the corners of any periodic waveform. A command that changes the parameters ends the span at the end of its cycle.
+//! Successive cycles with equal parameters are a *span*. Cycle k begins at origin + k·period, computed as a product. A command
+//! with other parameters ends the span at the end of its cycle.
 
 mod span;
 
@@ -11,76 +11,76 @@ use crate::{Model, Piece, Waveform};
 pub(super) use span::Span;
 use thiserror::Error;
 
-/// Why a generator does not take a command.
+/// Reason why a generator refuses a command.
 #[derive(Debug, Clone, Copy, PartialEq, Error)]
 pub enum CommandError {
-    /// No waveform, or none that is generated.
-    #[error("waveform {0} of the scene is no generator")]
+    /// The waveform does not exist or is no generator.
+    #[error("waveform {0} is not a generator")]
     NoGenerator(usize),
-    /// A stroke beyond what the checks before the run went by.
-    #[error("generator {generator} takes strokes from {low} to {high}, got {got}")]
+    /// The stroke is out of range.
+    #[error("generator {generator}: expected a stroke from {low} to {high}, got {got}")]
     Stroke {
-        /// Place of the waveform in the scene.
+        /// Index of the waveform.
         generator: usize,
         /// Smallest stroke.
         low: f64,
         /// Largest stroke.
         high: f64,
-        /// What came.
+        /// Given value.
         got: f64,
     },
-    /// A frequency beyond what the checks before the run went by.
-    #[error("generator {generator} takes frequencies from {low} Hz to {high} Hz, got {got}")]
+    /// The frequency is out of range.
+    #[error("generator {generator}: expected a frequency from {low} Hz to {high} Hz, got {got}")]
     Frequency {
-        /// Place of the waveform in the scene.
+        /// Index of the waveform.
         generator: usize,
         /// Smallest frequency, Hz.
         low: f64,
         /// Largest frequency, Hz.
         high: f64,
-        /// What came.
+        /// Given value, Hz.
         got: f64,
     },
 }
 
-/// More cycles than a fixed step goes over.
+/// Largest number of cycles in a fixed step.
 const MOST: f64 = 1e9;
 
-/// What a generator is doing.
+/// Present activity of a generator.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Generated {
-    /// What the next cycle begins with; its steps are those still to begin, without a cycle that is under way.
+    /// Command for the next cycle. Its number of steps does not include a cycle in progress.
     pub next: Command,
-    /// Whether a cycle is under way; else it rests at 0.
+    /// Whether a cycle is in progress; otherwise the generator rests at 0.
     pub runs: bool,
-    /// Cycles begun since t = 0.
+    /// Number of cycles begun since t = 0.
     pub begun: u64,
-    /// The steps of a command that is given now and leaves their number as it is: those of `next`, and a cycle that begins at this
-    /// very moment, for which the command is in force, too.
+    /// Number of steps for a command that is given now and keeps the number. Includes a cycle that begins at this time, to which
+    /// the command would apply.
     pub left: Steps,
 }
 
-/// What the future pieces of a generator depend on.
+/// State of a generator, which determines its future pieces.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Generating {
-    /// Form of its cycles: the model's.
+    /// Form of its cycles, from the model.
     pub(super) cycle: Cycle,
-    /// What cycles begin with; its steps are left to begin.
+    /// Present command; its steps are those not yet begun.
     pub(super) command: Command,
-    /// What takes its place in cycles that begin at this time, s, or later.
+    /// Command for cycles that begin at this time (s) or later.
     pub(super) asked: Option<(f64, Command)>,
-    /// The cycles under way; none at rest.
+    /// Present span of cycles; none at rest.
     pub(super) span: Option<Span>,
-    /// Place of the present cycle in its span.
+    /// Index of the present cycle in its span.
     pub(super) count: u64,
-    /// Whether it is on its second way.
+    /// Whether the cycle is in its second half.
     pub(super) turned: bool,
-    /// Cycles begun since t = 0.
+    /// Number of cycles begun since t = 0.
     pub(super) begun: u64,
 }
 
 impl Generating {
-    /// A generator from `t`, s, on, and its first piece.
+    /// Returns a generator that starts at `t` (s), and its first piece.
     pub(super) fn new(cycle: Cycle, command: Command, t: f64) -> (Self, Piece) {
         let mut generating =
             Self { cycle, command, asked: None, span: None, count: 0, turned: false, begun: 0 };
@@ -88,7 +88,7 @@ impl Generating {
         (generating, first)
     }
 
-    /// The piece after one that ends at `end`, s.
+    /// Returns the piece after one that ends at `end` (s).
     pub(super) fn next(&mut self, end: f64) -> Piece {
         if let (Some(span), false) = (self.span, self.turned) {
             self.turned = true;
@@ -100,7 +100,7 @@ impl Generating {
         self.begin(end)
     }
 
-    /// A cycle from `t`, s, on, or rest: until the next command, where one waits.
+    /// Begins a cycle at `t` (s), or rest until the next command.
     fn begin(&mut self, t: f64) -> Piece {
         self.turned = false;
         if self.command.is_idle() {
@@ -120,13 +120,12 @@ impl Generating {
         self.span.unwrap_or(fresh).piece(self.count, false)
     }
 
-    /// The piece that holds at `t`, s, for a step that began or ends beside the present one, among cycles like it; none at rest,
-    /// which has no other.
+    /// Returns the piece at `t` (s) in the present span, for a step beyond the present piece. None at rest.
     pub(crate) fn piece_at(&self, t: f64) -> Option<Piece> {
         self.span.map(|span| span.piece_at(t))
     }
 
-    /// The same at a time, s, to which the steps of a run have come that do not end at corners, and the piece there.
+    /// Returns the generator and its piece at a later time (s), for steps that do not end at corners.
     fn at(mut self, mut piece: Piece, t: f64) -> (Self, Piece) {
         while piece.end <= t {
             piece = self.next(piece.end);
@@ -134,7 +133,7 @@ impl Generating {
         (self, piece)
     }
 
-    /// When after `t`, s, cycles of another form begin, or rest; infinite where nothing changes.
+    /// Returns the time after `t` (s) at which cycles of another form, or rest, begin; infinite without a change.
     fn changes(&self, piece: Piece, t: f64) -> f64 {
         let (mut ahead, piece) = self.at(piece, t);
         let Some(span) = ahead.span else { return piece.end };
@@ -144,28 +143,28 @@ impl Generating {
         if ahead.span == Some(span) { f64::INFINITY } else { end }
     }
 
-    /// Whether it can be on this piece at `t`, s: that of its cycle, or its rest, which ends where a command waits.
+    /// Whether a piece at `t` (s) is consistent with this state.
     pub(super) fn is_on(&self, piece: &Piece, t: f64) -> bool {
         let end = self.asked.map_or(f64::INFINITY, |(since, _)| since);
         let own = match self.span {
             Some(span) => span.piece(self.count, self.turned),
             None => rest(piece.start, end),
         };
-        // Steps that cross corners stop less than a step beyond one; none has this many cycles.
+        // Fixed steps cross a corner by less than a step.
         let cycles = (t - piece.end) * self.span.map_or(0.0, |span| span.period.recip());
         own == *piece
             && (cycles.is_nan() || cycles <= MOST)
             && (self.span.is_none() || self.begun > self.count)
     }
 
-    /// Takes a command at `t`, s, on its present piece.
+    /// Accepts a command at `t` (s) on its present piece.
     fn take(&mut self, command: Command, piece: &mut Piece, t: f64) {
-        // What was asked before has its place before the corner that comes next; two at one time are one.
+        // An earlier command takes effect first; of two commands at one time the later counts.
         if let Some((_, before)) = self.asked.take_if(|(since, _)| *since < t) {
             self.command = before;
         }
         match self.span {
-            // At rest; what does nothing needs no corner.
+            // At rest a command without motion needs no corner.
             None if piece.end > t && command.is_idle() => self.command = command,
             None => (self.asked, piece.end) = (Some((t, command)), piece.end.min(t)),
             Some(span) if piece.start == t && piece.end > t && !self.turned => {
@@ -175,7 +174,7 @@ impl Generating {
         }
     }
 
-    /// Takes a command at the very moment at which a cycle has begun: it is the cycle of the command.
+    /// Accepts a command at the time at which a cycle begins: it applies to this cycle.
     fn replace(&mut self, span: Span, mut command: Command, piece: &mut Piece) {
         let t = piece.start;
         if !command.is_idle() && Span::of(self.cycle, &command, t).is_like(&span) {
@@ -185,14 +184,14 @@ impl Generating {
             self.command = command;
             return;
         }
-        // It has not begun yet. What does begins with a corner of its own: velocities are others.
+        // The cycle is replaced; the new one begins with a corner.
         (self.span, self.count, self.asked) = (None, 0, Some((t, command)));
         self.begun -= 1;
         *piece = rest(t, t);
     }
 }
 
-/// At 0 from one time to another, s.
+/// Returns a piece with value 0 between two times, s.
 fn rest(from: f64, end: f64) -> Piece {
     let mut piece = Piece::held(from, 0.0);
     piece.end = end;
@@ -200,7 +199,7 @@ fn rest(from: f64, end: f64) -> Piece {
 }
 
 impl Model {
-    /// The generators of a state at t = 0, by the places of their waveforms; nothing in a scene without.
+    /// Returns the generators at t = 0 by index of their waveforms; empty without generators.
     pub(super) fn generators(&self) -> Vec<Option<Generating>> {
         if self.waveforms.iter().all(|waveform| waveform.generator().is_none()) {
             return Vec::new();
@@ -209,7 +208,7 @@ impl Model {
         self.waveforms.iter().map(|waveform| waveform.generator().map(of)).collect()
     }
 
-    /// The first piece of waveform `w`.
+    /// Returns the first piece of waveform `w`.
     pub(super) fn first_piece(&self, w: usize) -> Piece {
         let waveform = &self.waveforms[w];
         match waveform.generator() {
@@ -220,14 +219,14 @@ impl Model {
 }
 
 impl State {
-    /// Commands generator `w` from the present time on.
+    /// Gives generator `w` a command at the present time.
     pub(crate) fn command(&mut self, model: &Model, w: usize, command: Command) -> Result<(), CommandError> {
         let generator = model.waveforms.get(w).and_then(Waveform::generator);
         let (Some(generator), Some(Some(generating))) = (generator, self.generators.get_mut(w)) else {
             return Err(CommandError::NoGenerator(w));
         };
         check(generator, w, &command)?;
-        // Before anything has moved there is nothing to turn.
+        // Before the first step the initial command is replaced.
         if self.underway.is_none() && self.counts.steps == 0 {
             (*generating, self.pieces[w]) = Generating::new(generator.cycle, command, self.t);
         } else {
@@ -236,11 +235,11 @@ impl State {
         Ok(())
     }
 
-    /// What generator `w`, the waveform at that place of the scene, is doing; none for another waveform.
+    /// Returns the activity of generator `w`, given by the index of its waveform. None for other waveforms.
     #[must_use]
     pub fn generated(&self, w: usize) -> Option<Generated> {
         let generating = (*self.generators.get(w)?)?;
-        // Fixed steps stop beside corners: what has begun since is told.
+        // Fixed steps stop near corners; later cycles are included.
         let (now, piece) = generating.at(self.pieces[w], self.t);
         let next = now.asked.map_or(now.command, |(_, command)| command);
         let begins = now.span.is_some() && !now.turned && piece.start == self.t;
@@ -251,7 +250,7 @@ impl State {
         Some(Generated { next, runs: now.span.is_some(), begun: now.begun, left })
     }
 
-    /// The piece of a waveform without a caller that holds at `t`, s, after the present one; a generator then is on it.
+    /// Returns the piece of a waveform at `t` (s), after the present one, and advances a generator to it. Not for inputs.
     pub(crate) fn piece_at(&mut self, w: usize, waveform: &Waveform, t: f64) -> Piece {
         match self.generators.get_mut(w) {
             Some(Some(generating)) => {
@@ -263,7 +262,7 @@ impl State {
         }
     }
 
-    /// When the first generator changes its cycles, s: steps that cross corners end there. Infinite without generators.
+    /// Returns the time at which a generator next changes its cycles, s, where fixed steps end. Infinite without generators.
     pub(crate) fn next_change(&self) -> f64 {
         let all = self.generators.iter().zip(&self.pieces);
         let changes = all.filter_map(|(generating, piece)| Some((*generating)?.changes(*piece, self.t)));
@@ -274,7 +273,7 @@ impl State {
 fn check(generator: &Generator, place: usize, command: &Command) -> Result<(), CommandError> {
     let Command { stroke, frequency, .. } = *command;
     let (low, high) = generator.strokes;
-    // Not a number is in no range.
+    // NaN is in no range.
     if !(stroke >= low && stroke <= high) {
         return Err(CommandError::Stroke { generator: place, low, high, got: stroke });
     }

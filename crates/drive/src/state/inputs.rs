@@ -1,54 +1,54 @@
-//! What a caller supplies of the inputs.
+//! Input values that a caller supplies.
 //!
-//! A piece lies ahead of the run when it is supplied. Where it begins, the waveform has a corner, and a jump where the value
-//! is another one: the run stops before it, and turns it when it goes on.
+//! A piece is supplied before the run reaches it. At its start the waveform has a corner, or a jump if the value changes. The run
+//! stops before the corner and passes it when it continues.
 
 use super::State;
 use crate::{Interpolation, Model, Piece, RunError, Waveform};
 use thiserror::Error;
 
-/// Why an input does not take a value.
+/// Reason why an input refuses a value.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum InputError {
-    /// No waveform, or one that needs no caller.
-    #[error("waveform {0} of the scene is no input")]
+    /// The waveform does not exist or is no input.
+    #[error("waveform {0} is not an input")]
     NoInput(usize),
-    /// A value to be held, for an input that goes straight from value to value, or the other way round.
-    #[error("input {input} is {}: it takes {}", name(*.is), takes(*.is))]
+    /// A value was given to be held to a linear input, or vice versa.
+    #[error("input {input} is {}: expected {}", name(*.is), takes(*.is))]
     Interpolation {
-        /// Place of the waveform in the scene.
+        /// Index of the waveform.
         input: usize,
-        /// What it is.
+        /// Interpolation of the input.
         is: Interpolation,
     },
-    /// Not a number, or beyond what the checks before the run went by.
-    #[error("input {input} takes values from {low} to {high}, got {got}")]
+    /// The value is NaN or out of range.
+    #[error("input {input}: expected a value from {low} to {high}, got {got}")]
     Range {
-        /// Place of the waveform in the scene.
+        /// Index of the waveform.
         input: usize,
         /// Smallest value.
         low: f64,
         /// Largest value.
         high: f64,
-        /// What came.
+        /// Given value.
         got: f64,
     },
-    /// A piece that ends where it begins, or before, or so soon after that its rate is not finite.
-    #[error("the next piece of input {input} begins at t = {from:e} s and cannot end at t = {until:e} s")]
+    /// The end of the piece is not after its start, or so close that the rate is not finite.
+    #[error("the next section of input {input} begins at t = {from:e} s and cannot end at t = {until:e} s")]
     Time {
-        /// Place of the waveform in the scene.
+        /// Index of the waveform.
         input: usize,
-        /// Where it begins, s.
+        /// Start of the piece, s.
         from: f64,
-        /// Where it was to end, s.
+        /// Requested end, s.
         until: f64,
     },
-    /// The piece after the present one is there already.
-    #[error("input {input} has its next piece, up to t = {until:e} s: advance first")]
+    /// The next piece has already been supplied.
+    #[error("input {input} already has its next section, up to t = {until:e} s: advance first")]
     Occupied {
-        /// Place of the waveform in the scene.
+        /// Index of the waveform.
         input: usize,
-        /// Where that ends, s.
+        /// End of that piece, s.
         until: f64,
     },
 }
@@ -63,12 +63,12 @@ fn name(interpolation: Interpolation) -> &'static str {
 fn takes(interpolation: Interpolation) -> &'static str {
     match interpolation {
         Interpolation::Held => "a value",
-        Interpolation::Linear => "a value and the time at which it is there",
+        Interpolation::Linear => "a value and the time at which it is reached",
     }
 }
 
 impl State {
-    /// Holds input `w` at a value from the present time on. The value it has already changes nothing.
+    /// Holds input `w` at a value from the present time. The present value changes nothing.
     pub(crate) fn hold(&mut self, model: &Model, w: usize, value: f64) -> Result<(), InputError> {
         let waveform = input(model, w, Interpolation::Held)?;
         check(waveform, w, value)?;
@@ -79,8 +79,8 @@ impl State {
         Ok(())
     }
 
-    /// Leads input `w` straight to a value at a time, s, from where its last piece ends; from the present time on where that
-    /// has no end.
+    /// Moves input `w` linearly to a value at a time (s), from the end of its last piece, or from the present time if that has no
+    /// end.
     pub(crate) fn lead(
         &mut self,
         model: &Model,
@@ -100,7 +100,7 @@ impl State {
             return Err(InputError::Time { input: w, from, until });
         }
         let next = Piece::straight((from, start), (until, value));
-        // Before anything has moved there is nothing to turn.
+        // Before the first step the initial piece is replaced.
         if self.underway.is_none() && self.counts.steps == 0 && piece.end == f64::INFINITY {
             self.pieces[w] = next;
         } else {
@@ -109,8 +109,7 @@ impl State {
         Ok(())
     }
 
-    /// The piece of waveform `w` after the present one, which a generator then is on; none of an input that has not been given
-    /// one.
+    /// Returns the next piece of waveform `w` and advances a generator to it. None for an input without a supplied piece.
     pub(crate) fn next_piece(&mut self, w: usize, waveform: &Waveform) -> Option<Piece> {
         match waveform.interpolation() {
             None => Some(match self.generators.get_mut(w) {
@@ -121,7 +120,7 @@ impl State {
         }
     }
 
-    /// Puts every input whose piece is over on the one supplied. Tells whether any was.
+    /// Advances every input whose piece has ended to the supplied one. Returns whether there was any.
     pub(crate) fn take_supplied(&mut self) -> bool {
         let mut taken = false;
         for (w, supplied) in self.supplied.iter_mut().enumerate() {
@@ -132,8 +131,7 @@ impl State {
         taken
     }
 
-    /// When the first piece ends that a caller has given, or the first generator goes over to other cycles, s; infinite without
-    /// any.
+    /// Returns the time at which the first supplied piece ends, or a generator changes its cycles, s; infinite without any.
     pub(crate) fn next_input(&self, model: &Model) -> f64 {
         let end = |(w, supplied): (usize, &Option<Piece>)| {
             let present = self.pieces[w].end;
@@ -144,7 +142,7 @@ impl State {
         if self.generators.is_empty() { first } else { first.min(self.next_change()) }
     }
 
-    /// Whether the piece of an input is over and its caller has not given the next one yet.
+    /// Whether an input has reached the end of its piece without a supplied one.
     #[inline]
     pub(crate) fn waits_for_input(&self, model: &Model) -> bool {
         let over = |(w, supplied): (usize, &Option<Piece>)| {
@@ -153,7 +151,7 @@ impl State {
         self.supplied.iter().enumerate().any(over)
     }
 
-    /// Whether all inputs have values up to a time, s.
+    /// Checks that all inputs have values up to a time (s).
     pub(crate) fn check_inputs(&self, model: &Model, until: f64) -> Result<(), RunError> {
         for (w, supplied) in self.supplied.iter().enumerate() {
             let known = supplied.map_or(self.pieces[w].end, |piece| piece.end);
@@ -165,7 +163,7 @@ impl State {
     }
 }
 
-/// The waveform, if it is an input of this kind.
+/// Returns the waveform if it is an input of this kind.
 fn input(model: &Model, w: usize, asked: Interpolation) -> Result<&Waveform, InputError> {
     let waveform = model.waveforms.get(w).ok_or(InputError::NoInput(w))?;
     match waveform.interpolation() {
@@ -177,7 +175,7 @@ fn input(model: &Model, w: usize, asked: Interpolation) -> Result<&Waveform, Inp
 
 fn check(waveform: &Waveform, input: usize, value: f64) -> Result<(), InputError> {
     let (low, high) = waveform.range();
-    // Not a number is in no range.
+    // NaN is in no range.
     if value >= low && value <= high {
         Ok(())
     } else {

@@ -1,231 +1,232 @@
-//! What a run has learnt on its way, and its next step depends on.
+//! Working data of a run that its next step depends on.
 //!
-//! Kept with the state whenever a caller holds it: a run that takes it up, in this process or another, goes on to the same bits
-//! as one that was never put down. Everything else a run works with is scratch, and follows from the state.
+//! They are part of the state, so that a resumed run, also in another process, has identical bits. All other data of a run is
+//! scratch and follows from the state.
 
 use crate::Model;
 use crate::interval::PhasePoint;
 use stickslip_stepper::{Hand, StepHistory};
 
-/// Of the run that moved the state last.
+/// Working data of the last run.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) enum Underway {
-    /// One between located events.
+    /// Run with event location.
     Located(Box<LocatedWay>),
-    /// One at a fixed step.
+    /// Run with fixed steps.
     Fixed(Box<FixedWay>),
 }
 
 impl Underway {}
 
-/// Of a run between located events.
+/// Working data of a run with event location.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct LocatedWay {
-    /// Tolerance that all of it belongs to.
+    /// Tolerance of the run.
     pub(crate) tolerance: f64,
     pub(crate) whereabouts: Whereabouts,
-    /// Which method of a pair stands where the motion is.
+    /// Method of a pair that has the present state.
     pub(crate) hand: Hand,
-    /// Slopes at the start of the next step, where the solver stands there: they are older than what the memories have committed.
+    /// Slopes at the start of the next step, if the stepper is there. They precede the last commit of the memories.
     pub(crate) slopes: Vec<f64>,
-    /// What step control has learnt.
+    /// Memory of the step control.
     pub(crate) history: StepHistory,
     pub(crate) gait: Gait,
     pub(crate) allowed: Allowed,
     pub(crate) booked: Booked,
-    /// Whether the interval has been asked for a leap.
+    /// Whether the closed-form solution of the interval has been tried.
     pub(crate) asked: bool,
-    /// The leap that an advance has cut.
+    /// Closed-form interval that was interrupted.
     pub(crate) leap: Option<Takeoff>,
-    /// The stretch that is taken by the whole law.
+    /// Present interval of step doubling.
     pub(crate) detour: Option<Detour>,
-    /// The last one, over or not.
+    /// Last interval of step doubling, finished or not.
     pub(crate) last_detour: Detour,
     pub(crate) windows: Vec<Window>,
     pub(crate) crawl: Crawl,
-    /// The steps of the drive so far, where they may end the run.
+    /// Step lengths of the drive so far, if the run may end at steady steps.
     pub(crate) steps: Option<Stepped>,
 }
 
-/// Of a run at a fixed step.
+/// Working data of a run with fixed steps.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct FixedWay {
-    /// Name of the method.
+    /// Name of the stepper.
     pub(crate) stepper: &'static str,
     pub(crate) grid: Grid,
-    /// Slopes that the method keeps; empty where it keeps none.
+    /// Slopes that the method keeps; empty if none.
     pub(crate) slopes: Vec<f64>,
-    /// Sense in which each contact slid last.
+    /// Last sense of slip of each contact.
     pub(crate) senses: Vec<f64>,
     pub(crate) booked: Booked,
     pub(crate) windows: Vec<Window>,
-    /// The steps of the drive so far, where they may end the run.
+    /// Step lengths of the drive so far, if the run may end at steady steps.
     pub(crate) steps: Option<Stepped>,
 }
 
-/// Where fixed steps end: start + count · step, multiplied and not summed up.
+/// Grid of fixed steps: start + count · step, computed as a product.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Grid {
     /// Start, s.
     pub(crate) start: f64,
     /// Length of a step, s.
     pub(crate) step: f64,
-    /// Steps taken, a whole number.
+    /// Number of steps taken, an integer.
     pub(crate) count: f64,
 }
 
-/// Where the solver stands.
+/// Position of the stepper relative to the state.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Whereabouts {
-    /// Where the state is.
+    /// At the state.
     Here,
-    /// Left behind by leaps, or by laws that have changed.
+    /// Outdated: the state has moved by closed forms, or laws have changed.
     Behind,
 }
 
-/// What one step leaves to the next.
+/// Data for the choice of the next step.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Gait {
-    /// Longest step since the last event, or since a graded one was refused, s.
+    /// Largest step since the last event, or since a graded step was rejected, s.
     pub(crate) proven: f64,
-    /// Whether even steps shorten with what is left.
+    /// Whether even steps become shorter towards a singular moment.
     pub(crate) ahead: Ahead,
-    /// Whether steps must stay where the solver damps.
+    /// Whether steps must stay below the stability limit.
     pub(crate) grip: Grip,
 }
 
 impl Gait {
-    /// Before the first step.
+    /// Values before the first step.
     pub(crate) const FRESH: Self = Self { proven: 0.0, ahead: Ahead::Clear, grip: Grip::Slips };
 }
 
-/// What a singular moment ahead does to even steps.
+/// Effect of a singular moment on even steps.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Ahead {
-    /// Nothing yet.
+    /// No effect yet.
     Clear,
-    /// It has made one too long.
+    /// An even step was rejected because of it.
     Shortens,
 }
 
-/// What holds the bodies.
+/// Constraint of the bodies.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Grip {
-    /// Nothing does: all contacts slip, nothing presses them by its motion, and there are no links.
+    /// No restoring force: all contacts slip under prescribed normal loads, and there are no links.
     Slips,
-    /// Something does, or there is no contact.
+    /// There is a restoring force, or no contact.
     Sticks,
-    /// The same, and all that is free is at rest.
+    /// There is a restoring force, and all free coordinates are at rest.
     Rests,
 }
 
-/// Absolute errors allowed of a step, as rounding made them at the last event or rejection.
+/// Allowed absolute errors of a step, limited by rounding at the last event or rejection.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Allowed {
-    /// Of each component.
+    /// Allowed error of each component.
     pub(crate) scale: Vec<f64>,
-    /// Largest power that followers could put into the contacts at the last corner, W.
+    /// Largest power of prescribed motions on contacts at the last corner, W.
     pub(crate) power: f64,
 }
 
 impl Allowed {
-    /// Takes over another's numbers, into the room there is.
+    /// Copies values, reusing the memory.
     pub(crate) fn copy(&mut self, from: &Self) {
         self.scale.clone_from(&from.scale);
         self.power = from.power;
     }
 }
 
-/// Up to when paths of contacts and blocks are committed.
+/// Times up to which paths of contacts and blocks are committed.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Booked {
-    /// Of each contact, s.
+    /// Time for each contact, s.
     pub(crate) last: Vec<f64>,
-    /// Of the blocks, s.
+    /// Time for the blocks, s.
     pub(crate) blocks: f64,
-    /// Whether contacts of closed form are where the state is.
+    /// Whether the memories of contacts of closed form are up to date.
     pub(crate) books: Books,
 }
 
 impl Booked {
-    /// Takes over another's times, into the room there is.
+    /// Copies values, reusing the memory.
     pub(crate) fn copy(&mut self, from: &Self) {
         self.last.clone_from(&from.last);
         (self.blocks, self.books) = (from.blocks, from.books);
     }
 }
 
-/// Where the memories of contacts of closed form are.
+/// State of the memories of contacts of closed form.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Books {
-    /// Where the state is.
+    /// Up to date.
     Current,
     /// At the last event.
     Behind,
 }
 
-/// Where a leap began.
+/// Start of a closed-form interval.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Takeoff {
     pub(crate) from: PhasePoint,
-    /// Work put in until then, J.
+    /// Input work until then, J.
     pub(crate) input: f64,
 }
 
-/// Events of one component that lie close together: since when, s, and how many.
+/// Close events of one component: time of the first (s) and their number.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Window {
     pub(crate) start: f64,
     pub(crate) count: u32,
 }
 
-/// A stretch of time in which contacts go by their whole law.
+/// Interval of step doubling on the full force law.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Detour {
-    /// Its end, s.
+    /// End, s.
     pub(crate) end: f64,
-    /// Its length, s.
+    /// Length, s.
     pub(crate) length: f64,
-    /// Next step, s.
+    /// Length of the next step, s.
     pub(crate) step: f64,
 }
 
 impl Detour {
-    /// Before the first one.
+    /// Value before the first interval.
     pub(crate) const NONE: Self = Self { end: f64::NEG_INFINITY, length: 0.0, step: 0.0 };
 }
 
-/// How steps move on.
+/// Progress of attempts.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Crawl {
-    /// When they had last moved on by enough, s.
+    /// Last time at which progress was sufficient, s.
     pub(crate) since: f64,
-    /// Attempts from then on.
+    /// Number of attempts since then.
     pub(crate) attempts: u64,
 }
 
 impl Window {
-    /// One for the events of each contact and each block, and one for the loops of each contact.
+    /// Returns the number of event windows: one for the events of each contact and block, and one for the closed loops of each
+    /// contact.
     pub(crate) fn count(model: &Model) -> usize {
         2 * model.contacts.len() + model.blocks.len()
     }
 }
 
-/// What the steps of a drive have come to.
+/// Step lengths of a drive.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Stepped {
-    /// Place of the next end of a period among all of them.
+    /// Index of the next end of a period.
     pub(crate) next: f64,
-    /// Origin and place at the end of the last period, m: their differences round apart from each other.
+    /// Origin and position at the end of the last period, m, kept separate for accurate differences.
     pub(crate) place: Option<(f64, f64)>,
-    /// The last step, m.
+    /// Last step length, m.
     pub(crate) step: Option<f64>,
-    /// How many steps running have agreed with the one before.
+    /// Number of successive steps that agree with the previous one.
     pub(crate) agreed: u32,
 }
 
 impl LocatedWay {
-    /// Nothing learnt yet.
+    /// Initial values.
     pub(crate) const BLANK: Self = Self {
         tolerance: 0.0,
         whereabouts: Whereabouts::Behind,
@@ -246,7 +247,7 @@ impl LocatedWay {
 }
 
 impl FixedWay {
-    /// Nothing learnt yet.
+    /// Initial values.
     pub(crate) const BLANK: Self = Self {
         stepper: "",
         grid: Grid { start: 0.0, step: 0.0, count: 0.0 },

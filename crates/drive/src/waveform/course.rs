@@ -1,40 +1,39 @@
-//! What a kind of waveform makes of its parameters.
+//! Chain of pieces and properties that a kind of waveform computes from its parameters.
 
 use super::corners::Corners;
 use super::shape::{Interpolation, Sines};
 
-/// All that a waveform asks of its kind: the chain of pieces, and what is known of it without following it.
+/// Chain of pieces and properties of a waveform.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Course {
     pub(super) chain: Chain,
-    /// Values held before the start and after the stop, where they are not where the chain starts and ends.
+    /// Values before the start and after the stop, if they differ from the ends of the chain.
     pub(super) ends: Option<(f64, f64)>,
-    /// Period, s, if it has one.
+    /// Period, s, if any.
     pub(super) period: Option<f64>,
     /// Smallest and largest value over all time, or bounds of them.
     pub(super) range: (f64, f64),
-    /// Period of the shortest wave in a smooth piece, s; infinite where all pieces are polynomials, of
-    /// which a step misses nothing that its error does not show.
+    /// Period of the shortest wave within a smooth piece, s; infinite for polynomials, whose features the error estimate detects.
     pub(super) wave: f64,
-    /// Whether the value ever jumps by design.
+    /// Whether the value has jumps.
     pub(super) has_jumps: bool,
 }
 
-/// Where the pieces between start and stop come from.
+/// Source of the pieces between start and stop.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) enum Chain {
-    /// Ways between corners.
+    /// Segments between corners.
     Corners(Corners),
-    /// A single piece without a corner.
+    /// One sinusoidal piece without corners.
     Sines(Sines),
-    /// No piece: one value up to this time (s), one from then on.
+    /// No piece: one value before this time (s), another one after it.
     Step(f64),
-    /// Pieces that a caller supplies while it runs; until then the value at the start.
+    /// Pieces supplied during the run; before, the initial value.
     Supplied(Interpolation),
 }
 
 impl Course {
-    /// Becomes another one's copy, in the room there is.
+    /// Copies another one, reusing the memory.
     pub(super) fn copy(&mut self, from: &Self) {
         let Self { chain, ends, period, range, wave, has_jumps } = from;
         match (&mut self.chain, chain) {

@@ -1,101 +1,101 @@
-//! Why a waveform makes no sense, and the checks that its kinds share.
+//! Errors of waveforms, and common checks.
 
-/// Why a waveform makes no sense.
+/// Reason why a waveform is invalid.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 pub enum WaveformError {
-    /// A number out of its range.
+    /// A number is out of range.
     #[error("{key}: expected {expected}, got {got}")]
     Number {
         /// Name of the parameter.
         key: &'static str,
-        /// What would be allowed.
+        /// Allowed values.
         expected: &'static str,
-        /// What came.
+        /// Given value.
         got: f64,
     },
-    /// A flyback that is negative or leaves no time for the way up.
+    /// The flyback is negative or leaves no time for the forward stroke.
     #[error("flyback: expected a time of at least 0 and below the period of {period} s, got {got}")]
     Flyback {
         /// Period, s.
         period: f64,
-        /// What came, s.
+        /// Given value, s.
         got: f64,
     },
-    /// A turn that is negative or leaves no time for the ways beside it.
+    /// The turn is negative or leaves no time for the other segments.
     #[error("turn: expected a time of at least 0 and below the period of {period} s, got {got}")]
     Turn {
         /// Period, s.
         period: f64,
-        /// What came, s.
+        /// Given value, s.
         got: f64,
     },
-    /// Rise, hold and fall that take no time or more than there is.
+    /// Rise, hold and fall are zero in total, or longer than the period.
     #[error(
         "rise: expected rise, hold and fall above 0 and within the period of {period} s, got {got} s together"
     )]
     Busy {
         /// Period, s.
         period: f64,
-        /// All three, s.
+        /// Sum of rise, hold and fall, s.
         got: f64,
     },
-    /// Phases of constant jerk for which there is no time.
+    /// The phases of constant jerk are zero or too long.
     #[error(
-        "rounding: expected a time above 0 and at most a quarter of the shorter way, {most} s, got {got}"
+        "rounding: expected a time above 0 and at most a quarter of the shorter stroke time, {most} s, got {got}"
     )]
     Rounding {
-        /// Quarter of the shorter way, s.
+        /// A quarter of the shorter stroke, s.
         most: f64,
-        /// What came, s.
+        /// Given value, s.
         got: f64,
     },
-    /// A limit of the rate below the slow way's own.
-    #[error("rate: expected at least {least} per s, at which the slow way goes, got {got}")]
+    /// The rate limit is below the rate of the slow stroke.
+    #[error("rate: expected at least the rate of the slow stroke, {least} per s, got {got}")]
     Rate {
-        /// Rate of the slow way, per s.
+        /// Rate of the slow stroke, per s.
         least: f64,
-        /// What came, per s.
+        /// Given value, per s.
         got: f64,
     },
-    /// Points to be repeated that span no time.
+    /// The points to be repeated have zero duration.
     #[error("points: expected points of different times to repeat, got {got} s from first to last")]
     Span {
-        /// Time from the first to the last, s.
+        /// Time from the first to the last point, s.
         got: f64,
     },
-    /// A shape that jumps, to be run through backwards.
-    #[error("reversed: expected a shape without a jump")]
+    /// A shape with jumps cannot be reversed.
+    #[error("reversed: expected a waveform without a jump")]
     Reversed,
-    /// A shape whose cycles do not begin anew.
-    #[error("sequence: expected a shape whose every cycle is the same")]
+    /// The cycles of the shape are not all equal.
+    #[error("sequence: expected a waveform with identical cycles")]
     Carrier,
-    /// No points or no terms.
+    /// A list of points or terms is empty.
     #[error("{key}: expected at least one, got none")]
     Empty {
         /// Name of the list.
         key: &'static str,
     },
-    /// Times of a table that do not rise.
-    #[error("points: expected times that rise, got {got} s after {before} s at point {place} (from 0)")]
+    /// The times of a table do not increase.
+    #[error("points: expected increasing times, got {got} s after {before} s at point {place} (from 0)")]
     Times {
-        /// Place of the point, from 0.
+        /// Index of the point, from 0.
         place: usize,
-        /// Time of the point before, s.
+        /// Time of the previous point, s.
         before: f64,
-        /// Its time, s.
+        /// Time of the point, s.
         got: f64,
     },
-    /// Three points of a table at one time.
+    /// Three points of a table have the same time.
     #[error(
         "points: expected at most two points at one time (a jump), got a third at {time} s, point {place} (from 0)"
     )]
     Crowd {
-        /// Place of the third point, from 0.
+        /// Index of the third point, from 0.
         place: usize,
-        /// The time, s.
+        /// Time, s.
         time: f64,
     },
-    /// A range of an input whose bounds are the wrong way round.
+    /// The bounds of an input's range are in the wrong order.
     #[error("range: expected the smallest value before the largest, got {low} and {high}")]
     Range {
         /// First bound.
@@ -103,17 +103,17 @@ pub enum WaveformError {
         /// Second bound.
         high: f64,
     },
-    /// An initial value of an input outside of its range.
+    /// The initial value of an input is out of range.
     #[error("initial: expected a value in the range from {low} to {high}, got {got}")]
     Initial {
         /// Smallest value of the range.
         low: f64,
         /// Largest value of the range.
         high: f64,
-        /// What came.
+        /// Given value.
         got: f64,
     },
-    /// A range of a generator whose bounds are the wrong way round.
+    /// The bounds of a generator's range are in the wrong order.
     #[error("{key}: expected a range with the smallest value before the largest, got {low} and {high}")]
     Bounds {
         /// Name of the parameter.
@@ -123,7 +123,7 @@ pub enum WaveformError {
         /// Second bound.
         high: f64,
     },
-    /// An initial parameter of a generator outside of its range.
+    /// An initial parameter of a generator is out of range.
     #[error("{key}: expected a value in the range from {low} to {high}, got {got}")]
     Outside {
         /// Name of the parameter.
@@ -132,10 +132,10 @@ pub enum WaveformError {
         low: f64,
         /// Largest value of the range.
         high: f64,
-        /// What came.
+        /// Given value.
         got: f64,
     },
-    /// A flyback as long as the shortest period that may be commanded.
+    /// The flyback is not shorter than the shortest period that may be commanded.
     #[error(
         "flyback: expected a time below the period of the largest frequency, {frequency} Hz, got {flyback}"
     )]
@@ -148,7 +148,7 @@ pub enum WaveformError {
 }
 
 impl WaveformError {
-    /// Name of the parameter that is wrong.
+    /// Returns the name of the invalid parameter.
     #[must_use]
     pub fn key(&self) -> &'static str {
         match self {
@@ -172,7 +172,7 @@ pub(super) fn finite(key: &'static str, got: f64) -> Result<(), WaveformError> {
     within(key, got, "a finite number", true)
 }
 
-/// A value whose rate of change (or acceleration, or sum) is a number as well.
+/// Checks that a value and its steepest rate of change are finite.
 pub(super) fn smooth(key: &'static str, got: f64, steepest: f64) -> Result<(), WaveformError> {
     within(key, got, "a value that changes at a finite rate", steepest.is_finite())
 }

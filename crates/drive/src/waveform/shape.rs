@@ -1,4 +1,4 @@
-//! What a waveform looks like, as its user gives it: the table of its kinds, each in a file of its own.
+//! Shapes of waveforms, one module for each kind.
 
 mod chirp;
 mod cubic;
@@ -33,124 +33,124 @@ use super::course::Course;
 use super::{Timing, WaveformError};
 use sine::Sine;
 
-/// Form of one period, or of the whole where there is none. SI units of whatever the waveform drives; angles in rad.
+/// Shape of one period, or of the whole without a period. Values are in SI units of the driven quantity, angles in rad.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Shape {
-    /// From 0 straight to the stroke, straight back in the flyback that ends the period.
+    /// Linear from 0 to the stroke; linear back in the flyback at the end of the period.
     Sawtooth {
-        /// Peak to peak, any sign.
+        /// Peak-to-peak value, of any sign.
         stroke: f64,
-        /// Time of the way back, s, 0 (a jump) or more, below the period.
+        /// Duration of the return stroke, s, at least 0 (a jump) and below the period.
         flyback: f64,
     },
-    /// From 0 straight to the stroke at half the period, straight back to 0.
+    /// Linear from 0 to the stroke in half the period, linear back.
     Triangle {
-        /// Peak to peak, any sign.
+        /// Peak-to-peak value, of any sign.
         stroke: f64,
     },
-    /// offset + amplitude sin(ωt + phase), ω = 2π/period.
+    /// Sine: offset + amplitude sin(ωt + phase), ω = 2π/period.
     Sine {
-        /// Half of peak to peak.
+        /// Amplitude, half of the peak-to-peak value.
         amplitude: f64,
         /// Phase, rad.
         phase: f64,
         /// Mean value.
         offset: f64,
     },
-    /// Σ amplitude sin(order ωt + phase).
+    /// Sum of sines: Σ amplitude sin(order ωt + phase).
     Harmonics {
-        /// At least one.
+        /// Terms, at least one.
         terms: Vec<Harmonic>,
     },
-    /// Like the sawtooth, each way by the cycloidal law stroke (τ - sin(2πτ)/2π), τ from 0 to 1: at rest, without
-    /// acceleration, at both ends.
+    /// Sawtooth with cycloidal strokes, stroke (τ - sin(2πτ)/2π), τ from 0 to 1. Velocity and acceleration are zero at both ends.
     Cycloid {
-        /// Peak to peak, any sign.
+        /// Peak-to-peak value, of any sign.
         stroke: f64,
-        /// Time of the way back, s, 0 (a jump) or more, below the period.
+        /// Duration of the return stroke, s, at least 0 (a jump) and below the period.
         flyback: f64,
     },
-    /// By constant accelerations: from rest at 0 along a parabola, over a turn at the stroke, back along its mirror image.
+    /// Constant accelerations: a parabola from rest at 0, a turn at the stroke, and the mirrored parabola.
     Parabola {
-        /// Peak to peak, any sign.
+        /// Peak-to-peak value, of any sign.
         stroke: f64,
-        /// Time of the turn, s, 0 (a cusp) or more, below the period.
+        /// Duration of the turn, s, at least 0 (a cusp) and below the period.
         turn: f64,
     },
-    /// From 0 straight to the stroke, held, straight back, at rest until the period ends.
+    /// Trapezoid: linear from 0 to the stroke, held, linear back, at rest until the end of the period.
     Trapezoid {
-        /// Peak to peak, any sign.
+        /// Peak-to-peak value, of any sign.
         stroke: f64,
-        /// Time of the way to the stroke, s, 0 (a jump) or more.
+        /// Duration of the rise, s, at least 0 (a jump).
         rise: f64,
-        /// Time at the stroke, s, 0 or more.
+        /// Duration at the stroke, s, at least 0.
         hold: f64,
-        /// Time of the way back, s, 0 (a jump) or more. All three are together above 0 and at most the period.
+        /// Duration of the fall, s, at least 0 (a jump). The sum of all three is above 0 and at most the period.
         fall: f64,
     },
-    /// Like the sawtooth, each way at rest at both ends, with a jerk that is constant in four phases and 0 between them.
+    /// Sawtooth with strokes from rest to rest, each with four phases of constant jerk and zero jerk in between.
     SCurve {
-        /// Peak to peak, any sign.
+        /// Peak-to-peak value, of any sign.
         stroke: f64,
-        /// Time of the way back, s, above 0 and below the period.
+        /// Duration of the return stroke, s, above 0 and below the period.
         flyback: f64,
-        /// Time of each phase of constant jerk, s, above 0 and at most a quarter of the shorter way.
+        /// Duration of each phase of constant jerk, s, above 0 and at most a quarter of the shorter stroke.
         rounding: f64,
     },
-    /// A sawtooth through a limit of the rate, for which it is late after each flyback.
+    /// Rate-limited sawtooth, which lags behind after each flyback.
     Limited {
-        /// Peak to peak, any sign, of what is asked for.
+        /// Peak-to-peak value of the requested sawtooth, of any sign.
         stroke: f64,
-        /// Time of the way back that is asked for, s, 0 (a jump) or more, below the period.
+        /// Requested duration of the return stroke, s, at least 0 (a jump) and below the period.
         flyback: f64,
-        /// Largest rate, per s, above 0 and at least that of the way up.
+        /// Rate limit, per s, above 0 and at least the rate of the forward stroke.
         rate: f64,
     },
-    /// offset + amplitude sin(phase + 2π(from s + (to - from) s²/(2 duration))), s from 0 to the duration; held before and after.
+    /// Chirp: offset + amplitude sin(phase + 2π(from s + (to - from) s²/(2 duration))), s from 0 to the duration; constant before
+    /// and after.
     Chirp(Sweep),
-    /// 0 until a time, s, a value from then on.
+    /// Step: 0 before a time, a value after it.
     Step {
         /// Value after the step.
         height: f64,
-        /// When, s after the delay.
+        /// Time of the step after the delay, s.
         at: f64,
     },
-    /// Points like those of a table, one after the other by cubics that keep their shape, or again and again.
+    /// Shape-preserving cubics through points (time after the delay in s, value), once or repeated.
     Curve {
-        /// Times rise; exactly two points at one time are a jump.
+        /// Points with increasing times; exactly two points at one time are a jump.
         points: Vec<(f64, f64)>,
-        /// By cubics (Fritsch and Butland 1984), or straight.
+        /// Cubics (Fritsch and Butland 1984) if true, otherwise linear pieces.
         smooth: bool,
-        /// Again and again, the last point at the time of the first, or once.
+        /// Repeated, with the last point at the time of the first, or once.
         repeated: bool,
     },
-    /// Runs of a periodic shape and rests between them, again and again.
+    /// Pattern of runs of a periodic shape and rests, repeated.
     Pattern {
-        /// The shape, whose period the timing says.
+        /// Shape, with the period of the timing.
         carrier: Box<Shape>,
-        /// Runs and rests, one after the other.
+        /// Runs and rests in order.
         parts: Vec<Section>,
     },
-    /// Straight between points (time after the delay in s, value), held before the first and after the last.
+    /// Linear between points (time after the delay in s, value), constant before the first and after the last.
     Table {
-        /// Times rise; exactly two points at one time are a jump.
+        /// Points with increasing times; exactly two points at one time are a jump.
         points: Vec<(f64, f64)>,
     },
-    /// What a caller gives while it runs; until then, and in a run without a caller, the initial value.
+    /// Values that a caller supplies during the run; before, or without a caller, the initial value.
     Input {
-        /// Value from t = 0 on, in the range.
+        /// Value from t = 0, within the range.
         initial: f64,
-        /// Smallest and largest value that a caller may give. What is checked before a run holds for all of them.
+        /// Smallest and largest allowed value. Checks before a run cover the whole range.
         range: (f64, f64),
-        /// How it goes from one value to the next.
+        /// Interpolation between values.
         interpolation: Interpolation,
     },
-    /// Cycles made inside, their parameters commanded while they run.
+    /// Cycles whose parameters a caller commands during the run.
     Generator(Generator),
 }
 
 impl Shape {
-    /// When it runs: as its user says, but for what knows that by itself.
+    /// Returns its timing: as given, or as it follows from the shape.
     pub(super) fn timing(&self, given: Timing) -> Timing {
         match self {
             Self::Generator(generator) => generator.timing(),
@@ -160,7 +160,7 @@ impl Shape {
         }
     }
 
-    /// What its kind makes of its parameters, where they make sense.
+    /// Checks its parameters and returns its chain of pieces.
     pub(super) fn course(&self, timing: &Timing) -> Result<Course, WaveformError> {
         timing.check()?;
         match *self {

@@ -1,11 +1,11 @@
-//! Straight pieces.
+//! Linear pieces.
 
 use super::Sample;
 
-/// A straight way between two corners.
+/// Linear segment between two corners.
 ///
-/// It is anchored at the end with the smaller magnitude: where a value falls to 0 or rises from it, rounding cannot
-/// carry it to the other side. The other end is set exactly.
+/// It is evaluated from the end with the smaller magnitude, so rounding does not change a sign near 0. The value at the other end
+/// is exact.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Straight {
     anchor: (f64, f64),
@@ -13,7 +13,7 @@ pub(super) struct Straight {
     rate: f64,
 }
 
-/// A value that moves at a constant rate.
+/// Value with a constant rate.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Line {
     pub(crate) time: f64,
@@ -22,7 +22,7 @@ pub(crate) struct Line {
 }
 
 impl Line {
-    /// Value at a time, s.
+    /// Returns the value at a time (s).
     #[inline]
     pub(crate) fn at(&self, t: f64) -> f64 {
         self.value + self.rate * (t - self.time)
@@ -30,7 +30,7 @@ impl Line {
 }
 
 impl Straight {
-    /// From one (time, value) to the other; the rate belongs to the rounded times, so that value and rate agree.
+    /// Returns the segment between two points (time, value). The rate is computed from the rounded times.
     pub(super) fn between(from: (f64, f64), to: (f64, f64)) -> Self {
         let time = to.0 - from.0;
         let rate = if time > 0.0 { (to.1 - from.1) / time } else { 0.0 };
@@ -38,22 +38,22 @@ impl Straight {
         Self { anchor, other, rate }
     }
 
-    /// Held at `value`; `time` is any finite time.
+    /// Returns a constant `value`; `time` is any finite time.
     pub(super) fn held(time: f64, value: f64) -> Self {
         Self { anchor: (time, value), other: (time, value), rate: 0.0 }
     }
 
-    /// Both its ends as they are anchored, and its rate: the numbers it is made of.
+    /// Returns its data: both ends and the rate.
     pub(super) fn numbers(&self) -> [f64; 5] {
         [self.anchor.0, self.anchor.1, self.other.0, self.other.1, self.rate]
     }
 
-    /// Of these.
+    /// Returns the segment with this data.
     pub(super) fn of([time, value, other, there, rate]: [f64; 5]) -> Self {
         Self { anchor: (time, value), other: (other, there), rate }
     }
 
-    /// Its line, whose other end is not set exactly.
+    /// Returns its line; the other end is not exact.
     pub(super) fn line(&self) -> Line {
         Line { time: self.anchor.0, value: self.anchor.1, rate: self.rate }
     }

@@ -1,4 +1,4 @@
-//! Waveforms against direct formulas, and the properties a stepper relies on.
+//! Tests of waveforms against direct formulas, and of properties that steppers rely on.
 
 mod pieces;
 mod shapes;
@@ -102,7 +102,7 @@ impl Random {
     }
 }
 
-/// Value by the definition, for a time clamped into the window and not within rounding of a corner.
+/// Value by the definition, away from corners, for a time clamped to the window.
 fn direct(wave: &Waveform, t: f64) -> f64 {
     let Timing { period, delay, phase, cycles } = *wave.timing();
     let clamped = t.clamp(delay, cycles.map_or(f64::INFINITY, |n| delay + n * period));
@@ -125,7 +125,7 @@ fn direct(wave: &Waveform, t: f64) -> f64 {
     })
 }
 
-/// A sawtooth through a limit of its rate, step by step in closed form: it falls at the limit until what is asked for meets it.
+/// Rate-limited sawtooth in closed form: it falls at the limit until it meets the requested one.
 fn limited(stroke: f64, (flyback, period, rate): (f64, f64, f64), (turns, leads): (f64, bool)) -> f64 {
     let (size, rise) = (stroke.abs(), period - flyback);
     let up = size / rise;
@@ -143,7 +143,7 @@ fn limited(stroke: f64, (flyback, period, rate): (f64, f64, f64), (turns, leads)
     value * stroke.signum()
 }
 
-/// Value after a part `x` of one period, by the definition.
+/// Value at a fraction `x` of one period, by the definition.
 fn of_cycle(shape: &Shape, period: f64, x: f64) -> Option<f64> {
     let cycloid = |x: f64| x - (TAU * x).sin() / TAU;
     let two_way = |stroke: f64, top: f64, law: &dyn Fn(f64) -> f64| {
@@ -160,7 +160,7 @@ fn of_cycle(shape: &Shape, period: f64, x: f64) -> Option<f64> {
         Shape::Input { initial, .. } => *initial,
         Shape::Generator(it) => two_way(it.initial.stroke, it.cycle.top(&it.initial) / period, &|x| x),
         Shape::Parabola { stroke, turn } => {
-            // About the bottom, and about the top, in parts of a period.
+            // Distances from the bottom and from the top, in periods.
             let (from_bottom, from_top) = (x.min(1.0 - x), (x - 0.5).abs());
             let turn = turn / period;
             if from_top >= 0.5 * turn {
@@ -179,11 +179,11 @@ fn of_cycle(shape: &Shape, period: f64, x: f64) -> Option<f64> {
     })
 }
 
-/// An S-curve of the stroke 1 after a part `x` of its period.
+/// S-curve of stroke 1 at a fraction `x` of its period.
 fn s_curve([period, flyback, rounding]: [f64; 3], x: f64) -> f64 {
     let way = |time: f64| {
         let tau = rounding / time;
-        // Speed 1 in the middle; each end integrated twice from its jerk 1/τ².
+        // Speed 1 in the middle; each end is the double integral of its jerk 1/τ².
         let begin = move |s: f64| {
             let cube = |s: f64| s.max(0.0).powi(3) / 6.0;
             if s > 2.0 * tau { s - tau } else { (cube(s) - 2.0 * cube(s - tau)) / (tau * tau) }
@@ -195,7 +195,7 @@ fn s_curve([period, flyback, rounding]: [f64; 3], x: f64) -> f64 {
     if x <= top { way(period - flyback)(x / top) } else { 1.0 - way(flyback)((x - top) / (1.0 - top)) }
 }
 
-/// A pattern of three cycles, a rest and two reversed cycles at a time of its period.
+/// Pattern of three cycles, a rest and two reversed cycles.
 fn of_pattern(carrier: &Shape, parts: &[Section], time: f64, period: f64) -> Option<f64> {
     let Some(Section::Rest { duration }) = parts.get(1) else { panic!("{parts:?}") };
     let own = (period - duration) / 5.0;
@@ -228,7 +228,7 @@ fn corners_stay_exact_over_a_million_periods() {
         }
     }
     assert_eq!(piece.index, 2_000_001);
-    // 1000.0003 s: corners by one product and one sum, a spacing of doubles there being 1.1e-13 s.
+    // The spacing of floating-point times is 1.1e-13 s there.
     assert!((piece.start - 1000.0003).abs() < 2.3e-13);
 }
 
@@ -263,7 +263,7 @@ fn delay_phase_and_cycles() {
     let shape = Shape::Triangle { stroke: 1.0 };
     let timing = Timing { period: 0.3, delay: 0.7, phase: PI, cycles: Some(2.0) };
     let wave = wave(shape, timing);
-    // Half a period ahead: starts on its top, which is a corner and no sliver of a piece.
+    // With a phase of π it starts on its top, without a very short piece.
     let before = wave.piece_at(0.0);
     assert_eq!((before.index, before.end, wave.jump_after(&before)), (0, 0.7, 0.0));
     let mut piece = before;
@@ -330,7 +330,8 @@ fn tables_that_are_one_point_or_one_jump() {
 
 #[test]
 fn cycloid_by_its_law() {
-    // Half way: half the stroke at twice the mean rate; a quarter: 1/4 - 1/2π of it at the mean rate, 2πΔ/L².
+    // At half the duration: half the stroke at twice the mean rate. At a quarter: 1/4 - 1/2π of the stroke at the mean rate, with
+    // the acceleration 2πΔ/L².
     let wave = wave(Shape::Cycloid { stroke: 3.0, flyback: 2.0 }, Timing::every(10.0));
     let up = wave.piece_at(1.0);
     let half = wave.sample(&up, 4.0);
@@ -372,7 +373,7 @@ fn sine_and_harmonics_by_their_formula() {
 
 #[test]
 fn a_fall_to_zero_never_undershoots() {
-    // The anchor at the end nearer to 0 holds the sign however the rate was rounded.
+    // Evaluation from the end nearer to 0 keeps the sign.
     let mut random = Random(7);
     for _ in 0..2000 {
         let period = random.between(1e-4, 1.0);
@@ -399,7 +400,7 @@ fn random_waveforms_are_chains_of_their_formula() {
         let size = low.abs().max(high.abs());
         let mut piece = wave.piece_at(random.between(-2.0, 20.0) * period);
         for _ in 0..12 {
-            // The chain is the same however a piece is reached, and its pieces join.
+            // The piece does not depend on how it is reached, and pieces join.
             if piece.start.is_finite() {
                 assert_eq!(wave.piece_at(piece.start), piece, "{case}");
             }
@@ -409,7 +410,7 @@ fn random_waveforms_are_chains_of_their_formula() {
                 let t = from + (to - from) * random.between(0.01, 0.99);
                 assert_eq!(wave.piece_at(t), piece, "{case}");
                 let sample = wave.sample(&piece, t);
-                // Times are rounded to 1e-15 of themselves, magnified by the steepness.
+                // Times have a relative rounding of 1e-15, multiplied by the rate.
                 let steep = sample.rate.abs() * 4e-15 * (t.abs() + wave.timing().delay.abs() + 3.0 * period);
                 let slack = 1e-13 * size + steep;
                 assert!((sample.value - direct(&wave, t)).abs() <= slack, "{case} {wave:?} {t}");
@@ -453,7 +454,7 @@ fn rates_are_the_derivatives_of_values() {
 
 #[test]
 fn pieces_shorter_than_the_spacing_of_doubles_are_skipped() {
-    // At 1e4 s a flyback of 1e-13 s has no length left: a jump, not a division by zero.
+    // At 1e4 s a flyback of 1e-13 s is a jump.
     let wave = wave(Shape::Sawtooth { stroke: 1.0, flyback: 1e-13 }, Timing::every(1.0));
     let piece = wave.piece_at(1e4 + 0.5);
     let next = wave.after(&piece);
@@ -496,7 +497,7 @@ fn nonsense_is_refused_by_name() {
     assert_eq!(refuse(table(&[(0.0, 0.0)]), Timing { phase: 1.0, ..every }).key(), "phase");
 }
 
-/// A stroke of 1e308 in a millisecond has a rate beyond all numbers; it was taken, and held NaN.
+/// A stroke of 1e308 in a millisecond has an infinite rate.
 #[test]
 fn values_that_change_beyond_all_numbers_are_refused() {
     let steep = [

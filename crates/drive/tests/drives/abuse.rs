@@ -1,4 +1,4 @@
-//! Extreme scenes: each ends, or stops itself with an error that says why, within its limits.
+//! Extreme models end, or stop with an error within their limits.
 
 use crate::lottery::Draw;
 use crate::parts::{
@@ -12,7 +12,7 @@ use stickslip_drive::{Field, Limits, Model, Part, Plan, RunError, Shape, Stepper
 
 const GROUND_SLIDER: [Side; 2] = [Side::Ground, Side::Body(1)];
 
-/// Runs with at most `steps` steps; whatever was written until the end or the error is finite.
+/// Runs with at most `steps` steps; all rows are finite.
 fn survives(scene: &Scene, plan: &Plan, title: &str) -> Result<(), RunError> {
     let model = Model::new(scene).unwrap_or_else(|e| panic!("{title}: {e}"));
     let Ok(mut state) = model.start(plan) else { return Ok(()) };
@@ -24,12 +24,12 @@ fn survives(scene: &Scene, plan: &Plan, title: &str) -> Result<(), RunError> {
         Ok(()) => assert_eq!(state.time(), plan.duration, "{title}"),
         Err(error) => assert!(!error.to_string().is_empty() && !error.advice().is_empty()),
     }
-    // Explicit steps above the stability limit blow up, and stop before their energies do.
+    // Unstable explicit steps stop before energies overflow.
     assert!(trace.rows().flatten().all(|x| x.is_finite()), "{title}: {outcome:?}");
     outcome
 }
 
-/// A place of 1e148 m is a number, and its kinetic energy is none: the trace had infinite ones, and the run came to its end.
+/// A position of 1e148 m is finite, but its kinetic energy is not.
 #[test]
 fn a_motion_whose_energy_is_no_number_stops() {
     let bodies = vec![named("slider", free(0.02))];
@@ -130,7 +130,7 @@ fn extreme_scenes_end_or_say_why_not() {
         }
     }
     println!("{ended} of 400 ended, the others: {stopped:#?}");
-    // The other half mixes time scales too far apart for the limit of steps.
+    // The other half contains time scales too different for the limit of steps.
     assert!(ended > 150);
 }
 
@@ -198,8 +198,8 @@ fn a_normal_force_that_touches_zero_lets_go_and_grips_again() {
     }
 }
 
-/// What no friction can hold has no say in the step, whether the normal force varies or not.
-/// An equilibrium of nothing was looked for in a matrix without rows, which panicked.
+/// Friction without a normal force does not affect steps, whether or not the normal force varies. The equilibrium of a model
+/// without free coordinates is its start.
 #[test]
 fn where_nothing_is_free_the_equilibrium_is_the_start() {
     let punch = contact(FOOT_SLIDER, Profile::flat(1e-5).unwrap(), 0.2, 1.0);
@@ -231,7 +231,7 @@ fn a_varying_contact_without_friction_or_without_force_does_nothing() {
 
 #[test]
 fn an_equilibrium_of_too_many_bodies_is_not_sought() {
-    // A chain, each body resting on the one before: 200 take a second, 10 000 would take a day and a gigabyte.
+    // A chain in which each body rests on the previous one.
     let chain = |count: usize| {
         let side = |i: usize| if i == 0 { Side::Ground } else { Side::Body(i - 1) };
         let link = |i: usize| {

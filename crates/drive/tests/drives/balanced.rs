@@ -42,7 +42,7 @@ fn masing(share: f64, p: f64, t: f64) -> f64 {
     let top = first(share);
     match t {
         _ if t <= 0.25 => first(f),
-        // Where in the period, counted from the first crest.
+        // Time in the period, from the first crest.
         _ if (t - 0.25).fract() <= 0.5 => top - 2.0 * first(0.5 * (share - f)),
         _ => -top + 2.0 * first(0.5 * (share + f)),
     }
@@ -91,7 +91,7 @@ pub(crate) fn spring(between: [Side; 2], stiffness: f64) -> Spring {
     }
 }
 
-/// A rod in series: its far end is pulled and is at u + F/k.
+/// Rod in series: its far end is at u + F/k.
 #[test]
 fn the_far_end_of_a_rod_is_ahead_by_its_stretch() {
     let profile = Profile::paraboloid(1e-3).unwrap();
@@ -114,7 +114,7 @@ fn the_far_end_of_a_rod_is_ahead_by_its_stretch() {
     assert!(state.counts().events <= 40);
 }
 
-/// A follower shakes through a leaf: k(s - u) = F_x(u), by halving against the closed forms of loading and unloading.
+/// Prescribed motion through a leaf spring: k(s - u) = F_x(u), by bisection of the closed forms of loading and unloading.
 #[test]
 fn a_leaf_in_series_takes_its_part_of_the_stroke() {
     let profile = Profile::paraboloid(1e-3).unwrap();
@@ -188,8 +188,7 @@ fn a_load_beyond_the_limit_ends_where_gross_slip_begins() {
     }
 }
 
-/// A crest at the limit itself is the last moment of stick: the load turns back from there. A last place of a few more is
-/// gross slip.
+/// A load that just reaches the limit reverses in stick; a slightly larger one causes gross slip.
 #[test]
 fn a_load_that_just_reaches_the_limit_turns_and_one_beyond_it_slips() {
     for (share, slips) in [(1.0 - 1e-12, false), (1.0, false), (1.0 + 1e-12, true)] {
@@ -203,7 +202,7 @@ fn a_load_that_just_reaches_the_limit_turns_and_one_beyond_it_slips() {
     }
 }
 
-/// What an independent walk keeps of one contact: its law and memory, moved in small parts along (d, u).
+/// Independent quasi-static solution of one contact: interface and memory, moved in small parts along (d, u).
 struct Walked {
     law: Interface,
     memory: Memory,
@@ -216,7 +215,7 @@ impl Walked {
         Self { law, memory }
     }
 
-    /// Moves to where F_x + ku is the load, at a depth; by halving trial chords.
+    /// Moves to F_x + ku = load at a depth, by bisection of trial chords.
     fn go(&mut self, d: f64, stiffness: f64, load: f64, u_c: f64) -> f64 {
         let here = self.memory.apex().u;
         let (mut low, mut high) = (here - 4.0 * u_c, here + 4.0 * u_c);
@@ -231,7 +230,7 @@ impl Walked {
     }
 }
 
-/// A small generator: numbers in [0, 1).
+/// Random numbers in [0, 1).
 struct Lot(u64);
 
 impl Lot {
@@ -258,7 +257,7 @@ pub(crate) fn table(name: &str, points: &[f64]) -> stickslip_drive::scene::Named
     named(name, Waveform::new(Shape::Table { points }, Timing::every(1.0)).unwrap())
 }
 
-/// Tables of random loads below the limit, with and without a spring, against a curve of its own.
+/// Random loads below the limit, with and without a spring, compared with bisection on a separate memory.
 #[test]
 fn random_loads_are_held_where_halving_finds_them() {
     let mut lot = Lot(15);
@@ -290,14 +289,14 @@ fn random_loads_are_held_where_halving_finds_them() {
     }
 }
 
-/// A table's value between its points.
+/// Value of a table between its points.
 fn model_load(points: &[f64], place: f64) -> f64 {
     let i = (place.floor() as usize).min(points.len() - 2);
     points[i] + (place - i as f64) * (points[i + 1] - points[i])
 }
 
-/// A load on a sine and a normal force that rises and falls: against fine chords, whose error falls with their square. The
-/// ways of growth in full stick are curved.
+/// Sinusoidal load with a varying normal force, compared with fine chords of second order. Paths of growth in full stick are
+/// curved.
 #[test]
 fn a_normal_force_that_varies_is_followed_to_the_tolerance() {
     let mut lot = Lot(7);
@@ -336,7 +335,7 @@ fn a_normal_force_that_varies_is_followed_to_the_tolerance() {
             "{scene_number}: off by {off:e} u_c, chords by {left:e}, books {error:e}, {:?}",
             state.counts()
         );
-        // Of the error of the fine chords a third of the change is left.
+        // A third of the change remains as the error of the fine chords.
         assert!(off < 0.6 * left + 1e-9, "{scene_number}: {off:e}");
         curved = curved.max(left);
         assert!(error < 1e-7, "{error:e}");
@@ -344,7 +343,7 @@ fn a_normal_force_that_varies_is_followed_to_the_tolerance() {
     assert!(curved > 1e-8, "growth should be curved somewhere: {curved:e}");
 }
 
-/// Normal force control: d of the closed inverse, z = -d; x by the pull at the depth of the moment.
+/// Prescribed normal force: z = -d by the closed inverse; x by the load at the present depth.
 #[test]
 fn a_balanced_depth_is_the_inverse_of_the_normal_force() {
     for count in [1, 3] {
@@ -378,7 +377,7 @@ fn a_balanced_depth_is_the_inverse_of_the_normal_force() {
     }
 }
 
-/// Pulled off: at the moment at which the load changes its sign.
+/// A body that is pulled off: the run ends when the load changes its sign.
 #[test]
 fn a_load_that_pulls_a_body_off_ends_where_it_parts() {
     let mut scene = rig(Profile::paraboloid(1e-3).unwrap(), sine(0.0));
@@ -398,7 +397,7 @@ fn a_load_that_pulls_a_body_off_ends_where_it_parts() {
     );
 }
 
-/// A jump of the load is a jump of the place, and a load at t = 0 moves the body before anything begins.
+/// A jump of the load is a jump of the position; a load at t = 0 moves the body before the start.
 #[test]
 fn a_jump_of_the_load_is_a_jump_of_the_place() {
     let limit = MU * FORCE;
@@ -434,7 +433,7 @@ fn a_jump_of_the_load_is_a_jump_of_the_place() {
     }
 }
 
-/// Everything at once: both coordinates, a spring, a load and a normal force that vary.
+/// Both coordinates, a spring, a varying load and a varying normal force.
 fn full_rig() -> Scene {
     let mut scene = rig(Profile::paraboloid(1e-3).unwrap(), sine(0.3));
     let press = Shape::Sine { amplitude: 0.4 * FORCE, phase: 0.0, offset: -FORCE };
@@ -447,7 +446,7 @@ fn full_rig() -> Scene {
     scene
 }
 
-/// A run put down at any event and taken up from its bytes, with rows or without, is the whole run to the bit.
+/// A run resumed from its bytes at any event, with rows or without, has the bits of the whole run.
 #[test]
 fn a_run_taken_up_from_its_bytes_is_the_whole_run() {
     for scene in [full_rig(), rig(Profile::sphere(1e-3).unwrap(), sine(0.8))] {
@@ -474,7 +473,7 @@ fn a_run_taken_up_from_its_bytes_is_the_whole_run() {
             second.finish(&mut ()).unwrap();
             assert_eq!(second.into_state(), end, "{part}");
         }
-        // A caller who asks step by step meets the same places.
+        // A caller who advances step by step obtains the same positions.
         let mut held = Run::new(&model, &plan, model.start(&plan).unwrap()).unwrap();
         for i in 1..=40 {
             held.advance(f64::from(i) * 0.05 * PERIOD, &mut ()).unwrap();
@@ -485,7 +484,7 @@ fn a_run_taken_up_from_its_bytes_is_the_whole_run() {
     }
 }
 
-/// Rows of springs: the same load on a row is held where the row alone says, by halving its own forces.
+/// Rows of springs: the position under a load agrees with bisection of the row's own forces.
 #[test]
 fn a_row_of_springs_holds_a_load_where_its_springs_say() {
     let mut scene = rig(Profile::paraboloid(1e-3).unwrap(), sine(0.8));
@@ -498,7 +497,7 @@ fn a_row_of_springs_holds_a_load_where_its_springs_say() {
     for i in 0..t.len() {
         let pull = 0.8 * MU * FORCE * (std::f64::consts::TAU * t[i] / PERIOD).sin();
         assert!((force[i] - pull).abs() < 1e-12 * FORCE, "{i}: {:e}", force[i] - pull);
-        // The row's cells make a difference of their own.
+        // The discretisation of the row causes a difference.
         assert!((u[i] / u_c - masing(0.8, 1.5, t[i] / PERIOD)).abs() < 1e-2, "{i}");
     }
     println!("{:?}", state.counts());
@@ -509,7 +508,7 @@ fn a_row_of_springs_holds_a_load_where_its_springs_say() {
     assert!((state.time() / wanted - 1.0).abs() < 1e-10, "{error}: {:e}", state.time() / wanted - 1.0);
 }
 
-/// Lengths in other units: a scene magnified by s with moduli by 1/s carries the forces by s.
+/// Scaling of lengths by s and moduli by 1/s scales forces by s.
 #[test]
 fn scenes_of_any_size_walk_alike() {
     for scale in [1e-9, 1e-3, 1e3, 1e6] {
@@ -530,14 +529,14 @@ fn scenes_of_any_size_walk_alike() {
     }
 }
 
-/// What a balanced scene cannot have is refused, with the part and the field.
+/// Unsupported properties of balanced models are refused with part and field.
 #[test]
 fn a_place_that_nothing_can_balance_is_refused() {
     use stickslip_drive::SceneFault;
     let mut hanging = rig(Profile::paraboloid(1e-3).unwrap(), sine(0.8));
     hanging.bodies.push(named("end", Body { x: BALANCED, ..Body::default() }));
     assert!(matches!(Model::new(&hanging).unwrap_err().fault, SceneFault::Unbalanceable(_)));
-    // A chain that ends on nothing.
+    // A chain without a fixed end.
     hanging.bodies.push(named("other", Body { x: BALANCED, ..Body::default() }));
     hanging.springs.push(named("rod", spring([Side::Body(1), Side::Body(2)], 1e6)));
     assert!(matches!(Model::new(&hanging).unwrap_err().fault, SceneFault::Unbalanceable(_)));

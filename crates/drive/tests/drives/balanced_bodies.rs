@@ -1,4 +1,4 @@
-//! Bodies without mass along z, on several contacts, and where nothing holds them any more.
+//! Balanced bodies along z, on several contacts, and the loss of their equilibrium.
 
 use crate::balanced::{BALANCED, FORCE, MU, PERIOD, fails, rig, sine, spring, table};
 use crate::parts::{column, contact, event, named, of_friction, trace, wave};
@@ -31,7 +31,7 @@ fn hertz(law: &Interface, force: f64) -> f64 {
     (0.75 * force / (law.normal_modulus() * RADIUS.sqrt())).powf(2.0 / 3.0)
 }
 
-/// The first root of a rising function between bounds.
+/// First root of an increasing function between bounds, by bisection.
 fn root(mut low: f64, mut high: f64, excess: impl Fn(f64) -> f64) -> f64 {
     for _ in 0..200 {
         let middle = 0.5 * (low + high);
@@ -40,7 +40,7 @@ fn root(mut low: f64, mut high: f64, excess: impl Fn(f64) -> f64) -> f64 {
     0.5 * (low + high)
 }
 
-/// A load that sets out from 0 N, at once or after a while, presses from there; one that lifts at once is refused.
+/// A load that starts at 0 N and presses, at once or later, is accepted; one that lifts at once is refused.
 #[test]
 fn a_load_along_z_may_set_out_from_nothing() {
     let ramp = |loads: &[f64]| table("press", loads);
@@ -48,7 +48,7 @@ fn a_load_along_z_may_set_out_from_nothing() {
         ramp(&[0.0, -FORCE, -0.5 * FORCE, -FORCE]),
         ramp(&[0.0, 0.0, -FORCE, -FORCE]),
         wave("press", Shape::Sine { amplitude: -FORCE, phase: 0.0, offset: 0.0 }, 8.0 * PERIOD),
-        // -F(1 - cos): its rate sets out from nothing, too.
+        // -F(1 - cos): its rate starts at zero, too.
         wave("press", Shape::Sine { amplitude: FORCE, phase: TAU / 4.0, offset: -FORCE }, 8.0 * PERIOD),
     ];
     for (k, drive) in drives.into_iter().enumerate() {
@@ -82,7 +82,7 @@ fn a_load_along_z_may_set_out_from_nothing() {
     assert!(matches!(refused.fault, SceneFault::Unbalanced { .. }), "{refused:?}");
 }
 
-/// After a rest at 0 N the load lifts: the run ends where it begins to, not later and not before.
+/// A load that rests at 0 N and then lifts: the run ends when it begins to lift.
 #[test]
 fn a_load_that_rests_at_nothing_and_lifts_ends_where_it_begins_to() {
     let (_, state, _, error) = fails(&pressed(table("press", &[0.0, 0.0, FORCE])), 2.0 * PERIOD);
@@ -90,7 +90,7 @@ fn a_load_that_rests_at_nothing_and_lifts_ends_where_it_begins_to() {
     assert_eq!(state.time(), PERIOD);
 }
 
-/// Between a floor and a ceiling, clamped or with nothing or a gap between: whichever way it is pulled something holds it.
+/// Between floor and ceiling, clamped or with a gap, a body is held in both directions.
 #[test]
 fn a_body_between_floor_and_ceiling_is_held_both_ways() {
     let scale = 3e-7;
@@ -124,7 +124,7 @@ fn a_body_between_floor_and_ceiling_is_held_both_ways() {
     }
 }
 
-/// A spring beside the contact: pulled off, the body hangs on it, and comes back.
+/// Spring parallel to the contact: a body that is pulled off is held by it and returns.
 #[test]
 fn a_spring_holds_along_z_what_the_contact_lets_go() {
     for friction in [MU, 0.0] {
@@ -145,7 +145,7 @@ fn a_spring_holds_along_z_what_the_contact_lets_go() {
             let wanted = root(-far, far, |z| stiffness * z - force(-z) - load);
             assert!((z[i] - wanted).abs() < 1e-12 * far, "{i}: {:e} {wanted:e}", z[i]);
             assert!((normal[i] - force(-wanted)).abs() < 1e-11 * FORCE, "{i}");
-            // A tenth of the tolerance: of forty phases the books miss 2e-10 to 4e-8, by where steps lie before the lift-off.
+            // A tenth of the tolerance, because the error of the balance varies from 2e-10 to 4e-8.
             assert!(error[i].abs() < 1e-7 * FORCE * far, "{i}: {:e}", error[i]);
         }
         assert!(normal.contains(&0.0) && normal.iter().any(|n| *n > 0.1 * FORCE));
@@ -153,8 +153,8 @@ fn a_spring_holds_along_z_what_the_contact_lets_go() {
     }
 }
 
-/// Two unlike contacts, one of them by its other side, hold a load together; the first gives way, the run goes on, and ends
-/// where the other does. The sum of both follows Masing's rules.
+/// Two different contacts, one of them reversed, hold a load. After gross slip of the first the run continues until gross slip of
+/// the other. Their sum follows Masing's rules.
 #[test]
 fn several_contacts_hold_a_body_together() {
     let parts = [(ball(), 1.5, FORCE), (Profile::cone(0.01).unwrap(), 2.0, 0.4 * FORCE)];
@@ -194,7 +194,7 @@ fn several_contacts_hold_a_body_together() {
     assert!((state.time() / wanted - 1.0).abs() < 1e-11, "{error}: {:e}", state.time() / wanted - 1.0);
 }
 
-/// A contact that is loaded at the start: it goes to what its body's load leaves of that before anything begins.
+/// A contact with an initial load moves to the balance with its body's load before the start.
 #[test]
 fn a_contact_loaded_at_the_start_goes_where_the_load_holds_it() {
     let limit = MU * FORCE;
@@ -213,11 +213,11 @@ fn a_contact_loaded_at_the_start_goes_where_the_load_holds_it() {
     }
 }
 
-/// The exact sphere over two cycles: d = (a/2) ln((R+a)/(R-a)), F_N = E*[(R²+a²)/2 ln((R+a)/(R-a)) - aR] (Popov, Heß, Willert
-/// (2019), section 2.5.4), F_x = μ[F_N(a) - F_N(c)], u = κ[d(a) - d(c)]. A cycle between ±u₁ takes 8∫₀ F_x du - 4F₁u₁.
+/// Exact sphere over two cycles: d = (a/2) ln((R+a)/(R-a)), F_N = E*[(R²+a²)/2 ln((R+a)/(R-a)) - aR] (Popov, Heß, Willert (2019),
+/// section 2.5.4), F_x = μ[F_N(a) - F_N(c)], u = κ[d(a) - d(c)]. The work of a cycle between ±u₁ is 8∫₀ F_x du - 4F₁u₁.
 #[test]
 fn two_cycles_of_the_exact_sphere_take_what_its_closed_form_says() {
-    // Deep enough for the sphere to differ from the paraboloid by 1 %.
+    // Depth at which sphere and paraboloid differ by 1 %.
     let (radius, share) = (1e-4, 0.8);
     let load = 40.0;
     let mut scene = rig(
@@ -261,8 +261,7 @@ fn two_cycles_of_the_exact_sphere_take_what_its_closed_form_says() {
     assert!(((friction[128] - friction[64]) / wanted - 1.0).abs() < 1e-9);
 }
 
-/// By the whole law, as rows of many springs under a moving normal go, no mode says that all springs slip: the run ends all
-/// the same where the load passes μF_N(t).
+/// Rows of many springs under a varying normal load use the full force law: the run ends where the load exceeds μF_N(t).
 #[test]
 fn a_load_beyond_the_limit_ends_a_run_by_the_whole_law() {
     for (count, share) in [(8200, 3.0), (64, 1.2)] {
@@ -274,7 +273,7 @@ fn a_load_beyond_the_limit_ends_a_run_by_the_whole_law() {
         let (model, state, rows, error) = fails(&scene, 20.0 * PERIOD);
         let normal = |t: f64| FORCE * (1.0 + 0.2 * (TAU * t / (3.3 * PERIOD) + 0.7).sin());
         let excess = |t: f64| share * FORCE * (TAU * t / PERIOD).sin().abs() - normal(t);
-        // The first moment, found on a fine grid and then by halving.
+        // First time on a fine grid, then bisection.
         let step = PERIOD / 4096.0;
         let before = (0..).map(|k| step * f64::from(k)).find(|t| excess(t + step) > 0.0).unwrap();
         let wanted = root(before, before + step, excess);
@@ -287,7 +286,7 @@ fn a_load_beyond_the_limit_ends_a_run_by_the_whole_law() {
     }
 }
 
-/// A jump that a row of springs cannot follow ends the run there, with the memory as it was.
+/// A jump that a row of springs cannot follow ends the run and leaves the memory unchanged.
 #[test]
 fn a_jump_beyond_the_springs_ends_the_run() {
     let shallow = 1e-7;

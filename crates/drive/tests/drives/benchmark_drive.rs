@@ -1,5 +1,5 @@
-//! P1, the benchmark drive, against a reference solved by two unrelated methods in 50-digit and 113-bit
-//! arithmetic which agree to 5e-19 (`tests/data/drive_p1.json`).
+//! Benchmark drive P1, compared with a reference by two independent methods in 50-digit and 113-bit arithmetic, which agree to
+//! 5e-19 (`tests/data/drive_p1.json`).
 
 use crate::parts::{column, end, event, fitted_order, p1, plan, trace};
 use stickslip_drive::{Plan, Stepper};
@@ -25,7 +25,7 @@ fn reference() -> Reference {
     }
 }
 
-/// Error of x(20 ms) in units of the stroke, and the evaluations spent.
+/// Error of x(20 ms) in strokes, and the number of evaluations.
 fn error(plan: &Plan) -> (f64, u64) {
     let (model, state) = end(&p1(), plan);
     ((state.body(&model, 1).unwrap().0 - reference().x).abs() / STROKE, state.counts().evaluations)
@@ -52,7 +52,7 @@ fn position_velocity_and_steps_meet_the_reference() {
     println!("tolerance 1e-10: x off by {dx:e}, v by {dv:e} (relative)");
     assert!(dx.abs() < 1e-9 && dv.abs() < 1e-9);
     let at: Vec<f64> = column(&model, &rows, "slider.x_m");
-    // The reference prints them to 1e-9 nm.
+    // The reference has a resolution of 1e-9 nm.
     for (pair, step) in at.windows(2).zip(&reference.steps) {
         assert!((pair[1] - pair[0] - step).abs() < 2e-9 * 1e-9 + 1e-10 * STROKE, "{:e}", pair[1] - pair[0]);
     }
@@ -65,14 +65,14 @@ fn the_event_steppers_error_falls_with_its_tolerance() {
         let tolerance = 10_f64.powi(-exponent);
         let (error, evaluations) = error(&event(tolerance, END));
         println!("event {tolerance:e}: error {error:.2e} of the stroke, {evaluations} evaluations");
-        // Twenty periods of about eight stretches; rounding alone makes some 1e-14.
+        // Twenty periods of about eight intervals; rounding alone is about 1e-14.
         assert!(error < 10.0 * tolerance + 1e-13);
     }
 }
 
 #[test]
 fn fixed_steps_are_second_order_at_best() {
-    // Steps that divide the rise and the fall, so that no step crosses a corner.
+    // Steps that divide rise and fall, so that no step crosses a corner.
     let steps: Vec<f64> = (3..=9).map(|k| 1e-4 / f64::from(1 << k)).collect();
     for (name, stepper) in [
         ("verlet", (|step| Stepper::Verlet { step }) as fn(f64) -> Stepper),

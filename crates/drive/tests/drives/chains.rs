@@ -1,4 +1,4 @@
-//! Chains of sliders that springs join: many contacts, of which an event concerns one, stepped between near events by few stages.
+//! Chains of sliders connected by springs: many contacts, an event of one of them at a time, and steps with few stages.
 
 use crate::lottery::on_rows;
 use crate::parts::{channel, contact, damper, event, follower, free, named, plan, sine, trace, wave};
@@ -9,7 +9,7 @@ use stickslip_drive::{Method, Plan, Shape, State, Stepper};
 const PERIOD: f64 = 1e-3;
 const STROKE: f64 = 0.5e-6;
 
-/// Sliders, no two alike, on as many balls of one foot; springs of a thirtieth of a contact's stiffness between neighbours.
+/// Different sliders on balls on one foot, connected by springs with a thirtieth of a contact's stiffness.
 pub(crate) fn chain(shape: Shape, links: usize) -> Scene {
     let mut scene = Scene {
         waveforms: vec![wave("drive", shape, PERIOD)],
@@ -36,7 +36,7 @@ fn sawtooth() -> Shape {
     Shape::Sawtooth { stroke: STROKE, flyback: 0.1e-3 }
 }
 
-/// Places of all sliders at rows of a run, and the state at its end.
+/// Positions of all sliders in rows of a run, and the final state.
 fn places(scene: &Scene, plan: &Plan) -> (Vec<f64>, State) {
     let (model, state, rows) = trace(scene, plan, plan.duration / 32.0);
     let sliders = scene.bodies.iter().filter(|body| body.part.is_free());
@@ -49,8 +49,7 @@ fn largest_difference(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
 }
 
-/// Rows of springs by velocity Verlet share neither engine nor stepper nor events with it; of two steps h and h/2 the
-/// error that falls with h² is taken off.
+/// Comparison with rows of springs and velocity Verlet, an independent method, extrapolated from two steps h and h/2.
 #[test]
 fn a_chain_agrees_with_rows_at_fixed_steps() {
     for (name, shape) in [("sawtooth", sawtooth()), ("sine", sine(0.5 * STROKE))] {
@@ -69,7 +68,7 @@ fn a_chain_agrees_with_rows_at_fixed_steps() {
     }
 }
 
-/// Against a run at 1e-12, which knows no steps of few stages.
+/// Comparison with a run at 1e-12, which does not use steps with few stages.
 #[test]
 fn errors_of_a_chain_stay_below_the_tolerance() {
     for (name, shape) in [("sawtooth", sawtooth()), ("sine", sine(0.5 * STROKE))] {
@@ -90,7 +89,7 @@ fn errors_of_a_chain_stay_below_the_tolerance() {
     }
 }
 
-/// What is put in is stored or lost: friction is booked from what was swept.
+/// The energy balance closes; friction work is computed from slip.
 #[test]
 fn books_of_a_chain_close() {
     for tolerance in [1e-3, 1e-6, 1e-9] {

@@ -1,7 +1,7 @@
-//! Drives whose motion is known in closed form, or from published numbers.
+//! Drives with closed-form or published solutions.
 //!
-//! Power law n, p = (n+1)/n, u_c = κd; contact theory after Popov, Heß, Willert, *Handbook of Contact Mechanics*
-//! (2019), section 4.4.
+//! Power law n, p = (n+1)/n, u_c = κd; contact theory by Popov, Heß, Willert, *Handbook of Contact Mechanics* (2019), section
+//! 4.4.
 
 use crate::parts::{
     FOOT_SLIDER, column, contact, damper, end, event, follower, foot_and_slider, free, named, of_pair,
@@ -21,7 +21,7 @@ const FORCE: f64 = 1.0;
 const E: f64 = 1.15e11;
 const G: f64 = 0.95e11;
 
-/// A contact of the moduli above, and from closed forms its u_c (m) and stuck stiffness 2G\*a (N/m).
+/// Contact with the moduli above, and its u_c (m) and stick stiffness 2G\*a (N/m) in closed form.
 struct Known {
     contact: Contact,
     u_c: f64,
@@ -49,17 +49,16 @@ impl Known {
     }
 }
 
-/// Rigid bodies: the slider sticks to the foot, or slides with a_c = μF_N/m; step = S T/(T-t_f) - a_c t_f²(1+λ)/(1-λ).
+/// Rigid bodies: the slider sticks to the foot, or slips with a_c = μF_N/m; step = S T/(T-t_f) - a_c t_f²(1+λ)/(1-λ).
 ///
-/// A compliant contact comes within about u_c of it, under load (1+λ)/(1-λ) times that. Its ringing in the slow phase
-/// leaves hundreds of loops in the memory, which the flyback sweeps up within a small part of the contact's period:
-/// that many events at once are no accumulation.
+/// A compliant contact agrees within about u_c, under load (1+λ)/(1-λ) times that. Free oscillations leave hundreds of loops in
+/// the memory, which the flyback closes quickly; these events are no accumulation.
 #[test]
 fn rigid_coulomb_sawtooth() {
     for (load, step) in [(0.0, 940.4082e-9), (0.6, 700.4082e-9)] {
         for u_c in [1e-10_f64, 1e-11] {
             let known = Known::paraboloid(FOOT_SLIDER, 1e-3);
-            // u_c = μE*/G* d and d goes with E* to the power -2/3.
+            // u_c = μE*/G* d, and d is proportional to E* to the power -2/3.
             let stiffer = (known.u_c / u_c).powf(1.5);
             let pair = Pair::from_moduli(stiffer * E, stiffer * G).unwrap();
             let contact = of_pair(pair, &known.contact);
@@ -94,7 +93,7 @@ fn ideal_inertia_drive_advances_by_the_stroke_less_the_zero_step_stroke() {
             let damping = 2.0 * (stiffness * mass).sqrt();
             scene.springs.push(named("drag", damper([Side::Ground, Side::Body(1)], damping)));
             scene.loads.push(push(1, -load * MU * FORCE));
-            // Just before the jump the slow phase is over.
+            // The slow phase ends just before the jump.
             let (model, state) = end(&scene, &event(1e-8, 9.999));
             let earlier = end(&scene, &event(1e-8, 8.999)).1;
             let step = (state.body(&model, 1).unwrap().0 - earlier.body(&model, 1).unwrap().0) / u_c;
@@ -105,10 +104,8 @@ fn ideal_inertia_drive_advances_by_the_stroke_less_the_zero_step_stroke() {
     }
 }
 
-/// A body that nothing touches under a sine of force, alone and on a spring: x = A(t - sin ωt/ω)/mω and, with ω₀² = k/m,
-/// x = A(sin ωt - (ω/ω₀) sin ω₀t)/m(ω₀² - ω²).
-///
-/// The range of the force, 0.33 N, was taken for a stroke of 0.33 m: no tolerance asked for more than one of 1e-4 did.
+/// Body without contacts under a sinusoidal force, alone and on a spring: x = A(t - sin ωt/ω)/mω and, with ω₀² = k/m, x = A(sin
+/// ωt - (ω/ω₀) sin ω₀t)/m(ω₀² - ω²).
 #[test]
 fn what_nothing_touches_obeys_the_tolerance() {
     let (mass, period, amplitude) = (0.0353, 1.6e-3, 0.165);
@@ -129,7 +126,7 @@ fn what_nothing_touches_obeys_the_tolerance() {
                 amplitude / (mass * (own * own - omega * omega)) * swing
             }
         };
-        // A tolerance for each swing: nothing damps what is missed.
+        // One tolerance per oscillation: there is no damping.
         let swings = 10.0 * (own / omega).max(1.0);
         for tolerance in [1e-4, 1e-6, 1e-9, 1e-12] {
             let (model, state, rows) = trace(&scene, &event(tolerance, 10.0 * period), 0.125 * period);
@@ -144,9 +141,7 @@ fn what_nothing_touches_obeys_the_tolerance() {
     }
 }
 
-/// A step of load drives a mass over 15 m, and one on a damper to its last speed: x = Ft²/2m and F/c [t - m/c (1 - e^{-ct/m})].
-///
-/// Works were held against those of a micrometre, below their rounding: 13 million steps at 1e-8, and none at 1e-12 that came to its end.
+/// Step load on a free mass over 15 m, and on a damper: x = Ft²/2m and F/c [t - m/c (1 - e^{-ct/m})].
 #[test]
 fn a_step_of_load_over_metres_takes_few_steps() {
     let (mass, force) = (1e-3, 0.03);
@@ -174,7 +169,7 @@ fn a_step_of_load_over_metres_takes_few_steps() {
     }
 }
 
-/// A slider under 0.9 μF_N, started in equilibrium: u = u_c[1-(1-0.9)^{1/p}], and there it stays.
+/// Slider under 0.9 μF_N from equilibrium: u = u_c[1-(1-0.9)^{1/p}] remains constant.
 #[test]
 fn hold_at_nine_tenths_of_the_limit() {
     for (p, known) in [(2.0, Known::cone(GROUND_SLIDER, 0.01)), (1.5, Known::paraboloid(GROUND_SLIDER, 1e-3))]
@@ -189,7 +184,7 @@ fn hold_at_nine_tenths_of_the_limit() {
         let (model, state, rows) = trace(&scene, &event(1e-8, duration), duration / 200.0);
         let held = known.u_c * (1.0 - 0.1_f64.powf(1.0 / p));
         let (x, v) = (column(&model, &rows, "slider.x_m"), column(&model, &rows, "slider.vx_m_s"));
-        // Exact in the force to round-off, and the tangent there is 0.1^{1-1/p} of the first stiffness.
+        // The force is exact to rounding; the tangent stiffness is 0.1^{1-1/p} of the initial one.
         assert!((x[0] / held - 1.0).abs() < 1e-13, "{:e}", x[0] / held - 1.0);
         let ulps = f64::EPSILON * known.u_c;
         let (spread, speed) = (
@@ -230,8 +225,7 @@ fn free_decay() {
     }
 }
 
-/// A heavy slider on x = A(sin ωt + b sin 2ωt), b ≤ 1/4, drifts at -2bAω: friction pushes it forward as long as
-/// backward only at the median of the foot's velocity.
+/// Heavy slider on x = A(sin ωt + b sin 2ωt), b ≤ 1/4: it drifts at -2bAω, the median of the foot's velocity.
 #[test]
 fn heavy_slider_on_two_harmonics() {
     let (amplitude, omega, b) = (50e-6, TAU * 1e3, 0.2);
@@ -285,7 +279,7 @@ fn damped_oscillator_under_a_step_load() {
     let mut scene = Scene { bodies: vec![named("mass", free(mass))], ..Scene::default() };
     scene.springs.push(named("spring", Spring { stiffness, preload, ..damper(GROUND_SLIDER, damping) }));
     scene.loads.push(push(0, force));
-    // A tenth of it comes from the slope: -m g sin(incline).
+    // A tenth of the force comes from the slope: -m g sin(incline).
     let incline = (-0.1 * force / (mass * 9.81)).asin();
     scene.gravity = Gravity { acceleration: 9.81, incline };
     let (delta, rest) = (0.5 * damping / mass, (1.1 * force + preload) / stiffness);
@@ -324,12 +318,12 @@ fn piezo_stack_follows_its_resonance_curve() {
         scene
             .actuators
             .push(named("stack", Actuator { damping, ..piezo(GROUND_SLIDER, stiffness, stroke_of) }));
-        // e^{-0.05 ω₀ t} has fallen below 1e-13.
+        // e^{-0.05 ω₀ t} is below 1e-13.
         let settled = (100.0 * part).ceil() * TAU / omega;
         let (model, _, rows) = trace(&scene, &event(1e-11, settled + TAU / omega), TAU / omega / 64.0);
         let x = column(&model, &rows, "end.x_m");
         let last = &x[x.len() - 65..x.len() - 1];
-        // The first harmonic over one period.
+        // First harmonic over one period.
         let sum = |f: fn(f64) -> f64| {
             last.iter().enumerate().map(|(i, x)| x * f(TAU * i as f64 / 64.0)).sum::<f64>() / 32.0
         };
@@ -359,7 +353,7 @@ fn equilibrium_of_a_spring_beside_a_contact() {
     assert_eq!(v, 0.0);
 }
 
-/// Two sliders in series carry one load: each contact gives way as if alone.
+/// Two sliders in series carry one load: gross slip begins in each contact as if alone.
 #[test]
 fn equilibrium_of_two_sliders_in_series() {
     let (lower, upper) = (Known::paraboloid(GROUND_SLIDER, 1e-3), Known::cone(FOOT_SLIDER, 0.01));
@@ -389,6 +383,6 @@ fn no_equilibrium_beyond_the_limit_of_friction() {
     assert_eq!((error.part, error.field), (Part::Run, Field::Start));
     let message = error.fault.to_string();
     assert!(message.contains("slider") && error.fault.advice().is_some(), "{error}");
-    // A tenth of the limit stays unbalanced.
+    // A tenth of the limit remains unbalanced.
     assert!(message.contains("e-2 N"), "{error}");
 }

@@ -1,4 +1,4 @@
-//! Damping β of the springs that stick: a force βG\*m(c)u̇ beside the law of the contact.
+//! Contact damping β: a force βG\*m(c)u̇ of sticking springs in addition to the contact law.
 
 use crate::parts::{
     FOOT_SLIDER, column, contact, damped, damper, end, event, follower, foot_and_slider, free, named,
@@ -22,8 +22,8 @@ fn known(between: [Side; 2], profile: Profile, damping: f64) -> Contact {
     damped(&of_pair(pair, &contact(between, profile, MU, FORCE)), damping)
 }
 
-/// A flat punch of radius b sticks whole, k = 2G\*b: under a step load F the slider is the oscillator
-/// m ẍ + βk ẋ + k x = F, x = X[1 - e^{-δt}(cos ω_d t + (δ/ω_d) sin ω_d t)], δ = βω²/2.
+/// Flat punch of radius b in full stick, k = 2G\*b: under a step load F the slider satisfies m ẍ + βk ẋ + k x = F, x = X[1 -
+/// e^{-δt}(cos ω_d t + (δ/ω_d) sin ω_d t)], δ = βω²/2.
 #[test]
 fn a_stuck_slider_is_a_damped_oscillator() {
     let (radius, mass, force) = (1e-4, 0.02_f64, 0.3 * MU * FORCE);
@@ -46,7 +46,7 @@ fn a_stuck_slider_is_a_damped_oscillator() {
             let place = rest * (1.0 - decay * (phase.cos() + delta / fast * phase.sin()));
             let speed = rest * decay * omega * omega / fast * phase.sin();
             assert!((x[i] - place).abs() < 1e-9 * rest && (v[i] - speed).abs() < 1e-9 * rest * omega);
-            // What the load has done and nothing stores.
+            // Work of the load that is not stored.
             let lost = force * place - 0.5 * stiffness * place.powi(2) - 0.5 * mass * speed.powi(2);
             assert!((damped[i] - lost).abs() < 1e-9 * force * rest, "{:e} {lost:e}", damped[i]);
             assert!(friction[i].abs() < 1e-12 * force * rest);
@@ -54,7 +54,7 @@ fn a_stuck_slider_is_a_damped_oscillator() {
     }
 }
 
-/// A paraboloid under a prescribed motion of corners, all at one speed.
+/// Paraboloid under a piecewise linear motion of constant speed.
 struct Path {
     u_c: f64,
     stiffness: f64,
@@ -66,7 +66,7 @@ struct Path {
 }
 
 impl Path {
-    /// Through the `corners`, in u_c, with β such that βku̇ is `part` of μF_N; 200 rows per u_c.
+    /// Through the `corners`, in u_c, with β such that βku̇ is a fraction `part` of μF_N; 200 rows per u_c.
     fn along(corners: &[f64], part: f64) -> Self {
         let radius = 1e-3;
         let d = (0.75 * FORCE / (E * f64::sqrt(radius))).powf(2.0 / 3.0);
@@ -84,15 +84,15 @@ impl Path {
         scene.waveforms.push(named("path", path));
         scene.bodies = vec![named("foot", follower(0)), named("wall", Body::default())];
         scene.contacts.push(named("ball", known(FOOT_SLIDER, Profile::paraboloid(radius).unwrap(), beta)));
-        // Rows beside the corners, where the force jumps.
+        // Rows near the corners, where the force jumps.
         let (model, _, rows) = trace(&scene, &event(1e-10, end), 1e-3 / 199.7);
         let [u, force, damping] =
             ["ball.u_m", "ball.fx_N", "energy.damping_J"].map(|name| column(&model, &rows, name));
         Self { u_c, stiffness, speed, beta, u, force, damping }
     }
 
-    /// Force in parts of μF_N, after `travel` u_c from the last turn at `turn` with its `elastic` force there: the law of a
-    /// virgin contact (scale 1) or of one that turned (scale 2), and the damped springs of the part c/a that sticks.
+    /// Force in units of μF_N after `travel` (u_c) from the last reversal with elastic force `elastic`. `scale` is 1 for first
+    /// loading and 2 after a reversal; the fraction c/a of sticking springs is damped.
     fn force(&self, (scale, elastic): (f64, f64), travel: f64, sense: f64) -> f64 {
         let stuck = 1.0 - travel / scale;
         let damped = self.beta * self.stiffness * self.speed / (MU * FORCE) * stuck.sqrt();
@@ -100,8 +100,8 @@ impl Path {
     }
 }
 
-/// Forward to 0.6 u_c, back to 0.4, forward into gross slip. The damped part exceeds the limit of friction, vanishes in
-/// gross slip, and jumps where the small loop closes.
+/// Forward to 0.6 u_c, back to 0.4, forward into gross slip. The damped force exceeds the friction limit, vanishes in gross slip,
+/// and jumps when the small loop closes.
 #[test]
 fn damping_exceeds_the_limit_of_friction_and_jumps_where_loops_close() {
     let path = Path::along(&[0.6, 0.4, 1.4], 1.5);
@@ -132,7 +132,7 @@ fn damping_exceeds_the_limit_of_friction_and_jumps_where_loops_close() {
     assert!(travelled > 1.7 && largest > 1.4, "{travelled} {largest}");
 }
 
-/// Work of the damped springs in a cycle of amplitude U: βkv(8u_c/3)[1-(1-U/u_c)^{3/2}], k(c) integrated along the path.
+/// Work of damped springs in a cycle of amplitude U: βkv(8u_c/3)[1-(1-U/u_c)^{3/2}], the integral of k(c) along the path.
 #[test]
 fn work_of_damped_springs_in_a_cycle() {
     for amplitude in [0.3, 0.8, 1.0, 1.5] {
@@ -147,9 +147,8 @@ fn work_of_damped_springs_in_a_cycle() {
     }
 }
 
-/// In gross slip no spring sticks, and none resists: P1 with damped springs slides along parabolas, |v̇| = μF_N/m, in steps that
-/// evaluate nothing; where a slide ends its springs resist again. All of it against the classical Runge–Kutta method at fixed
-/// steps, which asks the whole law and knows no events.
+/// In gross slip no spring sticks, so damped P1 moves along parabolas with |v̇| = μF_N/m without evaluations. Compared with the
+/// classical Runge–Kutta method with fixed steps on the full force law.
 #[test]
 fn a_damped_contact_slides_along_parabolas() {
     let (mut scene, every, stroke) = (p1(), 1e-6, 0.5e-6);
@@ -171,7 +170,7 @@ fn a_damped_contact_slides_along_parabolas() {
     let tally = state.tally();
     let told = (tally.steps(Method::Parabola), tally.intervals(0, Treatment::Closed));
     assert!(told.0 >= 3 && told.1 >= 3 && tally.intervals(0, Treatment::General) > told.1, "{told:?}");
-    // Steps that divide the rise and the fall. Undamped the slider ends 1e-2 of the stroke away.
+    // Steps that divide rise and fall. The undamped slider ends at a distance of 1e-2 strokes.
     let (_, fixed) = end(&scene, &plan(Stepper::Rk4 { step: 1e-4 / 2048.0 }, 3e-3));
     let place = |state: &stickslip_drive::State| state.body(&model, 1).unwrap().0;
     let apart = (place(&state) - place(&fixed)).abs() / stroke;
@@ -179,10 +178,8 @@ fn a_damped_contact_slides_along_parabolas() {
     assert!(apart < 2e-5, "{apart:e}");
 }
 
-/// A sphere pressed by a sine on a foot that follows a cycloid of twice its period: gross slip once a period wipes the memory, so
-/// that the motion is periodic and its steps are equal. While the contact shrinks its apex crosses pieces along which the edge once
-/// slid: all of them slip at once, and the force of the damped springs jumps there. Where the length that sticks had a kink at
-/// that very moment, inside steps, single steps were 8e-9 u_c off at a tolerance of 1e-12.
+/// Sphere under a sinusoidal normal load on a foot with a cycloid of twice its period. Gross slip erases the memory once a
+/// period, so all steps are equal. While the contact shrinks, the damping force jumps where its apex crosses slipped pieces.
 #[test]
 fn steps_of_a_shrinking_damped_contact_repeat_themselves() {
     let (period, from, tolerance) = (1.913268e-3, 60, 1e-12);
@@ -204,9 +201,8 @@ fn steps_of_a_shrinking_damped_contact_repeat_themselves() {
     assert!(steps.len() > 70 && least > 1.0 && most - least < 100.0 * tolerance, "{:e}", most - least);
 }
 
-/// Where a damped flat punch gives way its springs begin to slip all at once. Its law goes on as it was for the rest of the step that
-/// is tried beyond; where its damping vanished there, steps had to end at that very moment, which from period 142 on no time was fine
-/// enough for: detours took their place, and steps were 5e-9 u_c too long.
+/// Damped flat punch at the beginning of gross slip, where all springs slip at once. Its law is smooth beyond that event, so no
+/// step is refused.
 #[test]
 fn where_a_damped_flat_punch_gives_way_no_step_is_refused() {
     let (period, from, tolerance) = (1e-3, 60, 1e-12);
@@ -228,9 +224,8 @@ fn where_a_damped_flat_punch_gives_way_no_step_is_refused() {
     assert!(least > 1.0 && most - least < 300.0 * tolerance, "{:e}", most - least);
 }
 
-/// A contact that is damped so strongly that long before a corner only its last bits turn to and fro. Where it turned at the very moment of
-/// the corner it went on as it would have without it, against the way the corner sends it, and what looks for the end of its slip found
-/// none: one step in a hundred was 2.5 % too short, at any tolerance.
+/// Strongly damped contact whose motion before a corner is rounding. A reversal at the time of the corner must not change the
+/// direction of slip after it.
 #[test]
 fn a_contact_that_turns_at_a_corner_goes_where_the_corner_sends_it() {
     let period = 2.978_508_455_376_926e-3;
@@ -249,12 +244,8 @@ fn a_contact_that_turns_at_a_corner_goes_where_the_corner_sends_it() {
     }
 }
 
-/// A slider on a sine, held down by a damped spring on three damped balls: two of them (∝ h^{1/2}) are in gross slip while the last springs
-/// of the third, a power 3/2 whose damping fades with h^{2/3}, still stick. Gross slip has no end; as none is expected of it the
-/// end of the third one must be all the same, or steps go across it as they come: single ones were 3e-5 u_c off at a tolerance of
-/// 1e-6 and 3e-8 at 1e-12. A step whose stages crowd towards that end tells a thousandth of what it misses. And in gross slip of all
-/// three the slider still swings on what it presses: where only waveforms bound steps there, rounding of z grew up to the tolerance, its
-/// rate turned laws, and at 1e-4 steps were up to 0.07 u_c off.
+/// Slider on a sine, pressed by a damped spring on three damped balls with different profiles: gross slip begins in one after the
+/// other. The steps must resolve the end of stick in the last contact, and the oscillation of the normal load in gross slip.
 #[test]
 fn damped_contacts_give_way_one_after_the_other() {
     let period = 1e-3;
@@ -293,10 +284,8 @@ fn damped_contacts_give_way_one_after_the_other() {
     }
 }
 
-/// A damped cone is pressed on a foot that moves on, sticks as a whole while it is pressed fast, and slips back through the path on which
-/// it grew. What sticks then, and is damped, is told by the pieces of that path. With pieces that bend as far as is good enough for the
-/// force a step of the drive was 2e-5 u_c off at a tolerance of 1e-6 and 4e-7 at 1e-8 after 6 µs, and all steps met their kinks. Against the
-/// classical Runge–Kutta method at fixed steps, which knows the path by its own steps.
+/// Damped cone under a growing normal load on a moving foot: full stick, then slip through the path of growth. The damping
+/// depends on the pieces of that path. Compared with the classical Runge–Kutta method with fixed steps.
 #[test]
 fn slip_that_cuts_back_through_a_path_of_growth_is_damped_by_what_sticks() {
     let duration = 6e-6;
@@ -323,7 +312,7 @@ fn slip_that_cuts_back_through_a_path_of_growth_is_damped_by_what_sticks() {
         let (place, counts) = ended(&event(tolerance, duration));
         let off = (place - fine).abs();
         println!("{tolerance:e}: {off:e} off, {counts:?}");
-        // The fixed steps see what sticks by a trial of 1e-6 of a radian.
+        // Fixed steps find sticking springs by a trial of 1e-6 rad.
         assert!(off < 2.0 * f64::max(tolerance, 1e-7), "{tolerance:e}: {off:e}");
         assert!(counts.evaluations < 400, "{counts:?}");
     }

@@ -1,4 +1,4 @@
-//! The books of energy where bodies move in the plane: contacts land, grow, rock, shrink and leave.
+//! Energy balance of bodies that move in the plane: contacts land, grow, rock, shrink and separate.
 
 use crate::parts::{
     channel, column, event, fitted_order, foot_and_slider, named, of_profile, plan, trace, wave,
@@ -16,7 +16,7 @@ fn moving(velocity: f64) -> Coordinate {
     Coordinate { velocity, ..Coordinate::FREE }
 }
 
-/// A ball that falls by 10 µm, sliding and turning.
+/// Ball that falls by 10 µm, with sliding and rotation.
 fn bouncing() -> Scene {
     let radius = 5e-3;
     let mut body = planar(0.01, 0.4 * 0.01 * radius * radius);
@@ -32,7 +32,7 @@ fn bouncing() -> Scene {
     }
 }
 
-/// A stage that is pushed off from where it stands.
+/// Stage with an initial velocity.
 fn rocking(feet: &[Foot], push: f64) -> Scene {
     let mut scene = stage(feet, HEIGHT, 0.3);
     scene.gravity = earth(0.0);
@@ -49,7 +49,7 @@ fn rocking(feet: &[Foot], push: f64) -> Scene {
 
 const SAWTOOTH: Shape = Shape::Sawtooth { stroke: 0.5e-6, flyback: 0.1e-3 };
 
-/// A foot that moves to and fro under a stage on three balls.
+/// Foot that moves back and forth under a stage on three balls.
 fn driven(shape: Shape, profile: &Profile) -> Scene {
     let mut scene = stage(&THREE, HEIGHT, 0.15);
     let slider = scene.bodies.remove(0);
@@ -63,7 +63,7 @@ fn driven(shape: Shape, profile: &Profile) -> Scene {
     scene
 }
 
-/// The same on a spring that presses, with dampers and damped contacts.
+/// The same with a preloaded spring, dampers and damped contacts.
 fn damped(mut scene: Scene, beta: f64, viscous: f64) -> Scene {
     let body = scene.bodies.len() - 1;
     for contact in &mut scene.contacts {
@@ -104,7 +104,7 @@ fn books(scene: &Scene, plan: &Plan, rows: u32) -> Books {
 }
 
 impl Books {
-    /// Largest error of any row in parts of the throughput.
+    /// Largest error of any row relative to the throughput.
     fn worst(&self) -> f64 {
         self.error.iter().fold(0.0_f64, |most, e| e.abs().max(most)) / self.throughput
     }
@@ -118,7 +118,7 @@ impl Books {
     }
 }
 
-/// Scenes with a duration and the least number of landings, of growths in full stick and of gross slips.
+/// Models with a duration and the smallest numbers of landings, full stick and gross slip.
 fn scenes() -> Vec<(&'static str, Scene, f64, [usize; 3])> {
     let paraboloid = || Profile::paraboloid(BALL).unwrap();
     vec![
@@ -170,7 +170,7 @@ fn damping_is_the_integral_of_the_power_of_the_dampers() {
 
 #[test]
 fn damping_of_contacts_is_that_of_their_stuck_springs() {
-    // βG*ṡ on every spring that sticks, those within the stick radius: power βG* 2c u̇², u̇ = v_foot - v_x - Hθ̇.
+    // Power βG* 2c u̇² of the springs within the stick radius c, u̇ = v_foot - v_x - Hθ̇.
     let beta = 1e-5;
     let smooth = Shape::Cycloid { stroke: 0.5e-6, flyback: 0.1e-3 };
     let mut scene = damped(driven(smooth, &Profile::paraboloid(BALL).unwrap()), beta, 0.0);
@@ -186,7 +186,7 @@ fn damping_of_contacts_is_that_of_their_stuck_springs() {
     let power: Vec<f64> = (0..x.len()).map(power).collect();
     let (got, want) = (books.damping[20_000], integral(&books.time, &power));
     println!("{got:e}, integral {want:e}");
-    // The stick radius jumps at every reversal and bends at every loop: Simpson's rule is off there.
+    // Simpson's rule is inaccurate where the stick radius jumps or has kinks.
     assert!((got - want).abs() < 2e-5 * want, "{got:e} {want:e}");
     assert!(got > 1e-3 * books.throughput);
 }
@@ -215,8 +215,7 @@ fn fixed_steps_balance_at_their_own_order() {
     }
 }
 
-/// Falls from several heights, each landing somewhere else in a step: on its way beyond the touch the step met forces of a
-/// contact that was not there yet. v² = 2g(h-z) to the last digits, wherever near z = 0 the touch is found.
+/// Falls from several heights, with landings at different positions in a step. v² = 2g(h-z) at the touch.
 #[test]
 fn flight_ends_with_the_speed_of_free_fall() {
     for height in [1e-6, 3e-6, 10e-6, 31e-6, 100e-6] {

@@ -1,4 +1,4 @@
-//! Long runs: what a drive does far from its start is what it did near to it.
+//! Long runs: the behaviour far from the start equals that near it.
 
 use crate::parts::{column, contact, end, event, fitted_order, foot_and_slider, p1, push, trace, wave};
 use stickslip_contact::Profile;
@@ -7,8 +7,8 @@ use stickslip_drive::scene::{Named, Side};
 
 const PERIOD: f64 = 1e-3;
 
-/// 5 000 periods of P1 carry it 40 000 u_c away. Known: its steps stay what they are from the tenth on, 502.996042090 nm
-/// (`tests/data/drive_p1.json`); rounding of a position of 2.5 mm alone is 4e-19 m, 1e-12 of a step.
+/// 5 000 periods of P1, over 40 000 u_c. Its steps are constant from the tenth on, 502.996042090 nm (`tests/data/drive_p1.json`).
+/// Rounding of a position of 2.5 mm is 1e-12 of a step.
 #[test]
 fn steps_far_away_are_those_near_by() {
     let periods = 5000.0;
@@ -18,14 +18,14 @@ fn steps_far_away_are_those_near_by() {
     let worst = x.windows(2).skip(10).map(|w| ((w[1] - w[0]) / known - 1.0).abs()).fold(0.0, f64::max);
     println!("x = {:e} m, steps within {worst:.1e}", state.body(&model, 1).unwrap().0);
     assert!(x[5000] > 2.5e-3 && worst < 2e-11, "{worst:e}");
-    // Rows speak of the places of the start: u is the foot less the slider.
+    // Rows count from the initial positions: u is the foot minus the slider.
     let [foot, u] = ["foot.x_m", "ball.u_m"].map(|name| column(&model, &rows, name));
     for ((u, foot), x) in u.iter().zip(&foot).zip(&x) {
         assert!((u - (foot - x)).abs() < 1e-18, "{u:e} {foot:e} {x:e}");
     }
 }
 
-/// A load does work over the whole way, and friction takes it: the books close far away, too.
+/// The energy balance closes far away, with work of a load and friction.
 #[test]
 fn energy_books_close_far_away() {
     let ball = contact(crate::parts::FOOT_SLIDER, Profile::paraboloid(1e-3).unwrap(), 0.15, 1.0);
@@ -44,8 +44,7 @@ fn energy_books_close_far_away() {
     assert!(error.iter().all(|error| error.abs() < 1e-9 * input[10]), "{error:?}");
 }
 
-/// Under constant load the stepper keeps the order of its method, 8, through all events. Two sliders side by side: a single
-/// one would not be stepped.
+/// Under constant load the stepper has order 8 through all events. Two sliders, because a single one is solved in closed form.
 #[test]
 fn order_through_the_events_of_p1() {
     let known = 1.008_428_628_032_075e-5;

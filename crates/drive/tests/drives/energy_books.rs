@@ -1,7 +1,7 @@
-//! The books of energy: what goes in is stored or lost, input = kinetic + elastic + friction + damping.
+//! Energy balance: input = kinetic + elastic + friction + damping.
 //!
-//! Each entry has a source of its own (friction from the swept pieces of the memory or its power, input and damping
-//! as integrals over time, the stored parts from the state), so that nothing closes by construction.
+//! Each energy is computed separately: friction from erased pieces of memory or its power, input and damping as time integrals,
+//! stored energies from the state.
 
 use crate::parts::{
     FOOT_SLIDER, column, contact, damper, event, fitted_order, foot_and_slider, free, named, p1, piezo, plan,
@@ -12,8 +12,8 @@ use stickslip_drive::scene::{Actuator, Normal, Scene, Side, Varying};
 use stickslip_drive::{Plan, Shape, Stepper};
 
 const PERIOD: f64 = 1e-3;
-/// Work is an integral beside the motion: it does not steer the step. In gross slip on a sine, where the motion is a
-/// parabola and steps are long, it is good to 1e-9 at tolerances from 1e-7 to 1e-11, to 1e-11 at this one.
+/// Work is an integral without error control. In gross slip on a sine, with long parabolic steps, its error is 1e-9 at tolerances
+/// from 1e-7 to 1e-11, and 1e-11 at this one.
 const TIGHT: f64 = 1e-13;
 const GROUND_SLIDER: [Side; 2] = [Side::Ground, Side::Body(1)];
 
@@ -72,7 +72,7 @@ fn scenes() -> [(&'static str, Scene); 8] {
     ]
 }
 
-/// Columns of the books, row by row.
+/// Energy columns by row.
 struct Books {
     input: Vec<f64>,
     kinetic: Vec<f64>,
@@ -101,13 +101,13 @@ impl Books {
         }
     }
 
-    /// Largest amount in any entry, J.
+    /// Largest energy in any column, J.
     fn throughput(&self) -> f64 {
         let entries = [&self.input, &self.kinetic, &self.elastic, &self.friction, &self.damping];
         entries.into_iter().flatten().fold(0.0, |most, e| e.abs().max(most))
     }
 
-    /// Largest imbalance of any row in parts of the throughput, with the friction multiplied by a factor.
+    /// Largest balance error of any row relative to the throughput, with friction multiplied by a factor.
     fn imbalance(&self, factor: f64) -> f64 {
         let stored = |i: usize| self.kinetic[i] + self.elastic[i];
         let lost = |i: usize| factor * self.friction[i] + self.damping[i];
@@ -175,16 +175,16 @@ fn fixed_steps_balance_at_their_own_order() {
                 .collect();
             let order = fitted_order(&points);
             println!("{method}, {name}: order {order:.2}, down to {:.1e}", points[5].1);
-            // Where the foot's velocity jumps, the power of a step that starts or ends at the corner is taken on its
-            // wrong side: that costs the books, not the motion, one order.
+            // At jumps of the foot's velocity a fixed step evaluates the power on the wrong side, which reduces the order of the
+            // balance by one.
             let least = if scene.waveforms[0].part.resolution().is_finite() { 1.9 } else { 0.9 };
             assert!(order > least, "{method}, {name}: {points:?}");
         }
     }
 }
 
-/// Of the half period of a foot that goes to and fro by 1 mm partial slip takes a sixtieth, right after the crest, where the power is 0:
-/// a step over all of it missed 3e-4 of the work at 1e-4, and 2e-5 at 1e-8.
+/// A foot moves back and forth by 1 mm; partial slip takes a sixtieth of the half period, after the crest. The work of this phase
+/// must be resolved.
 #[test]
 fn partial_slip_after_a_crest_is_not_leapt_over() {
     let mut scene = driven_by(sine(1e-3));

@@ -1,11 +1,11 @@
-//! Contacts far from where they started: what rounding leaves of u there must set off nothing.
+//! Contacts far from their start: rounding of u must not cause events.
 
 use crate::parts::{FOOT_SLIDER, channel, contact, damper, event, follower, free, named, trace, wave};
 use stickslip_contact::Profile;
 use stickslip_drive::scene::{Body, Coordinate, Scene, Side, Spring};
 use stickslip_drive::{Shape, Timing, Waveform};
 
-/// A foot goes far, and then to and fro in turns of the gross-slip displacement; the slider is held by a spring.
+/// A foot moves far, and then back and forth by the gross slip displacement; a spring holds the slider.
 fn far_and_to_and_fro(far: f64, u_c: f64) -> (Scene, f64) {
     let turns = [0.0, 0.9, 0.3, 0.8, 0.4, 0.7, 0.5, 0.65, 0.55, 0.95, -0.2, 0.9];
     let time = |k: usize| 1e-3 * k as f64;
@@ -24,8 +24,7 @@ fn far_and_to_and_fro(far: f64, u_c: f64) -> (Scene, f64) {
     (scene, duration)
 }
 
-/// The contact remembers no more of a travel than that it slipped: forces are those of a short one, to what an ulp of u
-/// makes of them. Between rounded places the slider swung by parts of an ulp, and each swing was taken for a reversal.
+/// The forces agree with those near the start up to rounding of u; oscillations of one bit are no reversals.
 #[test]
 fn loops_far_from_the_start_are_those_near_it() {
     let (scene, duration) = far_and_to_and_fro(1.0, 0.0);
@@ -50,8 +49,7 @@ fn loops_far_from_the_start_are_those_near_it() {
     }
 }
 
-/// A flat foot on a cycloid, whose slider starts somewhere: where that is changes nothing but rounding of its places. Steps asked at 1e-12
-/// for less than rounding leaves in the forces were 40 times as many as from the origin at 1 mm, in two periods.
+/// Flat foot on a cycloid with different initial positions of the slider. Rounding must not increase the number of steps.
 #[test]
 fn a_start_far_from_the_origin_costs_no_steps() {
     let period = 2e-3;

@@ -1,4 +1,4 @@
-//! Inputs that a caller feeds while a run goes on.
+//! Inputs that a caller supplies during a run.
 
 use crate::held::finished;
 use crate::lottery::on_rows;
@@ -11,7 +11,7 @@ use stickslip_drive::{
 
 const PERIOD: f64 = 1e-3;
 
-/// The sawtooth of P1, or one that is supplied.
+/// P1 with its sawtooth, or a supplied one.
 fn dragged(shape: Shape) -> Scene {
     let ball = contact(FOOT_SLIDER, Profile::paraboloid(1e-3).unwrap(), 0.15, 1.0);
     let mut drive = wave("drive", shape.clone(), PERIOD);
@@ -25,7 +25,7 @@ fn input(interpolation: Interpolation) -> Shape {
     Shape::Input { initial: 0.0, range: (-1e-6, 1e-6), interpolation }
 }
 
-/// Fed piece by piece, as late as can be, an input is the waveform: rows and corners to the bit.
+/// An input that is supplied piece by piece gives the rows and corners of the waveform, with identical bits.
 #[test]
 fn a_sawtooth_fed_as_an_input_is_the_sawtooth() {
     let (stroke, flyback) = (1e-6, 20e-6);
@@ -42,7 +42,7 @@ fn a_sawtooth_fed_as_an_input_is_the_sawtooth() {
             fed.advance(until, &mut trace).unwrap();
         }
     }
-    // The corner at the end wants to know what is next.
+    // The corner at the end requires the next piece.
     fed.lead(0, 5.0 * PERIOD, stroke).unwrap();
     fed.advance(4.0 * PERIOD + 1e-9, &mut trace).unwrap();
     assert_eq!(trace.rows().len(), rows.rows().len() - 1);
@@ -51,13 +51,13 @@ fn a_sawtooth_fed_as_an_input_is_the_sawtooth() {
         |trace: &Trace| -> Vec<_> { trace.events().map(|(event, after)| (*event, after.to_vec())).collect() };
     let (fed, known) = (corners(&trace), corners(&rows));
     assert_eq!(fed.len(), known.len());
-    // The last corner of the waveform turns into its own next rise, that of the input into another one.
+    // The last corner differs: the waveform rises again.
     let last = 4.0 * PERIOD - 1e-9;
     assert!(fed.iter().zip(&known).filter(|(a, _)| a.0.t < last).all(|(a, b)| a == b));
     assert!(known.iter().any(|(event, _)| event.kind == EventKind::Corner));
 }
 
-/// A held input jumps: contacts move in no time, and the books close. Held at what it has, nothing happens.
+/// A held input jumps in zero time and the energy balance closes. Holding the present value changes nothing.
 #[test]
 fn a_held_input_jumps_and_its_work_is_booked() {
     let model = Model::new(&dragged(input(Interpolation::Held))).unwrap();
@@ -109,8 +109,7 @@ fn what_an_input_does_not_take_is_refused() {
     assert_eq!(held.err(), Some(RunError::NotHeld { stepper: "dopri5" }));
 }
 
-/// A row of springs under a load that is fed follows it by chords, as under the same load from a table: as near to it as ten
-/// times as many of them are.
+/// A row of springs under a supplied load agrees with the same load from a table.
 #[test]
 fn a_row_under_a_fed_load_is_the_row_under_its_table() {
     let corners: Vec<(f64, f64)> = (0..=40)

@@ -1,4 +1,4 @@
-//! Steps of few stages at loose tolerances: their error is that of what time alone makes of a force, too, and of the work of it.
+//! Steps with few stages at large tolerances: their error includes time-dependent forces and their work.
 
 use crate::parts::{column, contact, event, foot_and_slider, plan, push, trace, wave};
 use stickslip_contact::Profile;
@@ -7,7 +7,7 @@ use stickslip_drive::{Plan, Shape, Stepper};
 
 const PERIOD: f64 = 1.64e-3;
 
-/// A slider of 110 g on balls of no closed form, whose foot flies back in 0.2 µs.
+/// Slider of 110 g on balls without closed form, with a flyback of 0.2 µs.
 fn flyback() -> Scene {
     let profile = Profile::powers(&[(1e3, 2.0), (4.4e12, 4.0)]).unwrap();
     let drive = wave("drive", Shape::Sawtooth { stroke: 0.1e-6, flyback: 0.2e-6 }, PERIOD);
@@ -16,8 +16,7 @@ fn flyback() -> Scene {
     scene
 }
 
-/// In a flank the slider hardly moves, and the work put in is an integral over time alone. Each entry of the books has a source of its
-/// own: what they miss is what that integral does. It was 6e-4 of all work at 1e-5 and 1e-6.
+/// During a short flyback the input work is an integral over time alone, and must be accurate.
 #[test]
 fn the_work_of_a_short_flank_is_met() {
     let duration = 9.3 * PERIOD;
@@ -33,8 +32,7 @@ fn the_work_of_a_short_flank_is_met() {
     }
 }
 
-/// Sixteen springs that slip one by one under a foot on parabolas, against the method of Runge and Kutta of 4e5 steps, which tolerances of
-/// 1e-8 and 1e-9 meet to 3e-7. At 1e-5 the way was 3e-3 off.
+/// Sixteen springs that slip one by one under a parabolic foot motion, compared with 4e5 Runge–Kutta steps.
 #[test]
 fn springs_that_slip_on_the_way_are_not_stepped_over() {
     let period = 0.2e-3;
@@ -52,7 +50,7 @@ fn springs_that_slip_on_the_way_are_not_stepped_over() {
     let way = |plan: &Plan| way_of(plan, 1.0);
     let (exact, unit) = way(&plan(Stepper::Rk4 { step: duration / 4e5 }, duration));
     for tolerance in [1e-5, 1e-6] {
-        // Where steps end, rounding has its part in it: the middle one of five counts.
+        // Rounding affects where steps end: the median of five runs counts.
         let mut offs = [0, 1, 2, 3, 4].map(|k| {
             let (found, _) = way_of(&event(tolerance, duration), 1.0 + 1e-13 * f64::from(k));
             found.iter().zip(&exact).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max) / unit

@@ -1,7 +1,6 @@
-//! Waveforms made inside, commanded while a run goes on.
+//! Generators that are commanded during a run.
 //!
-//! What a generator must do follows from the rule alone: a cycle takes what is in force when it begins. Tables worked out here
-//! from that rule, without the generator, are what its runs are held against.
+//! Each cycle uses the command in force at its start. The runs are compared with tables computed from this rule alone.
 
 use crate::held::finished;
 use crate::lottery::Draw;
@@ -27,7 +26,7 @@ fn generator(initial: Command) -> Generator {
     Generator { cycle, initial, strokes: (0.0, STROKE), frequencies: (0.0, 5e3) }
 }
 
-/// The slider of P1 on a foot that follows this.
+/// Slider of P1 on a foot with this waveform.
 fn dragged(shape: Shape, timing: Timing) -> Scene {
     let ball = contact(FOOT_SLIDER, Profile::paraboloid(1e-3).unwrap(), 0.15, 1.0);
     foot_and_slider(named("drive", Waveform::new(shape, timing).unwrap()), 0.02, ball)
@@ -51,13 +50,13 @@ fn steppers() -> [Stepper; 5] {
     ]
 }
 
-/// Value of the foot.
+/// Position of the foot.
 fn value(run: &Run<'_>, model: &Model) -> f64 {
     run.state().body(model, 0).unwrap().0
 }
 
-/// Left alone it is the plain sawtooth of the same numbers: rows and events to the bit by every stepper, in a spring's
-/// company, too, where steps are taken instead of leaps.
+/// Without commands the generator equals a sawtooth with the same parameters: identical rows and events for every stepper, also
+/// with a spring, where steps are taken.
 #[test]
 fn a_generator_left_alone_is_the_sawtooth() {
     let frequency = PERIOD.recip();
@@ -105,7 +104,7 @@ fn a_generator_left_alone_is_the_sawtooth() {
     }
 }
 
-/// So many steps, then rest: the plain sawtooth of so many cycles, and the waveform says so beforehand.
+/// A number of steps, then rest, equals a sawtooth with as many cycles.
 #[test]
 fn steps_are_counted_and_end_in_rest() {
     let frequency = PERIOD.recip();
@@ -123,7 +122,7 @@ fn steps_are_counted_and_end_in_rest() {
         (waveform.range(), waveform.is_straight(), waveform.has_jumps()),
         ((0.0, STROKE), true, false)
     );
-    // In frames, told as they go.
+    // In frames, for which the number is reported.
     for stepper in &steppers()[..4] {
         let plan = Plan { stepper: *stepper, ..plan };
         let mut run = begun(&model, &plan);
@@ -131,7 +130,7 @@ fn steps_are_counted_and_end_in_rest() {
         while run.state().time() < 4.0 * PERIOD {
             k += 1;
             run.advance(f64::from(k) * 130e-6, &mut ()).unwrap();
-            // Whole cycles so far, and the one under way.
+            // Completed cycles and the present one.
             let cycles = (130e-6 * f64::from(k) / PERIOD).floor() as u64 + 1;
             let told = run.state().generated(0).unwrap();
             assert_eq!(told.begun, cycles.min(3), "{stepper:?} {k}");
@@ -142,9 +141,8 @@ fn steps_are_counted_and_end_in_rest() {
     }
 }
 
-/// Points of a table worked out by the rule: (time, value) at every corner until `end`, for commands at given times.
-///
-/// Cycles that go on unchanged are counted from where they began, as the generator says it does.
+/// Points (time, value) of the table at every corner until `end`, for commands at given times. Equal cycles count from their
+/// first one.
 fn by_the_rule(
     initial: Command,
     commands: &[(f64, Command)],
@@ -191,11 +189,11 @@ fn drawn(draw: &mut Draw) -> Command {
     Command { stroke, frequency, heading, steps }
 }
 
-/// Commands at random moments against the table of the same corners, by every stepper that is held.
+/// Commands at random times agree with the table, for every stepper.
 #[test]
 fn commands_at_any_moment_are_the_table_of_the_rule() {
     let end = 6.0 * PERIOD;
-    // By the event stepper off the table's run; by fixed steps off that, and the table itself by the same steps.
+    // Distances of the event stepper from the table's run, and of fixed steps from the table.
     let (mut worst, mut off_events) = (0.0_f64, [[0.0_f64; 2]; 3]);
     for seed in 0..40 {
         let mut draw = Draw::new(seed);
@@ -240,18 +238,18 @@ fn commands_at_any_moment_are_the_table_of_the_rule() {
     }
     println!("off the table {worst:e} u_c; on average off the events [generated, table]: {off_events:?} u_c");
     assert!(worst < 1e-9, "{worst:e}");
-    // Fixed steps end where cycles change, which those on the table do not: both are as far off.
+    // Fixed steps end at changes of cycles, but not at corners of the table: both have the same error.
     assert!(off_events.iter().all(|[generated, table]| *generated < 1.2 * table), "{off_events:?}");
 }
 
-/// Whatever is commanded, at whatever moment: a value in the window, no jump, no cycle that is not told of.
+/// For any commands the value stays in its range without jumps, and every cycle is reported.
 #[test]
 fn a_hundred_thousand_commands_keep_the_value_in_its_window() {
     for (seed, stepper) in
         [Stepper::Event { tolerance: 1e-3 }, Stepper::Verlet { step: 5e-6 }].into_iter().enumerate()
     {
         let mut draw = Draw::new(77 + seed as u64);
-        // Nothing but the foot moves: a step costs little.
+        // Only the foot moves, so steps are cheap.
         let mut scene = dragged(Shape::Generator(generator(command(Steps::Left(0)))), Timing::every(1.0));
         scene.bodies[1].part = stickslip_drive::scene::Body::default();
         let model = Model::new(&scene).unwrap();
@@ -259,7 +257,7 @@ fn a_hundred_thousand_commands_keep_the_value_in_its_window() {
         let mut run = begun(&model, &plan);
         let (mut t, mut before, mut begun) = (0.0, 0.0, 0);
         for k in 0..50_000 {
-            // Some at the same moment as the one before.
+            // Some at the same time as the previous one.
             if k % 5 != 0 {
                 t += draw.between(1e-7, 1.5e-5);
                 run.advance(t, &mut ()).unwrap();
@@ -267,7 +265,7 @@ fn a_hundred_thousand_commands_keep_the_value_in_its_window() {
             let now = value(&run, &model);
             assert!((0.0..=STROKE).contains(&now), "{k} {t}: {now}");
             let told = run.state().generated(0).unwrap();
-            // Not faster than the steepest way there is.
+            // At most the largest possible rate.
             assert!(
                 (now - before).abs() <= 1.5e-5 * STROKE / FLYBACK * (1.0 + 1e-9),
                 "{k} {t}: {before} {now}"
@@ -277,7 +275,7 @@ fn a_hundred_thousand_commands_keep_the_value_in_its_window() {
             (before, begun) = (now, told.begun);
             run.command(0, drawn(&mut draw)).unwrap();
             let commanded = run.state().generated(0).unwrap();
-            // Nothing has moved by that, and what has begun this very moment is at most one.
+            // The command moves nothing, and at most one cycle has just begun.
             assert_eq!(value(&run, &model), now);
             assert!(commanded.begun.abs_diff(begun) <= 1);
             begun = commanded.begun.min(begun);
@@ -287,7 +285,7 @@ fn a_hundred_thousand_commands_keep_the_value_in_its_window() {
     }
 }
 
-/// Fast up, slowly back: the slider is carried the other way by as much.
+/// Fast forward and slow return: the slider moves in the opposite direction by the same amount.
 #[test]
 fn backward_cycles_carry_the_slider_back() {
     let [forward, backward] = [Heading::Forward, Heading::Backward].map(|heading| {
@@ -298,11 +296,11 @@ fn backward_cycles_carry_the_slider_back() {
     });
     println!("forward {forward:e} m, backward {backward:e} m in 20 periods");
     assert!(forward > 10.0 * STROKE && backward < -10.0 * STROKE);
-    // The same but for the first and the last cycle, which begin and end on other sides of the flyback.
+    // Except for the first and last cycle.
     assert!((forward + backward).abs() < 2.0 * STROKE, "{forward:e} {backward:e}");
 }
 
-/// No frequency, no stroke, no steps: no corner. A command begins at once, one for the next cycle waits for it.
+/// Without frequency, stroke or steps there are no corners. A command begins at once; one for the next cycle waits.
 #[test]
 fn rest_costs_nothing_and_ends_at_once() {
     let idle = [
@@ -318,7 +316,7 @@ fn rest_costs_nothing_and_ends_at_once() {
         run.advance(0.37 * PERIOD, &mut trace).unwrap();
         assert_eq!((run.state().counts().events, value(&run, &model)), (0, 0.0));
         assert!(!run.state().generated(0).unwrap().runs);
-        // What does nothing makes no corner, either.
+        // A command without motion makes no corner.
         run.command(0, Command { heading: Heading::Backward, ..idle }).unwrap();
         run.command(0, idle).unwrap();
         run.advance(0.5 * PERIOD, &mut trace).unwrap();
@@ -327,7 +325,7 @@ fn rest_costs_nothing_and_ends_at_once() {
         run.advance(0.75 * PERIOD, &mut trace).unwrap();
         let expected = 0.25 * PERIOD * STROKE / (PERIOD - FLYBACK);
         assert!((value(&run, &model) - expected).abs() < 1e-12 * STROKE);
-        // It goes on as it began.
+        // The present cycle is completed.
         run.command(0, Command { heading: Heading::Backward, ..command(Steps::Left(2)) }).unwrap();
         run.advance(1.5 * PERIOD + 0.5 * FLYBACK, &mut trace).unwrap();
         assert!((value(&run, &model) - 0.5 * STROKE).abs() < 1e-9 * STROKE);
@@ -340,7 +338,7 @@ fn rest_costs_nothing_and_ends_at_once() {
     }
 }
 
-/// A command at the very moment at which a cycle begins is in force for it, by every stepper.
+/// A command at the start of a cycle applies to that cycle, for every stepper.
 #[test]
 fn a_command_at_a_corner_is_the_cycle_that_begins_there() {
     let model = commanded(generator(command(Steps::Endless)));
@@ -349,10 +347,10 @@ fn a_command_at_a_corner_is_the_cycle_that_begins_there() {
         for same in [false, true] {
             let plan = plan(*stepper, 1.0);
             let mut run = begun(&model, &plan);
-            // The corner itself, as the generator has it.
+            // The exact corner of the generator.
             run.advance(2.0 * PERIOD, &mut ()).unwrap();
             assert_eq!(run.state().generated(0).unwrap().begun, 3);
-            // The second of two at one moment counts.
+            // The second of two commands at one time counts.
             run.command(0, if same { command(Steps::Left(2)) } else { command(Steps::Left(0)) }).unwrap();
             run.command(0, if same { command(Steps::Left(1)) } else { back }).unwrap();
             run.advance(2.0 * PERIOD + 0.5 * FLYBACK, &mut ()).unwrap();
@@ -365,7 +363,7 @@ fn a_command_at_a_corner_is_the_cycle_that_begins_there() {
     }
 }
 
-/// Taken up from bytes mid-cycle, at rest, with a command waiting: the same bits.
+/// Resumed from bytes during a cycle, at rest, or with a waiting command, a run has the same bits.
 #[test]
 fn bytes_carry_what_is_commanded() {
     let model = commanded(generator(command(Steps::Left(0))));
@@ -397,7 +395,7 @@ fn bytes_carry_what_is_commanded() {
     }
 }
 
-/// Words of a generator that no run could have left are refused, whichever of them is another.
+/// Bytes of impossible generator states are refused.
 #[test]
 fn bytes_of_what_no_generator_does_are_refused() {
     let model = commanded(generator(command(Steps::Left(5))));
@@ -419,7 +417,7 @@ fn bytes_of_what_no_generator_does_are_refused() {
             match State::from_bytes(&model, &KEY, &other) {
                 Ok(state) => {
                     taken += 1;
-                    // What is taken is told of, in no time.
+                    // An accepted state reports its activity at once.
                     assert!(state.generated(0).is_some());
                 }
                 Err(error) => {

@@ -1,7 +1,6 @@
-//! Runs that a caller holds: advanced in frames, put down and taken up.
+//! Runs that a caller advances in frames, saves and resumes.
 //!
-//! What a held run must come to is what an undisturbed one comes to: to the bit where nothing was cut, within the tolerance
-//! where it was.
+//! Results equal those of an uninterrupted run: with identical bits where no step was cut, otherwise within the tolerance.
 
 use crate::chains::chain;
 use crate::lottery::{Draw, deal, on_rows};
@@ -17,7 +16,7 @@ use stickslip_drive::{
 const PERIOD: f64 = 1e-3;
 const KEY: [u8; 32] = [7; 32];
 
-/// Drawn scenes on both engines, and P1, with the period of their drive, s.
+/// Random models with both engines, and P1, with the period of their drive, s.
 fn scenes() -> Vec<(Scene, f64, String)> {
     let drawn = (0..24).map(deal).flat_map(|drawn| {
         let rows = on_rows(&drawn.scene, 24);
@@ -27,7 +26,7 @@ fn scenes() -> Vec<(Scene, f64, String)> {
         let (scene, period) = pressed(seed);
         (scene, period, format!("pressed {seed}"))
     });
-    // Events accumulate in the last one: there it is left in the middle of a detour, too.
+    // Events accumulate in the last one, so it is also interrupted during step doubling.
     let sawtooth = Shape::Sawtooth { stroke: 0.5e-6, flyback: 0.1e-3 };
     let others = [
         (p1(), PERIOD, "P1".to_owned()),
@@ -37,7 +36,7 @@ fn scenes() -> Vec<(Scene, f64, String)> {
     drawn.chain(begun_badly).chain(others).collect()
 }
 
-/// A damped flat punch dragged back under a falling load: from 7.88 ms on stick and slip take turns along a line.
+/// Damped flat punch under a falling load: from 7.88 ms stick and slip alternate.
 fn dragged_back() -> Scene {
     let table = |name: &str, points: &[(f64, f64)]| {
         let shape = Shape::Table { points: points.to_vec() };
@@ -64,7 +63,7 @@ fn steppers(period: f64) -> [Stepper; 5] {
     ]
 }
 
-/// The run from a state to the end of a plan, held or not; none for a fixed step too long for the scene.
+/// Final state and trace of a run, interrupted or not. None if a fixed step is too long.
 pub(crate) fn finished(model: &Model, plan: &Plan, state: State, resumed: bool) -> Option<(State, Trace)> {
     let make = if resumed { Run::resume } else { Run::new };
     let mut run = make(model, plan, state).ok()?;
@@ -74,7 +73,7 @@ pub(crate) fn finished(model: &Model, plan: &Plan, state: State, resumed: bool) 
     Some((run.into_state(), trace))
 }
 
-/// After any number of steps, accepted or rejected: between two of them, in a swing, while growing.
+/// A run interrupted after any number of attempts continues with the same bits.
 #[test]
 fn a_run_taken_up_anywhere_goes_on_to_the_same_bits() {
     let (mut taken, mut amid) = (0, 0);
@@ -122,8 +121,7 @@ fn a_run_taken_up_anywhere_goes_on_to_the_same_bits() {
     assert!(taken > 1000 && amid > 0, "{taken} {amid}");
 }
 
-/// A run to half its end, taken up where it stood before the last step, is the run to its end; its rows and those of the
-/// half are the same as long as both have any.
+/// A run to half its end, resumed before its last step, equals the whole run; rows do not depend on the end.
 #[test]
 fn no_number_depends_on_the_end() {
     for (scene, period, title) in scenes() {
@@ -143,7 +141,7 @@ fn no_number_depends_on_the_end() {
             assert!(on == end, "{title} {stepper:?}");
             let joined: Vec<&[f64]> = before.rows().chain(after.rows()).collect();
             assert!(joined == rows.rows().collect::<Vec<_>>(), "{title} {stepper:?}");
-            // The half in one go, and its last row, which is off the grid of the whole one.
+            // The first half alone; its last row is not on the grid of the whole run.
             let (_, alone) = finished(&model, &half, start, false).unwrap();
             let shared = alone.rows().len() - 1;
             assert!(alone.rows().take(shared).eq(rows.rows().take(shared)), "{title} {stepper:?}");
@@ -153,7 +151,7 @@ fn no_number_depends_on_the_end() {
     }
 }
 
-/// The same with an early end: taken up, the run ends with the same period.
+/// With an early end, a resumed run ends with the same period.
 #[test]
 fn an_early_end_is_found_again() {
     let model = Model::new(&p1()).unwrap();
@@ -172,7 +170,7 @@ fn an_early_end_is_found_again() {
     }
 }
 
-/// Frames cut steps, which costs no more than the tolerance; the leaps of P1 stay under way, to the bit.
+/// Frames cut steps within the tolerance; closed-form intervals of P1 continue with the same bits.
 #[test]
 fn frames_are_the_whole_run() {
     for frame in [1.7e-6, 20e-6, 137e-6] {
@@ -185,7 +183,7 @@ fn frames_are_the_whole_run() {
         while frames.state().time() < 5.0 * PERIOD {
             k += 1.0;
             frames.advance((k * frame).min(5.0 * PERIOD), &mut ()).unwrap();
-            // A copy of the state is as good as the run itself.
+            // A copy of the state may replace the run.
             if k % 50.0 == 0.0 {
                 let state = frames.state().clone();
                 assert!(State::from_bytes(&model, &KEY, &state.to_bytes(&model, &KEY)).unwrap() == state);
@@ -197,8 +195,7 @@ fn frames_are_the_whole_run() {
     }
 }
 
-/// The same of drawn scenes, which step: within ten tolerances of their natural length where the motion does not multiply
-/// errors itself.
+/// Random models with steps: within ten tolerances of their natural length, unless the motion amplifies errors.
 #[test]
 fn frames_of_steps_keep_the_tolerance() {
     for seed in 0..24 {
@@ -230,7 +227,7 @@ fn frames_of_steps_keep_the_tolerance() {
     }
 }
 
-/// Rows and events are looked at beside the run: its state is the same to the bit whether anyone looks or not, or begins to.
+/// Rows and events do not affect the state: it has the same bits with or without a record.
 #[test]
 fn who_watches_frames_changes_no_bit() {
     let mut compared = 0;
@@ -258,7 +255,7 @@ fn who_watches_frames_changes_no_bit() {
     assert!(compared > 1000, "{compared}");
 }
 
-/// Frames that end where waveforms turn, and the whole run: the same bits, though moments of both are rounded each its own way.
+/// Frames that end at corners give the bits of the whole run, although their times are rounded differently.
 #[test]
 fn frames_that_end_at_corners_are_the_whole_run() {
     let model = Model::new(&p1()).unwrap();
@@ -277,7 +274,7 @@ fn frames_that_end_at_corners_are_the_whole_run() {
     }
 }
 
-/// After two seconds a digit of time is more than a part in 10⁹ of a step; a frame still takes its own steps and no others.
+/// After two seconds rounding of time exceeds 1e-9 of a step; frames still have their exact number of steps.
 #[test]
 fn frames_far_from_the_start_take_their_own_steps() {
     let (model, length) = (Model::new(&p1()).unwrap(), 1e-6);
@@ -290,11 +287,11 @@ fn frames_far_from_the_start_take_their_own_steps() {
         run.advance(f64::from(k) * length, &mut ()).unwrap();
     }
     let steps = run.state().counts().steps - before;
-    // Two corners in a thousand frames, and the ends of some branches.
+    // Two corners in a thousand frames, and ends of some branches.
     assert!((5000..5100).contains(&steps), "{steps}");
 }
 
-/// Whatever is done to the bytes: a typed error, or the very state; never a panic.
+/// Damaged bytes give an error or the same state, never a panic.
 #[test]
 fn damaged_bytes_are_refused() {
     let (mut draw, mut refused) = (Draw::new(5), 0);
@@ -316,7 +313,7 @@ fn damaged_bytes_are_refused() {
                 _ => bytes.extend([0; 8].iter().take(1 + place % 8)),
             }
             assert!(State::from_bytes(&model, &KEY, &bytes).is_err());
-            // With a checksum that is right again only the words themselves can tell.
+            // With a corrected checksum only the words can show the damage.
             let mut forged = whole.clone();
             for _ in 0..=draw.bits() % 4 {
                 let word = 7 + draw.bits() as usize % (forged.len() / 8 - 8);

@@ -1,4 +1,4 @@
-//! A body that lands, rolls and leaves: impacts of a sphere on a plane.
+//! Impacts of a sphere on a plane.
 
 use crate::lottery::Draw;
 use crate::parts::{column, end, event, fitted_order, named, plan, trace};
@@ -8,14 +8,14 @@ use stickslip_drive::scene::{
 };
 use stickslip_drive::{EventKind, Model, State, Stepper};
 
-/// Radius, mass, friction and speed of approach of the ball: the results do not depend on them.
+/// Radius, mass, friction and approach velocity of the ball; the results do not depend on them.
 const RADIUS: f64 = 0.01;
 const MASS: f64 = 0.03;
 const FRICTION: f64 = 0.25;
 const SPEED: f64 = 0.1;
 const MODULUS: f64 = 1e11;
 
-/// A solid ball that comes down on the ground with ψ₁ = (G*/(E*μ)) V_x/V_z, not turning.
+/// Solid ball that lands on the ground with ψ₁ = (G*/(E*μ)) V_x/V_z, without rotation.
 fn ball(ratio: f64, psi: f64) -> Scene {
     let coordinate = |velocity| Coordinate { freedom: Freedom::Free, position: 0.0, velocity };
     let body = Body {
@@ -75,7 +75,7 @@ fn like(nu: f64) -> f64 {
     2.0 * (1.0 - nu) / (2.0 - nu)
 }
 
-/// Independent integration in long double with all events located, confirmed by rows of up to 32 000 springs.
+/// Reference: independent integration in long double with located events, confirmed by rows of up to 32 000 springs.
 #[test]
 fn oblique_impact_of_a_solid_sphere() {
     let digits = [
@@ -103,7 +103,7 @@ fn oblique_impact_at_other_poisson_ratios() {
     }
 }
 
-/// ψ₁ ≥ 4χ-1 slips all the way: ψ₂ = ψ₁ - 4χ, χ = (7/4)G\*/E\*.
+/// For ψ₁ ≥ 4χ-1 the contact slips throughout: ψ₂ = ψ₁ - 4χ, χ = (7/4)G\*/E\*.
 #[test]
 fn gross_slip_all_the_way() {
     for nu in [0.0, 0.23, 0.3] {
@@ -115,7 +115,7 @@ fn gross_slip_all_the_way() {
     }
 }
 
-/// A central impact: depth, duration, and the speed that comes back.
+/// Central impact: depth, duration and rebound velocity.
 #[test]
 fn normal_impact_by_hertz() {
     let scene = ball(like(0.3), 0.0);
@@ -129,8 +129,8 @@ fn normal_impact_by_hertz() {
     assert!((speed / SPEED - 1.0).abs() < 1e-11, "{speed}");
 }
 
-/// Error against evaluations over six tolerances: F_x as a state keeps the order through growth in full stick. The
-/// tightest run stands for the exact value once it has the digits of the independent one.
+/// Error versus evaluations over six tolerances: with F_x as a state the order is kept through full stick. The run with the
+/// smallest tolerance replaces the exact value.
 #[test]
 fn the_event_stepper_keeps_its_order_through_an_impact() {
     let ratio = like(0.3);
@@ -150,7 +150,7 @@ fn the_event_stepper_keeps_its_order_through_an_impact() {
     }
 }
 
-/// What went in is kinetic; what is missing afterwards is friction, in every row and at the end.
+/// The initial energy is kinetic; the loss is friction, in every row.
 #[test]
 fn the_books_of_an_impact_close() {
     for psi in [0.5, 1.0, 2.0, 3.0, 8.0] {
@@ -165,7 +165,7 @@ fn the_books_of_an_impact_close() {
     }
 }
 
-/// The same impact on rows of springs in small fixed steps, an independent solution of the contact and of the motion.
+/// The same impact with rows of springs and small fixed steps, an independent solution.
 #[test]
 fn a_row_of_springs_bounces_like_the_curve() {
     let ratio = like(0.3);
@@ -183,7 +183,7 @@ fn a_row_of_springs_bounces_like_the_curve() {
     }
 }
 
-/// A body that bounces on its contact under its weight, drawn: no force but conservative ones acts on it.
+/// Body that bounces on its contact under its weight, drawn at random; all forces are conservative.
 fn bouncer(seed: u64) -> (Scene, f64) {
     let mut draw = Draw::new(seed);
     let profile = match seed % 6 {
@@ -212,8 +212,7 @@ fn bouncer(seed: u64) -> (Scene, f64) {
     (scene, 2.0 * speed / acceleration + std::f64::consts::PI / frequency)
 }
 
-/// However often a body bounces, what it would rise to stays what it was: (z + v²/2g) mg and what its contact stores are its energy
-/// at the start. A touch may lose or gain no more of it than some tolerances, at loose ones as at tight ones.
+/// The total energy of a bouncing body, (z + v²/2g) mg plus the stored energy, is constant within some tolerances.
 #[test]
 fn a_body_that_bounces_rises_to_where_it_was() {
     const BOUNCES: f64 = 12.0;

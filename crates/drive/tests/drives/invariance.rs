@@ -1,4 +1,4 @@
-//! What must not change a run: output, repetition, an interruption; and what must stop it in an orderly way.
+//! Effects that must not change a run (output, repetition, interruption), and orderly errors.
 
 use crate::lottery::deal;
 use crate::parts::{
@@ -27,7 +27,7 @@ fn steppers() -> [Stepper; 4] {
     ]
 }
 
-/// P1 and drawn scenes with the period of their drive, s.
+/// P1 and random models with the period of their drive, s.
 fn scenes() -> Vec<(Scene, f64)> {
     let drawn = [0, 1, 2, 3, 11, 17].map(deal);
     drawn.into_iter().map(|d| (d.scene, d.period)).chain([(p1(), PERIOD)]).collect()
@@ -40,7 +40,7 @@ fn final_state(scene: &Scene, plan: &Plan, record: impl Fn(&Model) -> Box<dyn Re
     state
 }
 
-/// Everything but the work counts, which may tell how much was written.
+/// Compares everything but counts, which may depend on output.
 fn same(a: &State, b: &State, scene: &Scene) {
     let model = Model::new(scene).unwrap();
     let bits = |s: &State| -> Vec<u64> {
@@ -101,7 +101,7 @@ fn two_runs_give_the_same_bits() {
     }
 }
 
-/// A run cut at a corner, where a step ends anyway, and continued from a copy of its state.
+/// A run interrupted at a corner, where a step ends, and continued from a copy of its state.
 #[test]
 fn a_run_in_two_halves_is_one_run() {
     let scene = p1();
@@ -119,14 +119,14 @@ fn a_run_in_two_halves_is_one_run() {
     }
 }
 
-/// After steps that know no laws a run between located events chooses them anew, and finds as many as one that was never left:
-/// a slider on a sine, which has no corner to choose them at, is in its steady motion by then.
+/// After fixed steps a run with event location chooses laws anew and finds as many events. The slider on a sine is in its
+/// periodic motion by then.
 #[test]
 fn after_fixed_steps_events_are_located_again() {
     let ball = contact(FOOT_SLIDER, Profile::paraboloid(1e-3).unwrap(), 0.15, 1.0);
     let model = Model::new(&foot_and_slider(wave("drive", sine(0.5e-6), PERIOD), 0.02, ball)).unwrap();
     let (exact, step) = (Stepper::Event { tolerance: 1e-8 }, 1e-6);
-    // Events up to 3.3, 6.3 and 9.3 periods, the second part by another stepper.
+    // Events up to 3.3, 6.3 and 9.3 periods; the second part uses another stepper.
     let events = |between: Stepper| {
         let mut state = model.start(&plan(exact, PERIOD)).unwrap();
         [(exact, 3.3), (between, 6.3), (exact, 9.3)].map(|(stepper, periods)| {
@@ -168,7 +168,7 @@ fn limits_stop_a_run_with_a_typed_error_and_keep_what_was_computed() {
             "{error:?}"
         );
         assert!(state.time() > 0.0 && state.counts().steps <= 100);
-        // The last row written is where it stopped.
+        // The last row is at the time of the stop.
         assert_eq!(trace.rows().last().unwrap()[0], state.time());
         let Err(error) = try_end(
             &p1(),
@@ -190,7 +190,7 @@ fn limits_stop_a_run_with_a_typed_error_and_keep_what_was_computed() {
     assert!(matches!(error, RunError::TooManyEvents { limit: 10, .. }), "{error:?}");
 }
 
-/// A record that asks to stop.
+/// Record that interrupts the run.
 struct Enough;
 
 impl Record for Enough {
@@ -212,7 +212,7 @@ fn a_record_can_interrupt_a_run() {
     }
 }
 
-/// P1 with one thing wrong.
+/// P1 with one fault.
 fn broken(change: impl FnOnce(&mut Scene)) -> Result<Model, SceneError> {
     let mut scene = p1();
     change(&mut scene);
@@ -248,7 +248,7 @@ fn errors_of_a_scene_name_the_field_that_is_wrong() {
             s.contacts[0].part.engine = EngineChoice::Springs { count: 0, span: None };
         }),
         ((Part::Contact(0), Field::StartForce), |s| s.contacts[0].part.start = ContactStart::Force(0.2)),
-        // P1 has μF_N = 0.15 N: there it slips.
+        // P1 has μF_N = 0.15 N and slips at this force.
         ((Part::Contact(0), Field::StartForce), |s| s.contacts[0].part.start = ContactStart::Force(-0.15)),
         ((Part::Actuator(0), Field::Stiffness), |s| {
             s.actuators
@@ -367,7 +367,7 @@ fn plans_out_of_range_are_refused() {
     }
 }
 
-/// Drawn scenes whose normal force varies, found among thousands.
+/// Random models with varying normal force, selected from thousands.
 #[test]
 fn shrinking_contacts_do_not_chatter() {
     for seed in [1_447_917_947, 2_067_624_281, 2_770_423_175, 2_168_180_231] {
@@ -396,14 +396,14 @@ proptest! {
     }
 }
 
-/// What cannot act leaves the run alone to the last bit, work counts and all: a contact that followers never bring together,
-/// a spring and a stack between bodies at rest, a waveform that nothing follows.
+/// Parts without effect do not change any bit or count: a contact that never closes, a spring and a stack between bodies at rest,
+/// an unused waveform.
 #[test]
 fn what_cannot_act_changes_nothing() {
     let plain = p1();
     let mut scene = p1();
     let triangle = Waveform::new(Shape::Triangle { stroke: 2e-6 }, Timing::every(1.0)).unwrap();
-    // It turns no corner within the run.
+    // It has no corner within the run.
     scene.waveforms.push(named("lift", triangle.clone()));
     scene.waveforms.push(named("nobody's", triangle));
     scene.bodies.push(named("lid", Body { z: Coordinate::follows(1), ..Body::default() }));

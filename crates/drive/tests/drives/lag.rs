@@ -1,6 +1,5 @@
-//! A component that the drive has never seen: a first-order lag with a limited rate between a waveform and the body that
-//! follows it. It has a state, a guard (its saturation), two laws beside the linear one and an energy, and stands in this
-//! file alone.
+//! A component of the test: a first-order lag with a limited rate between a waveform and a body. It has a state, an event
+//! function (saturation), three laws and an energy.
 
 use crate::parts::{FOOT_SLIDER, column, contact, event, follower, free, named, plan, trace, wave};
 use std::sync::Arc;
@@ -11,19 +10,19 @@ use stickslip_drive::component::{
 use stickslip_drive::scene::{Direction, Point, Scene, Side};
 use stickslip_drive::{EventKind, Field, Method, Model, Part, Sample, Shape, Source, Stepper};
 
-/// q̇ = (w - q)/τ, but no faster than a rate: a spring of stiffness k loaded through a damper kτ.
+/// q̇ = (w - q)/τ with a limit: a spring of stiffness k loaded through a damper kτ.
 #[derive(Debug)]
 struct Lag {
-    /// τ, s.
+    /// Time constant τ, s.
     time: f64,
     /// Largest |q̇|, m/s.
     limit: f64,
-    /// k, N/m.
+    /// Stiffness k, N/m.
     stiffness: f64,
     inputs: [Input; 1],
 }
 
-/// Laws: q̇ is what it wishes to be, or at its limit forward or backward.
+/// Laws: linear, or at the limit forward or backward.
 const LINEAR: usize = 0;
 const FORWARD: usize = 1;
 const BACKWARD: usize = 2;
@@ -54,7 +53,7 @@ impl Component for Lag {
         [&[FORWARD, BACKWARD][..], &[LINEAR], &[LINEAR]][*law]
     }
 
-    /// A guard is named for the law that it leads to.
+    /// Event functions are numbered by the law that they lead to.
     fn guard(&self, guard: usize, standing: Standing<'_, usize, Vec<f64>>, at: &Moment<'_, [Sample]>) -> f64 {
         let wish = self.wish(at);
         match (*standing.law, guard) {
@@ -74,7 +73,7 @@ impl Component for Lag {
         (EventKind::Own(if guard == LINEAR { "follows" } else { "saturates" }), guard)
     }
 
-    /// It counts the way of its state, to show that memory moves once per accepted step.
+    /// Adds up the path of its state, to show that the memory is updated once per accepted step.
     fn commit(&self, memory: &mut Vec<f64>, passage: &Passage) -> Result<f64, Refused> {
         let [last, way] = memory[..] else { return Err(Refused("a memory of another kind".to_owned())) };
         memory.copy_from_slice(&[passage.states[0], way + (passage.states[0] - last).abs()]);
@@ -108,7 +107,7 @@ impl Block for Lag {
     ) -> Powers {
         let rate = self.rate(*standing.law, at);
         slopes[0] = rate;
-        // The source pushes with k w, the spring takes k q, the damper and the limiter the rest.
+        // Power k w of the source; the spring stores k q, damper and limiter dissipate the rest.
         let (w, q) = (at.inputs[0].value, at.states[0]);
         Powers { input: self.stiffness * w * rate, loss: self.stiffness * (w - q) * rate }
     }
@@ -139,26 +138,26 @@ impl Block for Lag {
 const PERIOD: f64 = 4e-3;
 const STROKE: f64 = 0.4e-6;
 const TIME: f64 = 0.2e-3;
-/// The triangle's speed, and the limit of the lag's, m/s.
+/// Velocities of the triangle and of the limit, m/s.
 const SPEED: f64 = 2.0 * STROKE / PERIOD;
 const LIMIT: f64 = 0.6 * SPEED;
 
-/// A slider on a foot that follows a triangle through the lag.
+/// Slider on a foot that follows a triangle through the lag.
 fn scene(limit: f64) -> Scene {
     let lag = Lag { time: TIME, limit, stiffness: 1e5, inputs: [Input::Signal(0)] };
     let ball = contact(FOOT_SLIDER, Profile::paraboloid(1e-3).unwrap(), 0.15, 1.0);
     Scene {
         waveforms: vec![wave("triangle", Shape::Triangle { stroke: STROKE }, PERIOD)],
         blocks: vec![named("lag", SharedBlock(Arc::new(lag)))],
-        // The signal after the only waveform.
+        // Signal after the only waveform.
         bodies: vec![named("foot", follower(1)), named("slider", free(0.02))],
         contacts: vec![named("ball", ball)],
         ..Scene::default()
     }
 }
 
-/// Closed form: on a ramp q = v(t - τ(1 - e^{-t/τ})) until v(1 - e^{-t/τ}) is the limit r; then q grows at r until the
-/// triangle, which has turned at T/2, has come so near that (w - q)/τ = r again.
+/// Closed form: on a ramp q = v(t - τ(1 - e^{-t/τ})) until v(1 - e^{-t/τ}) reaches the limit r. Then q grows at r until (w - q)/τ
+/// = r again after the reversal at T/2.
 #[test]
 fn its_saturation_is_an_event_at_the_time_of_the_closed_form() {
     let (model, state, trace) = trace(&scene(LIMIT), &event(1e-10, 0.75 * PERIOD), 1e-5);
@@ -173,7 +172,7 @@ fn its_saturation_is_an_event_at_the_time_of_the_closed_form() {
     assert!((own[0].t - saturates).abs() < 1e-9 * PERIOD, "{} {saturates}", own[0].t);
     assert!((own[1].t - follows).abs() < 1e-9 * PERIOD, "{} {follows}", own[1].t);
     assert_eq!(model.source_name(own[0].source, |_| String::new()), "lag");
-    // In between and before, the foot is where the closed form has it.
+    // Before and in between, the foot follows the closed form.
     let (t, foot) = (column(&model, &trace, "time_s"), column(&model, &trace, "foot.x_m"));
     for (t, foot) in t.into_iter().zip(foot).filter(|(t, _)| *t <= follows) {
         let exact = if t < saturates {
@@ -183,14 +182,14 @@ fn its_saturation_is_an_event_at_the_time_of_the_closed_form() {
         };
         assert!((foot - exact).abs() < 1e-10 * STROKE, "{t}: {foot} {exact}");
     }
-    // Steps go by the method that knows velocities and states, and nothing leaps.
+    // Steps use Dormand–Prince; there is no closed form.
     assert!(state.tally().steps(Method::DormandPrince) > 0 && state.tally().steps(Method::Swing) == 0);
     let expected =
         model.expected(&model.start(&event(1e-10, PERIOD)).unwrap(), Stepper::Event { tolerance: 1e-10 });
     assert!(expected.takes(Method::DormandPrince) && !expected.takes(Method::Swing));
 }
 
-/// The books close with the lag's input, store and loss in them, and the memory has gone the way of the state: forth and back.
+/// The energy balance closes with the lag, and its memory equals the path of the state.
 #[test]
 fn its_energy_is_in_the_books_and_its_memory_moves_once_per_step() {
     let (model, _, trace) = trace(&scene(LIMIT), &event(1e-10, 2.0 * PERIOD), 2e-5);
@@ -203,8 +202,7 @@ fn its_energy_is_in_the_books_and_its_memory_moves_once_per_step() {
     assert!(open < 1e-8 * through, "{open} of {through}");
     let q = column(&model, &trace, "lag.q_m");
     let gone: f64 = q.windows(2).map(|pair| (pair[1] - pair[0]).abs()).sum();
-    // Rows are no turning points: they cut corners of the way by less than a row's. In a row the memory is that of the step's
-    // start; the corner at the end of the run has moved it on.
+    // The path between rows is longer than their difference. In a row the memory is that of the start of the step.
     let way = model.channels().iter().position(|channel| channel.name == "lag.slip_path_m").unwrap();
     let (end, values) = trace.events().last().unwrap();
     assert_eq!(end.t, 2.0 * PERIOD);
@@ -212,7 +210,7 @@ fn its_energy_is_in_the_books_and_its_memory_moves_once_per_step() {
     assert!((gone - last).abs() < 1e-3 * last, "{gone} {last}");
 }
 
-/// Against steps that locate nothing: classical Runge–Kutta, its error extrapolated away.
+/// Comparison with the classical Runge–Kutta method, extrapolated.
 #[test]
 fn runs_without_events_agree() {
     let end = |plan: &_| {
@@ -226,7 +224,7 @@ fn runs_without_events_agree() {
     assert!((verlet - located).abs() < 2e-5 * STROKE, "{verlet} {located}");
 }
 
-/// A block may also push: a dashpot between ground and slider damps like the scene's own.
+/// A block may exert forces: a dashpot between ground and slider equals a damper of the model.
 #[test]
 fn a_block_between_bodies_pushes_like_a_damper_of_the_scene() {
     let mut own = scene(f64::INFINITY);
@@ -256,7 +254,7 @@ fn a_signal_that_is_not_there_is_refused() {
     );
 }
 
-/// F = c ė between its sides, e the length that it reads.
+/// F = c ė between its sides; e is the length that it reads.
 #[derive(Debug)]
 struct Dashpot {
     damping: f64,

@@ -1,4 +1,4 @@
-//! What holds a body in unusual ways, what nothing holds, and whether a body at rest stays there.
+//! Unusual supports, missing supports, and bodies at rest.
 
 use crate::parts::{channel, contact, event, named, trace, wave};
 use crate::stages::{
@@ -11,7 +11,7 @@ use stickslip_drive::{EventKind, Field, Part, Shape};
 
 const HEIGHT: f64 = 6e-3;
 
-/// The only error there is: what has no equilibrium, and what stays unbalanced.
+/// Name and imbalance of the error `NoEquilibrium`.
 fn lost(scene: &Scene) -> (String, f64) {
     let error = rest(scene).unwrap_err();
     assert_eq!((error.part, error.field), (Part::Run, Field::Start));
@@ -57,12 +57,12 @@ fn a_load_outside_the_support_leaves_its_moment_about_the_last_foot() {
     }
     let mut scene = stage(&SIX, HEIGHT, 0.2);
     (scene.gravity, scene.loads) = (earth(0.0), vec![moment(0, 8e-3)]);
-    // A moment from x to z unloads the feet ahead: it turns about the last one.
+    // A moment from x to z unloads the front feet: it tilts about the last one.
     check(&scene, "in pitch", 8e-3 + MASS * 9.81 * SIX[0].x);
 }
 
-/// A block on two feet at ±a, h below its middle, tips at F h = m g a: at small angles arms stay what they are, however deep feet sink. Beyond
-/// it rounding of places was found to hold what it leaves: at -15 835 rad.
+/// A block on two feet at ±a, h below its centre, tilts at F h = m g a, for any stiffness of the feet. Beyond it there is no
+/// equilibrium.
 #[test]
 fn a_block_stands_up_to_the_load_that_tips_it_and_no_further() {
     let (a, h) = (8e-3, 20e-3);
@@ -78,7 +78,7 @@ fn a_block_stands_up_to_the_load_that_tips_it_and_no_further() {
         for way in [1.0, -1.0] {
             let scene = block(way * limit * (1.0 - beside));
             let still = rest(&scene).unwrap_or_else(|error| panic!("{beside:e} {way}: {error}"));
-            // What the load leaves of the weight on the foot behind.
+            // Load of the rear foot.
             let left = 0.5 * MASS * 9.81 * beside;
             let last = still.normal(&scene, if way > 0.0 { 1 } else { 0 }, hertz);
             assert!((last - left).abs() < 1e-8 * MASS * 9.81, "{beside:e} {way}: {last:e} {left:e}");
@@ -91,7 +91,7 @@ fn a_block_stands_up_to_the_load_that_tips_it_and_no_further() {
     }
 }
 
-/// Two springs that bear a plate turn under a moment by M/(2 k a²). Model and springs are linear, but beyond small angles bodies do not go so.
+/// Two springs carry a plate, which turns under a moment by M/(2 k a²). Angles beyond the small-angle limit are refused.
 #[test]
 fn what_balances_beyond_small_angles_is_no_equilibrium() {
     let (a, k) = (8e-3, 1e3);
@@ -113,7 +113,7 @@ fn what_balances_beyond_small_angles_is_no_equilibrium() {
         assert_eq!(
             error.fault.to_string(),
             format!(
-                "`stage` has no static equilibrium in pitch: it would turn to {angle:.3e} rad, and angles up to 0.1 rad are small"
+                "`stage` has no static equilibrium in pitch: it would rotate to {angle:.3e} rad, beyond the limit of small angles, 0.1 rad"
             )
         );
     }
@@ -132,7 +132,7 @@ fn without_friction_a_stage_rests_on_the_level_and_slides_on_an_incline() {
 
 #[test]
 fn a_follower_that_presses_from_above_shares_its_force_with_the_weight() {
-    // The ram comes down by 0.3 µm on the slider between it and the ground.
+    // The ram moves down by 0.3 µm onto the slider.
     let ball = || Profile::paraboloid(BALL).unwrap();
     let stroke = Shape::Sine { amplitude: 1e-6, phase: 0.0, offset: -0.3e-6 };
     let slider = Body { mass: Some(MASS), z: Coordinate::FREE, ..Body::default() };
@@ -156,7 +156,7 @@ fn a_follower_that_presses_from_above_shares_its_force_with_the_weight() {
 
 #[test]
 fn a_prescribed_force_and_coupled_contacts_hold_one_body_together() {
-    // A brake of given force and the feet carry the load along x: all stick, so they share by stiffness.
+    // A brake with a given force and the feet carry the load along x in stick, in proportion to their stiffness.
     let mut scene = stage(&THREE, HEIGHT, 0.3);
     scene.gravity = earth(0.0);
     let brake = contact(GROUND_STAGE, Profile::flat(0.05e-3).unwrap(), 0.3, 1.0);
@@ -166,7 +166,7 @@ fn a_prescribed_force_and_coupled_contacts_hold_one_body_together() {
     let shared = rest(&scene).unwrap();
     let feet: f64 = (0..2).map(|c| f64::from(THREE[c].count) * shared.tangential(c)).sum();
     assert!((feet + shared.tangential(2) - 0.05).abs() < 1e-11);
-    // A flat punch of radius b sticks with 2G*b all the time: F_x = 2G*b u.
+    // A flat punch of radius b has the constant stick stiffness 2G*b: F_x = 2G*b u.
     let [x, _, pitch] = shared.pose(0);
     let want = -2.0 * tangential_modulus() * 0.05e-3 * (x + HEIGHT * pitch);
     assert!((shared.tangential(2) - want).abs() < 1e-10 * want.abs() && want > 0.0);
@@ -196,7 +196,7 @@ fn rows_of_springs_come_to_the_same_rest() {
     assert!(short.fault.to_string().starts_with("in static equilibrium the indentation"), "{short}");
 }
 
-/// A stage on an incline that calls for half of what friction can hold.
+/// Stage on an incline that needs half of the friction limit.
 fn inclined() -> Scene {
     let friction = 0.3;
     let mut scene = stage(&THREE, HEIGHT, friction);
@@ -206,7 +206,7 @@ fn inclined() -> Scene {
 
 #[test]
 fn a_stage_at_rest_on_an_incline_stays_there() {
-    // The slowest mode is the sliding one; 1000 of its periods.
+    // The slowest mode is the motion along the slide; 1000 of its periods.
     let scene = inclined();
     let start = rest(&scene).unwrap();
     let feet = |c: usize| f64::from(THREE[c].count);

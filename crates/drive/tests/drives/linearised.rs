@@ -1,4 +1,4 @@
-//! Small motions against closed forms, and the longest steps against the steppers themselves.
+//! Small motions compared with closed forms, and stability limits compared with the steppers.
 
 use crate::parts::{contact, damper, event, foot_and_slider, free, named, p1, plan, sine, wave};
 use nalgebra::{DMatrix, DVector};
@@ -84,7 +84,7 @@ fn what_nothing_holds_has_no_frequency_and_what_is_never_pressed_no_stiffness() 
     let linearised = about_rest(&scene);
     assert_eq!(linearised.stiffness(), &DMatrix::zeros(2, 2));
     assert!(linearised.modes().iter().all(|mode| mode.frequency == 0.0));
-    // One free mass moves, the pair against itself swings with the reduced mass.
+    // One mode is free, the other one has the reduced mass.
     let modes = about_rest(&chain(0.0, 0.0)).modes();
     assert_eq!(modes[0].frequency, 0.0);
     close(modes[1].frequency, (stuck(1e-3, 1.0) / 4e-3).sqrt(), 1e-12);
@@ -151,7 +151,7 @@ impl System for Linear {
     }
 }
 
-/// Largest displacement late in a long run at a fixed step, from a displacement of 1; infinite once it overflows.
+/// Largest displacement late in a long run with fixed steps from a displacement of 1; infinite after overflow.
 fn late(system: &Linear, verlet: bool, h: f64) -> f64 {
     let n = system.mass.len();
     let mut y = vec![1.0; n];
@@ -174,7 +174,7 @@ fn late(system: &Linear, verlet: bool, h: f64) -> f64 {
 
 #[test]
 fn the_longest_steps_are_where_the_steppers_begin_to_blow_up() {
-    // Undamped, lightly damped, a stack beyond critical damping, and one whose damper alone sets the limit.
+    // Undamped, lightly damped, above critical damping, and limited by damping alone.
     for damping in [0.0, 20.0, 800.0, 20_000.0] {
         let mut scene = chain(20e6, damping);
         scene.springs.push(named("guide", damper([Side::Ground, SLIDER], 0.3 * damping)));
@@ -221,7 +221,7 @@ fn a_step_beyond_the_longest_is_refused_before_the_run() {
     assert!(model.start(&event(1e-8, 1.0)).is_ok());
 }
 
-/// Copies of a scene of [`chain`] side by side.
+/// Independent copies of a model of [`chain`].
 fn copies(scene: &Scene, count: usize) -> Scene {
     let mut all = Scene::default();
     for copy in 0..count {
@@ -245,7 +245,7 @@ fn copies(scene: &Scene, count: usize) -> Scene {
     all
 }
 
-/// What nothing joins is parted: as one matrix these 6 000 coordinates would have 3.6e7 entries, and eigenvalues for days.
+/// Independent subsystems are separated: 6 000 coordinates in one matrix would have 3.6e7 entries.
 #[test]
 fn scenes_side_by_side_have_the_longest_steps_of_one() {
     for (damping, count) in [(0.0, 3_000), (7.0, 300)] {

@@ -1,4 +1,4 @@
-//! Looks into the contacts: the right moments, and what the contacts are there.
+//! Samples of contact memories: times and values.
 
 use crate::lottery::{deal, on_rows};
 use crate::parts::{Looker, channel, contact, event, follower, look, named, p1, plan, wave};
@@ -9,7 +9,7 @@ use stickslip_drive::{Event, Model, Moments, Plan, Record, Shape, Stepper, run};
 
 const PERIOD: f64 = 1e-3;
 
-/// A foot that follows `shape` on the ground; nothing is free.
+/// Foot that follows `shape` on the ground; no coordinate is free.
 fn rig(shape: Shape) -> Scene {
     let between = [Side::Body(0), Side::Ground];
     Scene {
@@ -20,7 +20,8 @@ fn rig(shape: Shape) -> Scene {
     }
 }
 
-/// The same with a load that rises from nothing, parts the bodies and presses them together again, out of step.
+/// The same with a load that starts at zero, separates the bodies and closes the contact again, at other times than the foot's
+/// reversals.
 fn pounding_rig() -> Scene {
     let mut scene = rig(Shape::Sine { amplitude: 80e-9, phase: 0.0, offset: 0.0 });
     let depth = Shape::Sine { amplitude: 1e-6, phase: -0.5 * PI, offset: 0.6e-6 };
@@ -31,8 +32,8 @@ fn pounding_rig() -> Scene {
 
 #[test]
 fn a_contact_under_constant_load_is_the_closed_form_at_every_look() {
-    // Loading from rest to u: p = 0 up to h = d-u/κ, then the edge u-κ(d-h). Back from u₁ to u: the new edge u+κ(d-h)
-    // meets the old one half way, at d-h = (u₁-u)/2κ.
+    // First loading to u: p = 0 up to h = d-u/κ, then the edge u-κ(d-h). Back from u₁ to u: the new edge u+κ(d-h) meets the old
+    // one at d-h = (u₁-u)/2κ.
     let stroke = 50e-9;
     let scene = rig(Shape::Triangle { stroke });
     let plan = event(1e-10, PERIOD);
@@ -63,7 +64,7 @@ fn a_contact_under_constant_load_is_the_closed_form_at_every_look() {
 
 #[test]
 fn a_look_sees_what_the_row_beside_it_says() {
-    // Force, displacement and stick radius of a row come from the trial of a move, those of a look from its commit.
+    // Values of a row come from a trial, those of a sample from a commit.
     let steppers = [
         Stepper::Event { tolerance: 1e-8 },
         Stepper::Verlet { step: 1e-6 },
@@ -78,7 +79,7 @@ fn a_look_sees_what_the_row_beside_it_says() {
             let every = 0.0137 * period;
             let plan = Plan { every: Some(every), ..plan(stepper, 2.0 * period) };
             let (model, _, looker) = look(&scene, &plan, Moments::Every(every));
-            // The last row is that of the end, which is no multiple.
+            // The last row is the end, which is no multiple.
             assert_eq!(looker.seen.len() + 1, looker.rows.len());
             for ((t, memories), row) in looker.seen.iter().zip(&looker.rows) {
                 assert_eq!(*t, row[0]);
@@ -99,8 +100,8 @@ fn a_look_sees_what_the_row_beside_it_says() {
 
 #[test]
 fn a_look_is_the_end_of_a_run_that_ends_there() {
-    // Another run with other steps: the anchors agree to what the tolerance leaves, and where the contact grows to the
-    // 256 chords at most in which a step's path is kept.
+    // In a run with other steps memory knots agree within the tolerance, and in growth within the resolution of a path (256
+    // chords).
     for (scene, period, bound) in
         [(pounding_rig(), PERIOD, 1e-6), (p1(), PERIOD, 1e-8), (deal(5).scene, deal(5).period, 1e-6)]
     {
@@ -126,7 +127,7 @@ fn a_look_is_the_end_of_a_run_that_ends_there() {
 
 #[test]
 fn springs_of_a_curve_are_those_of_a_row() {
-    // The row takes 4096 chords per period of the load, the curve the path itself.
+    // The row uses 4096 chords per period of the load, the curve the path itself.
     const COUNT: usize = 301;
     let plan = event(1e-10, 2.0 * PERIOD);
     let scene = pounding_rig();
@@ -148,7 +149,7 @@ fn springs_of_a_curve_are_those_of_a_row() {
             strays += usize::from(of_curve.state != of_row.state);
         }
     }
-    // Beside a front or an edge the two may differ by a spring.
+    // Near a front or an edge both may differ by a spring.
     assert!(states.iter().all(|count| *count > 500), "{states:?}");
     assert!(strays <= 4 * curves.seen.len(), "{strays} of {states:?}");
 }
@@ -169,7 +170,7 @@ fn a_row_that_is_outgrown_stops_the_run_and_not_the_look() {
     }
 }
 
-/// Asks for moments that do not ascend.
+/// Requests times that do not ascend.
 struct Restless(Vec<f64>, Vec<f64>);
 
 impl Record for Restless {

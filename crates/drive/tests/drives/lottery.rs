@@ -1,5 +1,4 @@
-//! Random scenes with a seed: what is in them is dealt out by the seed, so that twenty seeds contain everything;
-//! the numbers are drawn.
+//! Random models by seed. The seed determines which parts occur, so that twenty seeds contain all; values are random.
 
 use crate::parts::{contact, damper, follower, free, named, piezo, push};
 use std::f64::consts::TAU;
@@ -24,12 +23,12 @@ impl Draw {
         z ^ (z >> 31)
     }
 
-    /// Evenly between two numbers.
+    /// Uniform distribution between two numbers.
     pub(crate) fn between(&mut self, low: f64, high: f64) -> f64 {
         low + (high - low) * (self.bits() >> 11) as f64 / (1_u64 << 53) as f64
     }
 
-    /// Evenly in the logarithm.
+    /// Logarithmic distribution between two numbers.
     pub(crate) fn spread(&mut self, low: f64, high: f64) -> f64 {
         self.between(low.ln(), high.ln()).exp()
     }
@@ -39,17 +38,17 @@ impl Draw {
     }
 }
 
-/// A drawn scene and what is needed to run and judge it.
+/// Random model with data for its run and evaluation.
 pub(crate) struct Drawn {
     pub(crate) scene: Scene,
-    /// Period of the drive, s; all corners lie at multiples of a hundredth of it.
+    /// Period of the drive, s; all corners are at multiples of a hundredth of it.
     pub(crate) period: f64,
-    /// Peak to peak of the drive, m.
+    /// Peak-to-peak stroke of the drive, m.
     pub(crate) stroke: f64,
     pub(crate) title: String,
 }
 
-/// Corners at multiples of a hundredth of the period; whether there are any.
+/// Shape with corners at multiples of a hundredth of the period; the second value says whether there are any.
 fn shape(draw: &mut Draw, kind: u64, stroke: f64, period: f64) -> (Shape, bool) {
     let flyback = (draw.between(4.0, 30.0)).round() / 100.0 * period;
     match kind {
@@ -99,12 +98,11 @@ fn scales(contact: &Contact, force: f64) -> (f64, f64) {
     (law.gross_slip_displacement(d), law.stick_stiffness(d))
 }
 
-/// The scene of a seed.
+/// Model of a seed.
 ///
-/// A slider on one to three contacts of a foot. The foot follows a waveform or depends on a piezo stack that does. By
-/// turns: a second contact between slider and ground, spring and damper to ground, load, gravity along an incline, a
-/// normal force that varies. A damper never joins what follows a waveform with corners: its force would jump there,
-/// which costs fixed steps their order.
+/// A slider is on one to three contacts of a foot. The foot follows a waveform or is on a piezo stack. Further parts depend on
+/// the seed: a second contact between slider and ground, spring and damper to ground, load, gravity on an incline, a varying
+/// normal force. No damper follows a waveform with corners, where its force would jump.
 pub(crate) fn deal(seed: u64) -> Drawn {
     let mut draw = Draw::new(seed);
     let (between, force) = ([Side::Body(0), Side::Body(1)], draw.spread(0.2, 3.0));
@@ -211,12 +209,12 @@ fn name(shape: &Shape) -> &'static str {
         Shape::Table { .. } => "table",
         Shape::Input { .. } => "input",
         Shape::Generator(_) => "generator",
-        // Not drawn: they have runs of their own, in shapes.rs.
+        // Not random: these shapes are tested in shapes.rs.
         _ => "other",
     }
 }
 
-/// All contacts of a scene as rows of springs.
+/// Replaces all contacts of a model by rows of springs.
 pub(crate) fn on_rows(scene: &Scene, count: usize) -> Scene {
     let mut scene = scene.clone();
     for Named { part, .. } in &mut scene.contacts {

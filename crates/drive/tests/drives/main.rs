@@ -1,6 +1,6 @@
-//! Drives as a whole: runs against references, closed forms and independent methods.
+//! Tests of whole drives: comparison with references, closed forms and independent methods.
 //!
-//! One binary, linked once. `parts` builds scenes and runs them; every other module is a subject.
+//! All tests are one binary. `parts` builds and runs models; every other module is a subject.
 
 #![allow(
     clippy::unwrap_used,

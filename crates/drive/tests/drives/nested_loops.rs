@@ -1,12 +1,11 @@
-//! Many loops inside one another, which one stroke closes.
+//! Many nested loops that one stroke closes.
 
 use crate::parts::{contact, event, follower, named, trace, wave};
 use stickslip_contact::Profile;
 use stickslip_drive::scene::{Scene, Side};
 use stickslip_drive::{EventKind, Shape};
 
-/// Strokes that shrink to nothing leave one loop each, and a stroke beyond the first closes them all, however many there are, before
-/// the contact slips as a whole: at the end, and again on the way back.
+/// Decreasing strokes leave one loop each; a larger stroke closes all of them before gross slip begins, in both directions.
 #[test]
 fn thousands_of_loops_close_one_by_one() {
     let loops = 6000;

@@ -1,4 +1,4 @@
-//! Contacts that vibrate, along the normal and along the slide: when slip dies out, when it goes on, what friction is left.
+//! Contacts that vibrate along the normal and along the slide: end of slip, continued slip, and mean friction.
 
 use crate::parts::{
     FOOT_SLIDER, channel, column, contact, damper, end, event, follower, foot_and_slider, free, named,
@@ -27,12 +27,12 @@ fn ball(between: [Side; 2], force: f64) -> Contact {
     of_pair(pair, &contact(between, Profile::paraboloid(RADIUS).unwrap(), MU, force))
 }
 
-/// Normal force, mean and amplitude, N; its period, s, is slow against the slider's own, 0.05 ms or less.
+/// Mean and amplitude of the normal force, N; its period (s) is long compared with that of the slider, at most 0.05 ms.
 const MEAN: f64 = 1.0;
 const SWING: f64 = 0.4;
 const PERIOD: f64 = 20e-3;
 
-/// A light slider with a damper to ground, c N s/m, pushed by `part` of μF_N,min while the normal force swings.
+/// Light slider with a damper to ground (c, N s/m), under a fraction `part` of μF_N,min, with oscillating normal force.
 fn pushed(part: f64, (mass, damping): (f64, f64)) -> Scene {
     let mut pressed = ball(GROUND_SLIDER, MEAN);
     pressed.normal = Normal::Force(Varying::Follows(0));
@@ -48,15 +48,15 @@ fn pushed(part: f64, (mass, damping): (f64, f64)) -> Scene {
     }
 }
 
-/// Its places at the start and after each period, m.
+/// Positions at the start and after each period, m.
 fn places(part: f64, slider: (f64, f64)) -> Vec<f64> {
     let (model, _, rows) = trace(&pushed(part, slider), &event(1e-9, 5.0 * PERIOD), PERIOD);
     column(&model, &rows, "slider.x_m")
 }
 
-/// Below F_x = μF_N,min slip ends with the first period. While F_N falls the springs slip forward only, so that at its
-/// minimum the contact stands as if first loaded there, u = κd_min[1-(1-F_x/(μF_N,min))^{2/3}], and as F_N grows nothing
-/// moves. Limit: periods long against the slider's own.
+/// For F_x below μF_N,min slip ends with the first period. While F_N decreases, springs slip forward only. At the minimum the
+/// contact is in the state of first loading, u = κd_min[1-(1-F_x/(μF_N,min))^{2/3}], and remains there. Limit: periods long
+/// compared with that of the slider.
 #[test]
 fn slip_shakes_down_below_the_least_limit_of_friction() {
     for part in [0.3, 0.7, 0.95] {
@@ -66,19 +66,19 @@ fn slip_shakes_down_below_the_least_limit_of_friction() {
         println!("F_x = {part} μF_N,min: {x:?}, from {first:e} to {known:e}");
         assert!((x[0] / first - 1.0).abs() < 1e-9);
         assert!(x[1..].iter().all(|x| (x / known - 1.0).abs() < 1e-3));
-        // The damper's lag dies out.
+        // The lag by the damper decays.
         assert!((x[5] - x[4]).abs() < 1e-5 * known && (x[5] - known).abs() < 1e-4 * known);
     }
 }
 
-/// Above it each period adds ∫(F_x-μF_N)dt/c over the time that F_x exceeds the limit. Limit: drift large against u_c,
-/// periods long against m/c.
+/// Above that limit each period adds ∫(F_x-μF_N)dt/c over the time in which F_x exceeds it. Limit: drift large compared with u_c,
+/// periods long compared with m/c.
 #[test]
 fn slip_ratchets_above_the_least_limit_of_friction() {
     for part in [1.05, 1.1, 1.3] {
         let (mass, damping) = (1e-5, 0.3);
         let x = places(part, (mass, damping));
-        // μ∫(q + A sin)dt below zero: q = F_N - F_x/μ at the mean.
+        // Integral of μ(q + A sin) where negative: q = F_N - F_x/μ at the mean.
         let above = (MEAN - part * (MEAN - SWING)) / SWING;
         let half = above.acos();
         let known = MU * SWING * PERIOD / TAU * 2.0 * (half.sin() - above * half) / damping;
@@ -88,8 +88,8 @@ fn slip_ratchets_above_the_least_limit_of_friction() {
     }
 }
 
-/// u = β(d-d₀) with |β| < κ, as d swings about d₀: growing in stick and shrinking along the same line. Slip there is only as
-/// the contact first shrinks below d₀, where its springs were unstretched.
+/// u = β(d-d₀) with |β| < κ, d oscillating about d₀: the contact grows in stick and shrinks along the same line. Slip occurs only
+/// at the first shrinking below d₀.
 #[test]
 fn oscillation_in_phase_dissipates_in_its_first_cycle_only() {
     let d = depth(1.0);
@@ -116,8 +116,8 @@ fn oscillation_in_phase_dissipates_in_its_first_cycle_only() {
     }
 }
 
-/// Mean force on a foot that creeps while it vibrates with U < u_c: μF_N(1-U/u_c)^p, the centre of a loop whose end just
-/// reaches gross slip. Limit: creep per period small against u_c; the mean is off by about as much.
+/// Mean force on a foot that creeps while it vibrates with U < u_c: μF_N(1-U/u_c)^p, the centre of a loop that just reaches gross
+/// slip. Limit: creep per period small compared with u_c; its relative size is the error.
 #[test]
 fn static_friction_under_tangential_vibration() {
     let cone = (E * 0.5 * PI * 0.01, 0.5 * PI * 0.01);
@@ -148,15 +148,14 @@ fn static_friction_under_tangential_vibration() {
     }
 }
 
-/// While F_N falls from its maximum the contact runs back along the line on which it grew, u as good as constant. Its apex
-/// lies beside that line by rounding alone: first to one side, then to the other, and the run stopped for too many events.
+/// A contact shrinks along the line of its growth at almost constant u. Rounding around that line must not cause many events.
 #[test]
 fn a_contact_that_shrinks_along_its_line_of_growth_does_not_chatter() {
     let plan = event(1e-9, 4.75 * PERIOD);
     let (model, state, rows) = trace(&pushed(1.05, (1e-5, 0.3)), &plan, PERIOD / 800.0);
     let [u, d] = ["ball.u_m", "ball.d_m"].map(|name| column(&model, &rows, name));
     let u_c = model.contact_natural(0).unwrap().displacement;
-    // From the last maximum but one to the mean: it grew along u and shrinks along it, nowhere two ulps beside it.
+    // From the last maximum but one to the mean: it grows and shrinks along u, within two units in the last place.
     let (top, mean) = (2600, 2800);
     assert!(d[top..mean].windows(2).all(|w| w[1] < w[0]) && d[2500..top].windows(2).all(|w| w[1] > w[0]));
     let beside = (2500..mean).map(|k| (u[k] - u[top]).abs()).fold(0.0, f64::max);
@@ -172,7 +171,7 @@ fn a_contact_that_shrinks_along_its_line_of_growth_does_not_chatter() {
     assert!(retraced < 10 && state.counts().events < 2000);
 }
 
-/// The same far from the start: loops close where u is known to 1e-12 u_c only, and each must close but once.
+/// The same far from the start: u is known to 1e-12 u_c, and each loop closes once.
 #[test]
 fn loops_close_after_a_travel_of_ten_thousand_gross_slips() {
     let (model, state, rows) = trace(&pushed(1.6, (1e-5, 0.1)), &event(1e-9, 4.0 * PERIOD), PERIOD);
@@ -184,8 +183,8 @@ fn loops_close_after_a_travel_of_ten_thousand_gross_slips() {
     assert!(far > 100 && state.counts().events < 10_000);
 }
 
-/// A slider on a foot that vibrates along the slide, mostly in gross slip: there the force is constant, and a stepper without
-/// events that takes its steps as long as it may leaps over whole waves, each of which holds or drags the slider on.
+/// Slider on a foot that vibrates along the slide, mostly in gross slip. A stepper without events must not miss whole waves,
+/// although the force is constant.
 #[test]
 fn a_stepper_without_events_leaps_over_no_wave() {
     let drive = wave("vibration", sine(1e-6), 1e-3);

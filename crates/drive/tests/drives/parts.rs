@@ -1,4 +1,4 @@
-//! Parts of scenes, plans, and runs that must succeed.
+//! Construction of models and plans, and runs that must succeed.
 
 use stickslip_contact::{Interface, Material, Memory, Pair, Profile};
 use stickslip_drive::scene::{
@@ -71,7 +71,7 @@ pub(crate) fn of_friction(friction: f64, contact: &Contact) -> Contact {
     Contact { interface, ..contact.clone() }
 }
 
-/// The same contact with stuck springs of a time constant β, s.
+/// The same contact with a damping time β, s.
 pub(crate) fn damped(contact: &Contact, beta: f64) -> Contact {
     Contact { interface: contact.interface.clone().with_damping(beta), ..contact.clone() }
 }
@@ -110,7 +110,7 @@ pub(crate) fn p1() -> Scene {
     foot_and_slider(sawtooth, 0.02, contact(FOOT_SLIDER, Profile::paraboloid(1e-3).unwrap(), 0.15, 1.0))
 }
 
-/// A plan with guards tight enough that a test cannot hang.
+/// Plan with limits that prevent endless tests.
 pub(crate) fn plan(stepper: Stepper, duration: f64) -> Plan {
     let limits = Limits { steps: 20_000_000, events: 1_000_000, wall: Some(120.0) };
     Plan { duration, stepper, limits, every: None, until_steady: None }
@@ -121,7 +121,7 @@ pub(crate) fn event(tolerance: f64, duration: f64) -> Plan {
     Plan { limits, ..plan(Stepper::Event { tolerance }, duration) }
 }
 
-/// A record that looks into the contacts at moments of its own and keeps what it saw, with rows.
+/// Record that samples contact memories at its own times and keeps them with the rows.
 pub(crate) struct Looker {
     schedule: Schedule,
     pub(crate) seen: Vec<(f64, Vec<Memory>)>,
@@ -152,7 +152,7 @@ impl Record for Looker {
     }
 }
 
-/// Runs a scene and looks into its contacts.
+/// Runs a model and samples its contact memories.
 pub(crate) fn look(scene: &Scene, plan: &Plan, moments: Moments) -> (Model, State, Looker) {
     let model = Model::new(scene).unwrap();
     let mut state = model.start(plan).unwrap();
@@ -161,7 +161,7 @@ pub(crate) fn look(scene: &Scene, plan: &Plan, moments: Moments) -> (Model, Stat
     (model, state, looker)
 }
 
-/// Runs a scene from its start to the end of the plan.
+/// Runs a model from its start to the end of the plan.
 pub(crate) fn try_end(scene: &Scene, plan: &Plan) -> Result<(Model, State), RunError> {
     let model = Model::new(scene).unwrap();
     let mut state = model.start(plan).unwrap();
@@ -172,7 +172,7 @@ pub(crate) fn end(scene: &Scene, plan: &Plan) -> (Model, State) {
     try_end(scene, plan).unwrap()
 }
 
-/// Runs a scene and keeps rows every `every` s, and events.
+/// Runs a model and keeps events, and rows every `every` s.
 pub(crate) fn trace(scene: &Scene, plan: &Plan, every: f64) -> (Model, State, Trace) {
     let model = Model::new(scene).unwrap();
     let plan = Plan { every: Some(every), ..*plan };
@@ -182,7 +182,7 @@ pub(crate) fn trace(scene: &Scene, plan: &Plan, every: f64) -> (Model, State, Tr
     (model, state, trace)
 }
 
-/// Place of a channel in a row.
+/// Index of a channel in a row.
 pub(crate) fn channel(model: &Model, name: &str) -> usize {
     model.channels().iter().position(|c| c.name == name).unwrap()
 }
@@ -192,7 +192,7 @@ pub(crate) fn column(model: &Model, trace: &Trace, name: &str) -> Vec<f64> {
     trace.column(channel(model, name)).collect()
 }
 
-/// Order p of errors that fall like hᵖ: slope of the straight line through the logarithms.
+/// Order p of errors proportional to hᵖ: slope of the regression line of logarithms.
 pub(crate) fn fitted_order(points: &[(f64, f64)]) -> f64 {
     let logs: Vec<(f64, f64)> = points.iter().map(|(h, e)| (h.ln(), e.ln())).collect();
     let n = logs.len() as f64;

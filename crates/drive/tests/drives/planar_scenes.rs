@@ -1,4 +1,4 @@
-//! Planar scenes that make no model or have no start, and their nearest neighbours that do.
+//! Invalid planar models, and similar valid ones.
 
 use crate::parts::{contact, damped, damper, event, named, of_friction, of_profile, piezo, wave};
 use stickslip_contact::Profile;
@@ -11,7 +11,7 @@ use stickslip_drive::{Field, Model, Part, SceneError, Shape, State};
 const MASS: f64 = 0.02;
 const GROUND_BLOCK: [Side; 2] = [Side::Ground, Side::Body(0)];
 
-/// A ball under the block, pressed by its motion.
+/// Ball under the block, pressed by its motion.
 fn ball(x: f64) -> Contact {
     Contact {
         at: [Point::default(), Point { x, z: -5e-3 }],
@@ -20,7 +20,7 @@ fn ball(x: f64) -> Contact {
     }
 }
 
-/// A block free in the plane that its weight presses on two balls, ±8 mm from its middle.
+/// Block that is free in the plane, on two balls ±8 mm from its middle.
 fn block() -> Scene {
     let free = Coordinate::FREE;
     let block = Body { mass: Some(MASS), inertia: Some(1e-6), x: free, z: free, pitch: free };
@@ -65,7 +65,7 @@ fn spring(direction: Direction, x: f64) -> Spring {
 
 #[test]
 fn a_free_z_that_nothing_holds_is_refused() {
-    let (place, words) = ((Part::Body(0), Field::Coordinate(Axis::Z)), "nothing holds z, which is free");
+    let (place, words) = ((Part::Body(0), Field::Coordinate(Axis::Z)), "no part holds z, which is free");
     let fixed: Change = |s| {
         s.bodies[0].part.pitch = Coordinate::default();
         for contact in &mut s.contacts {
@@ -73,7 +73,7 @@ fn a_free_z_that_nothing_holds_is_refused() {
         }
     };
     refused(fixed, place, words);
-    // A preload without stiffness does not hold, nor does a spring along x.
+    // A preload without stiffness does not hold it, nor does a spring along x.
     refused(
         |s| {
             s.contacts.clear();
@@ -97,7 +97,7 @@ fn a_free_z_that_nothing_holds_is_refused() {
 #[test]
 fn a_free_pitch_that_nothing_holds_is_refused() {
     let (place, words) =
-        ((Part::Body(0), Field::Coordinate(Axis::Pitch)), "nothing holds pitch, which is free");
+        ((Part::Body(0), Field::Coordinate(Axis::Pitch)), "no part holds pitch, which is free");
     refused(
         |s| {
             s.contacts.truncate(1);
@@ -106,7 +106,7 @@ fn a_free_pitch_that_nothing_holds_is_refused() {
         place,
         words,
     );
-    // Without friction the contact below pushes through the reference point.
+    // Without friction the contact force acts through the reference point.
     refused(
         |s| {
             s.contacts.truncate(1);
@@ -145,10 +145,10 @@ fn what_is_missing_is_named() {
 fn a_sphere_that_the_loads_press_beyond_its_equator_is_refused() {
     let small: Change =
         |s| s.contacts[1].part = of_profile(Profile::sphere(1e-9).unwrap(), &s.contacts[1].part);
-    refused(small, (Part::Contact(1), Field::Normal), "beyond the profile");
+    refused(small, (Part::Contact(1), Field::Normal), "the range of the profile");
 }
 
-/// A foot that jumps below a contact whose stuck springs are damped: an impulse without end.
+/// A foot that jumps under a damped contact is refused: the impulse would be infinite.
 #[test]
 fn a_damped_contact_cannot_follow_a_jump() {
     let jumping: Change = |s| {
@@ -177,8 +177,8 @@ fn a_missing_equilibrium_names_its_coordinate() {
         pitch: Varying::Constant(pitch),
     };
     let weight = MASS * 9.81;
-    // Friction holds 0.2 of the weight, the ground does not pull, and the block tips over where the moment passes the
-    // weight at 8 mm.
+    // Friction holds 0.2 of the weight, the ground exerts no tension, and the block tilts when the moment exceeds the weight
+    // times 8 mm.
     let cases = [
         (push(0.21 * weight, 0.0, 0.0), "along x"),
         (push(0.0, 1.01 * weight, 0.0), "along z"),

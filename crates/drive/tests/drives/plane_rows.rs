@@ -1,5 +1,5 @@
-//! Bodies in the plane by two independent methods: the memory curve from event to event, and rows of springs by velocity
-//! Verlet in small fixed steps, which share neither contact engine nor stepper nor events.
+//! Bodies in the plane by two independent methods: the memory curve with event location, and rows of springs with velocity
+//! Verlet.
 
 use crate::lottery::on_rows;
 use crate::parts::{
@@ -18,7 +18,7 @@ fn pair(youngs_modulus: f64, poisson_ratio: f64) -> Pair {
     Pair::new(Material::new(youngs_modulus, poisson_ratio).unwrap(), steel)
 }
 
-/// A ball below the second body, pressed by the motion.
+/// Ball below the second body, pressed by the motion.
 fn ball(between: [Side; 2], pair: Pair, (radius, friction): (f64, f64), at: (f64, f64)) -> Contact {
     Contact {
         at: [Point::default(), Point { x: at.0, z: at.1 }],
@@ -41,8 +41,8 @@ fn clamp(stiffness: f64, damping: f64, preload: f64, on: usize) -> Spring {
     Spring { direction: Direction::Z, stiffness, preload, ..damper(between, damping) }
 }
 
-/// A stage on three ruby balls, its load off centre, on a foot that saws. Stroke and period are those of the scene's
-/// drive, in every case.
+/// Stage on three ruby balls with an eccentric load, on a foot with a sawtooth. Stroke and period are those of the drive in every
+/// case.
 fn three_ball_stage() -> Case {
     let between = [Side::Body(0), Side::Body(1)];
     let ball = |x| ball(between, pair(400e9, 0.27), (0.5e-3, 0.2), (x, -6e-3));
@@ -60,7 +60,7 @@ fn three_ball_stage() -> Case {
     Case { scene, stroke, period }
 }
 
-/// A slider carried up a wall, pressed by a spring along the normal.
+/// Slider on a vertical wall, pressed by a spring along the normal.
 fn climber() -> Case {
     let between = [Side::Body(0), Side::Body(1)];
     let ball = |x| ball(between, pair(400e9, 0.27), (1e-3, 0.2), (x, -4e-3));
@@ -77,7 +77,7 @@ fn climber() -> Case {
     Case { scene, stroke, period }
 }
 
-/// A slider rocked by a force above its feet. Its stroke is what it rocks through.
+/// Slider that a force above its feet rocks. Its stroke is the rocking amplitude.
 fn rocking_slider() -> Case {
     let between = [Side::Ground, Side::Body(0)];
     let ball = |x| ball(between, pair(210e9, 0.30), (1e-3, 0.3), (x, -10e-3));
@@ -95,7 +95,7 @@ fn rocking_slider() -> Case {
     Case { scene, stroke: 0.0, period }
 }
 
-/// A rod on two pairs of feet that walk on ellipses half a period apart.
+/// Rod on two pairs of feet that move on ellipses with a phase difference of half a period.
 fn walking_drive() -> Case {
     let (amplitude, period) = (300e-9, 2e-3);
     let turn = |amplitude, degrees: f64| Shape::Sine { amplitude, phase: degrees.to_radians(), offset: 0.0 };
@@ -143,8 +143,7 @@ fn impact_drive() -> Case {
     Case { scene, stroke, period }
 }
 
-/// A ball that bounces and slides until it rolls. Its stroke is the height from which it falls, its period that of the
-/// bounces; it moves by many heights along x.
+/// Ball that bounces and slides until it rolls. Its stroke is the height of fall, its period that of the bounces.
 fn bouncing_ball() -> Case {
     let height = 0.5e-6;
     let mut body = planar(4.08e-3, 40.8e-9);
@@ -166,7 +165,7 @@ struct Case {
 }
 
 impl Case {
-    /// x of the free body at 32 moments.
+    /// x of the free body at 32 times.
     fn path(&self, scene: &Scene, plan: &Plan) -> Vec<f64> {
         let (model, _, rows) = trace(scene, plan, plan.duration / 32.0);
         let free = scene.bodies.iter().find(|b| b.part.x.freedom == Freedom::Free).unwrap();
@@ -182,7 +181,7 @@ impl Case {
         self.path(&on_rows(&self.scene, springs), &plan)
     }
 
-    /// Largest difference in parts of the stroke.
+    /// Largest difference in strokes.
     fn off(&self, a: &[f64], b: &[f64]) -> f64 {
         let travel = a.iter().map(|x| (x - a[0]).abs()).fold(0.0, f64::max);
         let scale = if self.stroke > 0.0 { self.stroke } else { travel };
@@ -228,7 +227,7 @@ fn ball_that_bounces_and_slides() {
     agree(&bouncing_ball());
 }
 
-/// The error of few springs in steps so small that theirs does not show.
+/// Discretisation error of the row, with steps so small that their error is negligible.
 #[test]
 fn order_of_the_row_in_its_springs() {
     let case = three_ball_stage();

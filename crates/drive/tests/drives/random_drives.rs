@@ -1,5 +1,5 @@
-//! Twenty random drives: the memory curve stepped from event to event against velocity Verlet over rows of springs,
-//! which shares neither contact engine nor stepper nor events with it, and against itself at a tighter tolerance.
+//! Twenty random drives: the memory curve with event location, compared with velocity Verlet on rows of springs, an independent
+//! method, and with a smaller tolerance.
 
 use crate::lottery::{Drawn, deal, on_rows};
 use crate::parts::{channel, event, plan, trace};
@@ -9,7 +9,7 @@ use stickslip_drive::{Plan, Stepper};
 const SEEDS: u64 = 20;
 const PERIODS: f64 = 3.0;
 
-/// Positions of the free bodies at a number of moments of a run.
+/// Positions of the free bodies at a number of times.
 fn positions(scene: &Scene, plan: &Plan) -> Vec<f64> {
     let (model, _, rows) = trace(scene, plan, plan.duration / 16.0);
     let free = scene.bodies.iter().filter(|b| b.part.x.freedom == Freedom::Free);
@@ -27,13 +27,13 @@ fn scale(drawn: &Drawn, positions: &[f64]) -> f64 {
     positions.iter().map(|x| x.abs()).fold(drawn.stroke, f64::max)
 }
 
-/// What two steps h and h/2 with an error that falls like h² extrapolate to.
+/// Extrapolation of two steps h and h/2 with an error proportional to h².
 fn extrapolated(coarse: &[f64], fine: &[f64]) -> Vec<f64> {
     fine.iter().zip(coarse).map(|(fine, coarse)| fine + (fine - coarse) / 3.0).collect()
 }
 
-/// All corners lie on the grids of both steps, so that the error falls like h² down to some 1e-6; a row of 2048
-/// springs adds up to 5e-6 where the profile is steep at its edge (fourth power).
+/// All corners are on the grids of both steps, so the error is of order h² down to 1e-6. A row of 2048 springs adds up to 5e-6
+/// for profiles of the fourth power.
 fn agree_with_rows(seeds: std::ops::Range<u64>) {
     for seed in seeds {
         let drawn = deal(seed);
@@ -66,8 +66,7 @@ fn a_hundred_times_tighter_tolerance_changes_little() {
     for seed in 0..SEEDS {
         let drawn = deal(seed);
         let duration = PERIODS * drawn.period;
-        // A list of springs is a law with a kink at every spring, and those are no events: 1e-9 asks as much of its error
-        // estimates as 1e-12 does elsewhere.
+        // A list of springs has a kink at every spring, which is no event: 1e-9 gives the accuracy of 1e-12 elsewhere.
         let loose = if drawn.title.contains("list") { 1e-9 } else { 1e-11 };
         let [near, tight] =
             [loose, 1e-13].map(|tolerance| positions(&drawn.scene, &event(tolerance, duration)));

@@ -1,5 +1,5 @@
-//! Random stacks of one to three bodies on random contacts: where they come to rest all forces balance, and where they do
-//! not, statics says so as well.
+//! Random stacks of one to three bodies on random contacts: forces are balanced in an equilibrium, and statics confirms each
+//! missing equilibrium.
 
 use crate::lottery::Draw;
 use crate::parts::{named, piezo};
@@ -22,11 +22,11 @@ fn profile(draw: &mut Draw) -> (PowerLaw, Profile) {
     }
 }
 
-/// A stack of bodies, each on the one below or the ground.
+/// Stack of bodies, each on the previous one or the ground.
 struct Stack {
     scene: Scene,
     laws: Vec<PowerLaw>,
-    /// Of each body: coefficient of friction below it, and the height of its centre above its contacts.
+    /// Friction coefficient below each body, and height of its centre above its contacts.
     levels: Vec<(f64, f64)>,
     /// Whether springs hold every body.
     tied: bool,
@@ -43,7 +43,7 @@ fn stack(seed: u64) -> Stack {
         let (mass, height) = (draw.spread(1e-3, 1.0), draw.between(1e-3, 10e-3));
         let mut part = planar(mass, mass * draw.spread(1e-6, 1e-4));
         if bodies == 1 && draw.bits().is_multiple_of(3) {
-            // A guide in pitch, or in pitch and along x.
+            // Guide in pitch, or in pitch and along x.
             let fixed = Coordinate::default();
             (part.x, part.pitch) = [(part.x, fixed), (fixed, fixed)][(draw.bits() % 2) as usize];
         }
@@ -105,7 +105,7 @@ fn tie(draw: &mut Draw, scene: &mut Scene, body: usize) {
     scene.actuators.push(named(&format!("stack{body}"), stickslip_drive::scene::Actuator { at, ..actuator }));
 }
 
-/// Forces on the bodies as they add up: sums and sums of magnitudes along x, along z and in pitch.
+/// Sums of forces on the bodies, and of their magnitudes, along x, along z and in pitch.
 struct Forces(Vec<[(f64, f64); 3]>);
 
 impl Forces {
@@ -135,7 +135,7 @@ fn constant(value: Varying) -> f64 {
     value
 }
 
-/// Weight, loads, springs and actuators at a pose that `moved` gives.
+/// Weight, loads, springs and actuators for displacements by `moved`.
 fn applied(scene: &Scene, moved: impl Fn(Side, Point) -> (f64, f64)) -> Forces {
     let mut forces = Forces(vec![[(0.0, 0.0); 3]; scene.bodies.len()]);
     let (sin, cos) = scene.gravity.incline.sin_cos();
@@ -160,9 +160,8 @@ fn applied(scene: &Scene, moved: impl Fn(Side, Point) -> (f64, f64)) -> Forces {
     forces
 }
 
-/// Largest imbalance of a free coordinate in parts of what acts on it, friction counted at its limit. A pose is known to
-/// the last place of its coordinates only: what that makes of the force of a stiff contact far from where it was drawn
-/// is no imbalance.
+/// Largest imbalance of a free coordinate relative to the acting forces, with friction at its limit. Rounding of coordinates is
+/// not an imbalance.
 fn imbalance(stack: &Stack, rest: &Rest) -> f64 {
     let scene = &stack.scene;
     let mut forces = applied(scene, |side, at| rest.moved(side, at));
@@ -197,8 +196,8 @@ fn imbalance(stack: &Stack, rest: &Rest) -> f64 {
     worst
 }
 
-/// How far each body is from its limits by statics: along x, along z and in pitch, below 0 beyond the limit, in parts of
-/// what acts. What happens below happens to all above.
+/// Margins of each body to its limits along x, along z and in pitch by statics, relative to the acting forces; negative beyond
+/// the limit. A failure below affects all bodies above.
 fn margins(stack: &Stack) -> Vec<[f64; 3]> {
     let scene = &stack.scene;
     let forces = applied(scene, |_, _| (0.0, 0.0)).0;
@@ -207,7 +206,7 @@ fn margins(stack: &Stack) -> Vec<[f64; 3]> {
     for (body, [fx, fz, m]) in forces.iter().enumerate().rev() {
         let (friction, height) = stack.levels[body];
         let free = scene.bodies[body].part.coordinates().map(|(_, c)| c.freedom == Freedom::Free);
-        // What comes from above attacks at the top of this body, `height` over its centre.
+        // Forces from above act at the top of this body, `height` above its centre.
         let above = about - height * x;
         (x, z) = (x + fx.0, z + fz.0);
         about = above + m.0 - height * x;
@@ -225,8 +224,7 @@ fn margins(stack: &Stack) -> Vec<[f64; 3]> {
     margins
 }
 
-/// Whether statics agrees that a coordinate has no equilibrium: some body is beyond its limit that way, in a stack where
-/// only one is, it or one above it.
+/// Whether statics confirms that a coordinate has no equilibrium: this body, or one above, is beyond its limit.
 fn is_lost(stack: &Stack, body: usize, axis: usize) -> bool {
     let margins = margins(stack);
     let places = (0..margins.len()).flat_map(|body| (0..3).map(move |axis| (body, axis)));
@@ -248,7 +246,7 @@ fn stacks_come_to_rest_in_balance_or_say_what_nothing_holds() {
                 assert!(imbalance < 1e-9, "seed {seed}: {imbalance:e}");
                 rests += 1;
             }
-            // Soft springs and wide gaps let bodies turn far, and what tips over may be found in balance anywhere.
+            // Soft springs and wide gaps allow large angles, and a tilted body may have a balance anywhere.
             Err(SceneError { fault: SceneFault::Turned { body, angle }, .. }) => {
                 let body = body.trim_start_matches("body").parse().unwrap();
                 let is_loose = stack.tied || stack.scene.contacts.iter().any(|c| c.part.gap > 50e-6);

@@ -1,5 +1,5 @@
-//! A drive of three ruby balls on steel, a design with real materials: its steady steps, the stroke at which it starts
-//! to step, and what the damping of its contacts does to the ringing that follows every flyback.
+//! Drive on three ruby balls on steel: steady steps, smallest stroke with steps, and contact damping of free oscillations after a
+//! flyback.
 
 use crate::parts::{
     FOOT_SLIDER, channel, contact, damped, end, event, foot_and_slider, of_pair, plan, push, trace, wave,
@@ -20,7 +20,7 @@ const FLYBACK: f64 = 10e-6;
 /// Rows in a period.
 const ROWS: usize = 5000;
 
-/// The drive under λμF_N against its motion, with contacts damped by β.
+/// Drive under a load λμF_N against its motion, with contact damping β.
 fn drive(stroke: f64, flyback: f64, load: f64, beta: f64) -> Scene {
     let ruby = Material::new(400e9, 0.27).unwrap();
     let pair = Pair::new(ruby, Material::new(210e9, 0.30).unwrap());
@@ -32,8 +32,8 @@ fn drive(stroke: f64, flyback: f64, load: f64, beta: f64) -> Scene {
     scene
 }
 
-/// What the slider does, m: its advance in each period, and half the swing of u, peak to peak, in the last period of the
-/// resonance before the last flyback.
+/// Displacement of the slider in each period, and half the peak-to-peak oscillation of u in the last period of the resonance
+/// before the last flyback, m.
 struct Motion {
     steps: Vec<f64>,
     ringing: f64,
@@ -59,21 +59,21 @@ impl Motion {
     }
 }
 
-/// Regression values: steady steps from the fifth period on.
+/// Regression values of steady steps from the fifth period on.
 #[test]
 fn steady_steps() {
     for (stroke, load, step) in [(100e-9, 0.0, 61.87e-9), (200e-9, 0.0, 161.85e-9), (200e-9, 0.5, 81.7e-9)] {
         let Motion { steps, .. } =
             Motion::of(&drive(stroke, FLYBACK, load, 0.0), &event(1e-10, 10.0 * PERIOD));
         println!("{stroke:e}, λ = {load}: {steps:?}");
-        // The last printed digit.
+        // Last printed digit.
         let digit = if load == 0.0 { 0.005e-9 } else { 0.05e-9 };
         assert!(steps[5..].iter().all(|s| (s - step).abs() <= digit), "{steps:?}");
     }
 }
 
-/// Below a stroke of 0.96 u_c the steps die out, though the contact alone would step from 0.74 u_c on: the ringing after
-/// the flyback takes the rest. From there on each part of stroke is a part of step.
+/// Below a stroke of 0.96 u_c the steps vanish, although the contact alone would step from 0.74 u_c on: free oscillations after
+/// the flyback reduce them.
 #[test]
 fn starts_to_step_at_0_96_u_c() {
     let steady = |stroke: f64| {
@@ -91,8 +91,8 @@ fn starts_to_step_at_0_96_u_c() {
     assert!((rise - 1.0).abs() < 5e-3, "{rise}");
 }
 
-/// A curve measured, for there is no closed form. Damping takes the ringing away, and a little of it makes the step
-/// longer; more makes it shorter again, because during the flyback the damped springs drag the slider along.
+/// Regression curve. Contact damping reduces the oscillation. A small damping makes the step longer, a large one shorter, because
+/// damped springs drag the slider during the flyback.
 #[test]
 fn damping_of_the_contacts_against_step_and_ringing() {
     let steady = |beta: f64| Motion::of(&drive(100e-9, FLYBACK, 0.0, beta), &event(1e-10, 8.0 * PERIOD));
@@ -104,7 +104,7 @@ fn damping_of_the_contacts_against_step_and_ringing() {
         assert!(spread < 1e-5 * motion.step(), "{:?}", motion.steps);
     }
     assert!(curve[..8].windows(2).all(|w| w[1].ringing < w[0].ringing));
-    // Beyond 3 µs only round-off is left.
+    // Above 3 µs only rounding remains.
     assert!(curve[7..].iter().all(|m| m.ringing < 1e-9 * m.step()));
     let rises = |w: &[Motion]| w[1].step() > w[0].step();
     assert!(curve[..5].windows(2).all(rises) && !curve[7..].windows(2).any(rises));
@@ -120,8 +120,8 @@ fn damping_of_the_contacts_against_step_and_ringing() {
     }
 }
 
-/// With a flyback too fast to drag, contacts damped beyond the critical ratio βω/2 = 1 come to rest without overshoot:
-/// nearly the ideal inertia drive, which advances by the stroke less the zero-step stroke of the contact alone.
+/// With a very fast flyback, contacts beyond critical damping (βω/2 = 1) settle without overshoot. The step is nearly the stroke
+/// minus the zero-step stroke.
 #[test]
 fn a_fast_flyback_and_much_damping_make_the_drive_ideal() {
     let short = [4e-5, 8e-5, 16e-5, 32e-5].map(|beta| {
@@ -133,8 +133,8 @@ fn a_fast_flyback_and_much_damping_make_the_drive_ideal() {
     assert!(short.windows(2).all(|w| w[1] < w[0]) && short[3].abs() < 3e-3);
 }
 
-/// In so fast a flyback the rounding of time is worth more of the foot's way, and of its work, than a tight tolerance
-/// allows: steps shrank until none was left. The drive moves as with a jump, but for parts of the flyback's time.
+/// In a flyback of 0.1 ns rounding of time exceeds the tolerance of displacement and work. The drive moves as with a jump, up to
+/// the duration of the flyback.
 #[test]
 fn a_flyback_of_a_tenth_of_a_nanosecond_does_not_stop_the_run() {
     let place = |flyback: f64| {
@@ -146,7 +146,7 @@ fn a_flyback_of_a_tenth_of_a_nanosecond_does_not_stop_the_run() {
     assert!(off.abs() < 1e-6);
 }
 
-/// The same where damping makes much work of it.
+/// The same with contact damping.
 #[test]
 fn a_damped_drive_with_a_flyback_of_a_nanosecond_runs() {
     let place = |flyback: f64| {
@@ -155,6 +155,6 @@ fn a_damped_drive_with_a_flyback_of_a_nanosecond_runs() {
     };
     let [one, two, four] = [1e-9, 2e-9, 4e-9].map(place);
     println!("{:.2e}, {:.2e} of the stroke", (two - one) / 100e-9, (four - two) / 100e-9);
-    // What the flyback's time changes is in proportion to it.
+    // The effect of the flyback's duration is proportional to it.
     assert!(((four - two) / (two - one) - 2.0).abs() < 1e-2);
 }

@@ -1,4 +1,4 @@
-//! Runs on every shape of a waveform: equal to the same motion told as a table or as sines.
+//! Runs on every shape of a waveform, compared with the same motion as a table or as sines.
 
 use crate::parts::{FOOT_SLIDER, contact, end, event, foot_and_slider, named};
 use stickslip_contact::Profile;
@@ -17,7 +17,7 @@ fn on_wave(waveform: Waveform) -> Scene {
     foot_and_slider(named("drive", waveform), 0.02, ball)
 }
 
-/// Where the slider ends, m.
+/// Final position of the slider, m.
 fn reach(scene: &Scene, plan: &Plan) -> f64 {
     let (model, state) = end(scene, plan);
     state.body(&model, 1).unwrap().0
@@ -28,11 +28,11 @@ fn agree(one: &Scene, other: &Scene, slack: f64) {
     let (a, b) = (reach(one, &plan), reach(other, &plan));
     println!("{a:e} {b:e} {:e}", (a - b) / STROKE);
     assert!((a - b).abs() < slack * STROKE, "{a:e} {b:e}");
-    // It went somewhere.
+    // The slider has moved.
     assert!(a.abs() > 0.05 * STROKE, "{a:e}");
 }
 
-/// A table with the corners of one period told by its points, again and again.
+/// Repeated table with the corners of one period.
 fn table(corners: &[(f64, f64)], period: f64) -> Scene {
     let mut points = Vec::new();
     for k in 0..(DURATION / period).ceil() as u32 {
@@ -50,7 +50,7 @@ fn a_trapezoid_is_the_table_of_its_corners() {
     agree(&on(shape), &table(&corners, PERIOD), 1e-9);
 }
 
-/// S = 0.5 µm in 0.98 ms, back in 0.02 ms at 2 mm/s: it is late by u = (S - rτ)/(r + s).
+/// S = 0.5 µm in 0.98 ms, back in 0.02 ms with a limit of 2 mm/s: it lags by u = (S - rτ)/(r + s).
 #[test]
 fn a_limited_sawtooth_is_the_table_of_what_it_meets() {
     let rate = 2e-3;
@@ -79,7 +79,7 @@ fn a_sequence_is_the_table_of_its_runs_and_rests() {
     agree(&on(Shape::Pattern { carrier: Box::new(saw), parts }), &table(&corners, 3.5e-3), 1e-9);
 }
 
-/// Runs that are reversed carry the slider the other way, step for step.
+/// Reversed runs move the slider in the opposite direction, step by step.
 #[test]
 fn what_is_reversed_steps_the_other_way() {
     let saw = || Box::new(Shape::Sawtooth { stroke: STROKE, flyback: 0.02e-3 });
@@ -88,7 +88,7 @@ fn what_is_reversed_steps_the_other_way() {
     let [forth, back] = [false, true].map(|reversed| reach(&on(run(reversed)), &plan));
     println!("{forth:e} {back:e}");
     assert!(forth > 10.0 * STROKE && back < -10.0 * STROKE, "{forth:e} {back:e}");
-    // Mirrored in time and in space, a steady drive is the same but for where it starts.
+    // Mirrored in time and space, a steady drive differs by its start only.
     assert!((forth + back).abs() < 2.0 * STROKE, "{forth:e} {back:e}");
 }
 
@@ -104,7 +104,7 @@ fn two_harmonics_and_a_chirp_of_one_frequency_are_their_sines() {
     agree(&on(Shape::Pattern { carrier: Box::new(sum()), parts }), &on(sum()), 1e-8);
 }
 
-/// A step of the foot is a path of the contact in no time, as that of a table is.
+/// A step of the foot is a path of zero duration, like that of a table.
 #[test]
 fn a_step_is_the_jump_of_a_table() {
     let step = on(Shape::Step { height: STROKE, at: 1e-3 });
@@ -112,7 +112,7 @@ fn a_step_is_the_jump_of_a_table() {
     agree(&step, &on(Shape::Table { points }), 1e-12);
 }
 
-/// A waveform as a table of points so close together that their chords are within 1e-7 of the stroke of it.
+/// Waveform as a table of points, with chords accurate to 1e-7 of the stroke.
 fn chords(waveform: &Waveform) -> Scene {
     let mut points = Vec::new();
     let mut piece = waveform.piece_at(0.0);
@@ -133,7 +133,7 @@ fn chords(waveform: &Waveform) -> Scene {
     on(Shape::Table { points })
 }
 
-/// The event stepper goes along a curved piece as it goes along its chords.
+/// Curved pieces give the same motion as their chords.
 #[test]
 fn curved_shapes_are_their_chords() {
     let points: Vec<(f64, f64)> = [(0.0, 0.0), (0.3, 0.2), (0.6, 0.55), (0.9, 1.0), (0.95, 0.8), (1.0, 0.0)]
@@ -157,10 +157,10 @@ fn curved_shapes_are_their_chords() {
     }
 }
 
-/// Below the acceleration that friction can give, the slider goes with the foot and has its speed at the cusp.
+/// Below the largest friction acceleration the slider sticks to the foot and has its velocity at the cusp.
 #[test]
 fn the_parabola_carries_as_fast_as_its_turn() {
-    // 2V/T = 8S/T² = 4 m/s² is below μF_N/m = 7.5 m/s²: the slider sticks up to the cusp, and goes on from there at V = 4S/T.
+    // 2V/T = 8S/T² = 4 m/s² is below μF_N/m = 7.5 m/s²: the slider sticks up to the cusp, and continues at V = 4S/T.
     let scene = on(Shape::Parabola { stroke: STROKE, turn: 0.0 });
     let (model, state) = end(&scene, &event(1e-10, 0.5 * PERIOD));
     let (x, v) = state.body(&model, 1).unwrap();

@@ -1,8 +1,7 @@
-//! Small oscillations of stages against the linear modes of matrices written out by hand.
+//! Small oscillations of stages, compared with normal modes of explicit matrices.
 //!
-//! The modes hold in the limit of small amplitudes A: contacts get stiffer with depth, which shifts a frequency by
-//! parts of (A/d)², and slip at their edges, which shifts it by parts of A/u_c. So the amplitude here is a few 1e-4 of
-//! d, and the coefficient of friction so high that it is below 1e-6 of u_c.
+//! The modes are valid for small amplitudes A: stiffness varies with depth, which shifts a frequency by (A/d)², and edges slip,
+//! which shifts it by A/u_c. The amplitude is a few 1e-4 of d; the friction coefficient is so high that it is below 1e-6 of u_c.
 
 use crate::parts::{column, event, fitted_order, of_profile, plan, trace};
 use crate::stages::{
@@ -17,7 +16,7 @@ use stickslip_drive::{Field, Model, Part, Plan, SceneFault, Stepper};
 const HEIGHT: f64 = 6e-3;
 const STICKY: f64 = 1000.0;
 
-/// A stage that starts in its equilibrium, and the matrices of its small motions about it.
+/// Stage that starts in equilibrium, and the matrices of its small motions.
 struct Stage {
     scene: Scene,
     mass: Vector3<f64>,
@@ -50,7 +49,7 @@ fn stage_on(feet: &[Foot], friction: f64) -> Stage {
     Stage { scene, mass: Vector3::new(MASS, MASS, INERTIA), stiffness, depth }
 }
 
-/// Angular frequencies by rising frequency and shapes q, qᵀMq = 1.
+/// Angular frequencies in increasing order, and shapes q with qᵀMq = 1.
 fn modes(stage: &Stage) -> Vec<(f64, Vector3<f64>)> {
     let root = stage.mass.map(f64::sqrt);
     let scaled = Matrix3::from_fn(|i, j| stage.stiffness[(i, j)] / (root[i] * root[j]));
@@ -62,7 +61,7 @@ fn modes(stage: &Stage) -> Vec<(f64, Vector3<f64>)> {
 }
 
 impl Stage {
-    /// The scene pushed off along a mode, its fastest foot's amplitude `share` of the smallest indentation.
+    /// Model with an initial velocity along a mode; the largest amplitude at a foot is `share` of the smallest indentation.
     fn pushed(&self, (frequency, shape): &(f64, Vector3<f64>), share: f64) -> Scene {
         let largest = (shape[0].abs() + HEIGHT * shape[2].abs()).max(shape[1].abs() + 14e-3 * shape[2].abs());
         let speed = shape * (share * self.depth * frequency / largest);
@@ -72,8 +71,7 @@ impl Stage {
         scene
     }
 
-    /// Angular frequency with which a run swings along a mode, from its first and last zero on the way up over a number
-    /// of periods.
+    /// Angular frequency of a mode in a run, from its first and last upward zero crossing over a number of periods.
     fn measured(&self, scene: &Scene, shape: &Vector3<f64>, plan: &Plan, every: f64) -> f64 {
         let (model, _, rows) = trace(scene, plan, every);
         let body = &scene.bodies[0].part;
@@ -142,7 +140,7 @@ fn with_ordinary_friction_the_modes_are_met_in_proportion_to_the_amplitude() {
     assert!((order - 1.0).abs() < 0.02 && points[3].1 > 0.0, "{points:?}");
 }
 
-/// Velocity Verlet swings too fast: sin(ω'h/2) = ωh/2, ω'/ω = 1 + (ωh)²/24 + …
+/// Velocity Verlet oscillates too fast: sin(ω'h/2) = ωh/2, ω'/ω = 1 + (ωh)²/24 + …
 #[test]
 fn verlet_at_small_steps_converges_to_the_modes_at_its_own_order() {
     let stage = stage_on(&THREE, STICKY);
@@ -194,7 +192,7 @@ fn the_matrices_of_a_model_are_those_written_out_by_hand() {
     }
 }
 
-/// On flat punches no stiffness depends on the depth: what the model expects is what happens.
+/// The stiffness of flat punches does not depend on depth, so the stability limit is exact.
 #[test]
 fn verlet_stays_bounded_below_the_longest_step_and_is_refused_beyond_it() {
     let mut scene = stage(&THREE, HEIGHT, 0.5);
@@ -204,7 +202,7 @@ fn verlet_stays_bounded_below_the_longest_step_and_is_refused_beyond_it() {
     scene.gravity = earth(0.1);
     let model = Model::new(&scene).unwrap();
     let limit = model.longest_step(Stepper::Verlet { step: 1.0 }).unwrap();
-    // The fastest mode by hand: widths 2b instead of 2a.
+    // The fastest mode with explicit matrices: widths 2b instead of 2a.
     let mut stiffness = Matrix3::zeros();
     for foot in THREE {
         let (u, d) = (Vector3::new(1.0, 0.0, HEIGHT), Vector3::new(0.0, 1.0, foot.x));

@@ -1,4 +1,4 @@
-//! Drawn scenes run to their end, whatever the tolerance.
+//! Random models run to their end at any tolerance.
 
 use crate::lottery::{Draw, deal, on_rows};
 use crate::parts::{FOOT_SLIDER, contact, event, foot_and_slider, named, of_pair, steel, wave};
@@ -7,7 +7,7 @@ use stickslip_contact::{Pair, Profile};
 use stickslip_drive::scene::{Coordinate, Direction, Gravity, Normal, Point, Scene, Side, Spring};
 use stickslip_drive::{Limits, Model, Plan, RunError, Shape, run};
 
-/// Seeds in a test; the variable `STICKSLIP_SEEDS` asks for more.
+/// Number of seeds; the variable `STICKSLIP_SEEDS` sets more.
 const SEEDS: u64 = 60;
 
 /// Units of mass, length and time.
@@ -30,13 +30,13 @@ impl Units {
     }
 }
 
-/// A slider that nothing but its weight or a preloaded spring presses on its foot, begun anywhere but in balance: in touch, above
-/// it or pressed, on a drive with a phase.
+/// Slider that only its weight or a preloaded spring presses, with a start out of balance: in contact, above or pressed, and a
+/// drive with a phase.
 pub(crate) fn pressed(seed: u64) -> (Scene, f64) {
     pressed_in(seed, Units::SI)
 }
 
-/// The same with all its numbers in other units.
+/// The same model in other units.
 pub(crate) fn pressed_in(seed: u64, units: Units) -> (Scene, f64) {
     let mut draw = Draw::new(seed);
     let mut of = |count: u64| draw.bits() % count;
@@ -88,8 +88,7 @@ pub(crate) fn pressed_in(seed: u64, units: Units) -> (Scene, f64) {
     (scene, period)
 }
 
-/// Fixed steps run all of them through: nothing that stops one by itself is physics. What leaves the range of its model is
-/// refused by name.
+/// Fixed steps run all of them; no run stops by itself. Motions beyond the range of the model are refused.
 #[test]
 fn no_drawn_scene_stops_itself() {
     let seeds = std::env::var("STICKSLIP_SEEDS").ok().and_then(|n| n.parse().ok()).unwrap_or(SEEDS);

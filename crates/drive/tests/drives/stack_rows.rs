@@ -1,10 +1,10 @@
-//! The two engines on a foot that hangs on a stack: P1's contact and sawtooth, a foot of 5 g on 20 N/µm with 20 N s/m, a slider of 20 g
-//! against 20 mN. The curve knows no springs and the row no curve: nothing but the physics is common to them.
+//! Both engines for a foot on a piezo stack: P1's contact and sawtooth, a foot of 5 g on 20 N/µm with 20 N s/m, a slider of 20 g
+//! against 20 mN. The engines are independent of each other.
 
 use crate::parts::{column, event, free, p1, piezo, push, trace};
 use stickslip_drive::scene::{Actuator, EngineChoice, Side, Varying};
 
-/// Ways of the slider in ten periods, by an engine at a tolerance.
+/// Positions of the slider in ten periods.
 fn way(engine: EngineChoice, tolerance: f64) -> Vec<f64> {
     let mut scene = p1();
     scene.bodies[0].part = free(5e-3);
@@ -16,14 +16,14 @@ fn way(engine: EngineChoice, tolerance: f64) -> Vec<f64> {
     column(&model, &trace, "slider.x_m")
 }
 
-/// Largest distance of two ways, as a part of where the first one ends.
+/// Largest difference of two motions, relative to the end of the first.
 fn apart(first: &[f64], second: &[f64]) -> f64 {
     assert_eq!(first.len(), second.len());
     let distances = first.iter().zip(second).map(|(a, b)| (a - b).abs());
     distances.fold(0.0, f64::max) / first[first.len() - 1]
 }
 
-/// To 1e-5 with 256 springs, and a tenth and less of that with four times as many: midpoints are of second order but for the edge.
+/// They agree to 1e-5 with 256 springs, and to a tenth of that with four times as many.
 #[test]
 fn curve_and_row_agree_and_the_row_comes_closer_with_its_springs() {
     let curve = way(EngineChoice::Curve, 1e-10);

@@ -1,4 +1,4 @@
-//! Stages: rigid sliders on balls, and the statics of their contacts by formulas of their own.
+//! Stages: rigid sliders on balls, and independent formulas of their statics.
 
 use crate::parts::{contact, named};
 use std::f64::consts::{FRAC_PI_2, PI};
@@ -16,7 +16,7 @@ pub(crate) const INERTIA: f64 = 8e-6;
 /// Radius of a ball, m.
 pub(crate) const BALL: f64 = 1e-3;
 
-/// A place at which a stage stands on balls.
+/// Point at which a stage stands on balls.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Foot {
     pub(crate) x: f64,
@@ -25,7 +25,7 @@ pub(crate) struct Foot {
 
 /// Three balls: two at one end, one at the other.
 pub(crate) const THREE: [Foot; 2] = [Foot { x: -9e-3, count: 2 }, Foot { x: 14e-3, count: 1 }];
-/// Six balls, two at each of three places.
+/// Six balls, two at each of three points.
 pub(crate) const SIX: [Foot; 3] =
     [Foot { x: -11e-3, count: 2 }, Foot { x: 2e-3, count: 2 }, Foot { x: 12e-3, count: 2 }];
 
@@ -35,14 +35,13 @@ pub(crate) fn planar(mass: f64, inertia: f64) -> Body {
     Body { mass: Some(mass), inertia: Some(inertia), x: free, z: free, pitch: free }
 }
 
-/// A contact of steel on steel at one point of the second body and the point below it of the first, pressed by the
-/// bodies.
+/// Steel contact at a point of the second body and the point below it of the first, pressed by the bodies.
 pub(crate) fn coupled(between: [Side; 2], at: Point, profile: Profile, friction: f64) -> Contact {
     let below = Point { x: at.x, z: 0.0 };
     Contact { at: [below, at], normal: Normal::Coupled, ..contact(between, profile, friction, 0.0) }
 }
 
-/// A stage in static equilibrium: body 0 stands on the ground on balls `height` below its centre of mass.
+/// Stage in static equilibrium: body 0 on the ground, on balls `height` below its centre of mass.
 pub(crate) fn stage(feet: &[Foot], height: f64, friction: f64) -> Scene {
     let ball = |foot: &Foot| Contact {
         count: foot.count,
@@ -83,14 +82,14 @@ pub(crate) fn upright(body: usize, at: Point, stiffness: f64, preload: f64) -> S
     Spring { between, at: [Point::default(), at], direction: Direction::Z, stiffness, damping: 0.0, preload }
 }
 
-/// A scene and where it comes to rest.
+/// Model with its static equilibrium.
 #[derive(Debug)]
 pub(crate) struct Rest {
     pub(crate) model: Model,
     pub(crate) state: State,
 }
 
-/// Where a scene comes to rest, or why it does not.
+/// Returns the static equilibrium of a model, or the error.
 pub(crate) fn rest(scene: &Scene) -> Result<Rest, SceneError> {
     let model = Model::new(scene)?;
     let state = model.start(&crate::parts::plan(Stepper::Event { tolerance: 1e-8 }, 1.0))?;
@@ -120,7 +119,7 @@ impl Rest {
         first - second - contact.gap
     }
 
-    /// Normal force of one contact `c`, N: its depth under a law of the test's own.
+    /// Normal force of one contact `c`, N: its depth in the test's own law.
     pub(crate) fn normal(&self, scene: &Scene, c: usize, law: impl Fn(f64) -> f64) -> f64 {
         law(self.depth(&scene.contacts[c].part).max(0.0))
     }
@@ -141,7 +140,7 @@ pub(crate) fn tangential_modulus() -> f64 {
     4.0 * 210e9 / (2.0 * 1.3) / (2.0 * 1.7)
 }
 
-/// A profile under formulas of the test's own: B and n of g = B xⁿ; a flat punch has its radius and no n.
+/// Profile with the test's own formulas: B and n of g = B xⁿ; a flat punch has its radius and no n.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct PowerLaw {
     foundation: f64,

@@ -1,4 +1,4 @@
-//! Static equilibria against statics done by hand.
+//! Static equilibria, compared with statics by hand.
 
 use crate::parts::{named, of_profile};
 use crate::stages::{
@@ -8,7 +8,7 @@ use crate::stages::{
 use std::f64::consts::FRAC_PI_2;
 use stickslip_drive::scene::{Gravity, Point, Scene, Side};
 
-/// Gaps of the contacts in the position drawn, m.
+/// Gaps of the contacts in the reference position, m.
 const GAPS: [f64; 5] = [0.0, 0.5e-6, -0.5e-6, 100e-6, 1e-3];
 const HEIGHT: f64 = 6e-3;
 const PRECISE: f64 = 1e-10;
@@ -30,12 +30,12 @@ fn wrench(x: f64, z: f64, moment: f64) -> Wrench {
 }
 
 impl Wrench {
-    /// Moment that the normal forces of contacts `HEIGHT` below must carry: the friction there holds x.
+    /// Moment that the normal forces of contacts `HEIGHT` below carry; friction there holds x.
     fn tilting(&self) -> f64 {
         self.moment - HEIGHT * self.x
     }
 
-    /// Normal forces of one ball of each of two places: ΣN = -F_z, ΣXN = -M.
+    /// Normal forces of one ball at each of two points: ΣN = -F_z, ΣXN = -M.
     fn on_two(&self, feet: [Foot; 2]) -> [f64; 2] {
         let [a, b] = feet;
         let (force, moment) = (-self.z, -self.tilting());
@@ -44,7 +44,7 @@ impl Wrench {
     }
 }
 
-/// A stage on some feet under some loads, and the wrench of these.
+/// Stage on some feet under some loads, with their wrench.
 fn loaded(feet: &[Foot]) -> Vec<(&'static str, Scene, Wrench)> {
     let with = |friction: f64, change: &dyn Fn(&mut Scene)| {
         let mut scene = stage(feet, HEIGHT, friction);
@@ -95,7 +95,7 @@ fn three_balls_carry_what_the_lever_says() {
     }
 }
 
-/// z and pitch at which balls on Hertz' law carry a force and a moment, by Newton's method on (z, θ).
+/// z and pitch at which Hertzian balls carry a force and a moment, by Newton's method on (z, θ).
 fn newton(feet: &[Foot], force: f64, moment: f64) -> (f64, f64) {
     let (mut z, mut pitch) = (-1e-6_f64, 0.0_f64);
     let balance = |z: f64, pitch: f64| {
@@ -142,7 +142,7 @@ fn six_balls_share_as_hertz_law_says() {
 
 #[test]
 fn one_end_of_six_balls_may_leave_the_ground() {
-    // The load lies beyond the middle of the last gap: the first pair lifts off and the others are a lever.
+    // The load acts beyond the middle of the last gap: the first pair lifts off.
     let mut scene = stage(&SIX, HEIGHT, 0.2);
     scene.loads.push(force_at(0, (10e-3, 0.0), (0.0, -3.0)));
     let rest = rest(&scene).unwrap_or_else(|e| panic!("{e} {scene:?}"));
@@ -204,9 +204,8 @@ fn every_profile_carries_what_the_lever_says() {
     }
 }
 
-/// Under loads put on in proportion everything grows alike on Hertz' law, d and u as the power 2/3 of the load: each
-/// contact is loaded obliquely from first touch, sticks as a whole and carries a share of the load in proportion to its
-/// radius, or, where that is more than μF_N, slips as a whole.
+/// Under proportional loading all forces of Hertzian contacts grow alike; d and u are proportional to the power 2/3 of the load.
+/// Each contact has a share of the load in proportion to its radius in full stick, at most μF_N in gross slip.
 fn shares(feet: &[Foot], normal: &[f64], friction: f64, load: f64) -> Vec<f64> {
     let radius = |n: f64| (0.75 * n * BALL / normal_modulus()).cbrt();
     let mut slips = vec![false; feet.len()];
@@ -264,7 +263,7 @@ fn contacts_on_an_incline_share_the_load_by_their_stiffness() {
                 for (c, want) in shares(feet, &normal, friction, load).into_iter().enumerate() {
                     let got = rest.tangential(c);
                     slipped += usize::from(want >= friction * normal[c]);
-                    // Moment balance with the friction at the height of the contacts: in the normal forces above.
+                    // Moment balance: friction acts at the height of the contacts.
                     assert!(
                         (got - want).abs() <= 1e-6 * load,
                         "{incline} {friction} {gap:e}: {got:e} {want:e}"

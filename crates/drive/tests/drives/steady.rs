@@ -1,4 +1,4 @@
-//! Runs that end when the steps of their drive have become constant.
+//! Runs that end when the steps of their drive are constant.
 
 use crate::lottery::deal;
 use crate::parts::{
@@ -21,20 +21,20 @@ fn recorded(scene: &Scene, plan: &Plan) -> (Model, State, Trace) {
     (model, state, trace)
 }
 
-/// Whether two runs came to the same, work and methods included; what they know of the steps of the drive left out.
+/// Whether two runs have equal results and counts, except for their knowledge of steps.
 fn came_to_the_same((model, one): (&Model, &State), other: &State) -> bool {
     (one.time(), one.body(model, 1), one.counts()) == (other.time(), other.body(model, 1), other.counts())
         && (one.tally(), one.memories()) == (other.tally(), other.memories())
 }
 
-/// Steps of the slider in a run, from its rows at the ends of the periods.
+/// Step lengths of the slider, from rows at the ends of periods.
 fn steps(model: &Model, trace: &Trace) -> Vec<f64> {
     let x = channel(model, "slider.x_m");
     let places: Vec<f64> = trace.column(x).collect();
     places.windows(2).map(|pair| pair[1] - pair[0]).collect()
 }
 
-/// A sine that drags a slider on under a load: its steps have no corner at their ends.
+/// Sine that moves a slider under a load: its periods do not end with corners.
 fn shaken() -> Scene {
     let ball = contact(FOOT_SLIDER, Profile::paraboloid(1e-3).unwrap(), 0.15, 1.0);
     let scene = foot_and_slider(wave("drive", sine(1e-6), PERIOD), 0.02, ball);
@@ -62,7 +62,7 @@ fn p1_ends_with_the_period_that_its_reference_steps_say() {
     }
 }
 
-/// At a corner a step ends anyway: the run that ends early is the run that was to end there, work counts and all.
+/// At a corner a step ends anyway: an early end equals a shorter run, including counts.
 #[test]
 fn an_early_end_at_a_corner_is_a_shorter_run() {
     for tolerance in [1e-4, 1e-8, 1e-12] {
@@ -90,7 +90,7 @@ fn until_its_end_the_run_is_the_longer_one_to_the_last_bit() {
     let mut early = [0; 4];
     for (scene, period) in drawn.into_iter().chain([(p1(), PERIOD), (shaken(), PERIOD)]) {
         for (stepper, early) in steppers.into_iter().zip(&mut early) {
-            // An interval that meets the ends of the periods now and then.
+            // Interval that sometimes meets the ends of periods.
             let long = Plan { every: Some(0.15 * period), ..plan(stepper, 24.3 * period) };
             let (_, _, whole) = recorded(&scene, &long);
             let (_, state, part) = recorded(&scene, &until_steady(long, 1e-2));
@@ -119,7 +119,7 @@ fn until_its_end_the_run_is_the_longer_one_to_the_last_bit() {
 
 #[test]
 fn periods_without_a_corner_end_on_the_dense_output() {
-    // The plain reference is not among them: the cubic between its long steps scatters by a per cent.
+    // Without the reference method, whose interpolation between long steps has errors of 1 %.
     for (stepper, within) in [
         (Stepper::Event { tolerance: 1e-10 }, 1e-9),
         (Stepper::Verlet { step: 0.3e-6 }, 1e-5),
@@ -129,7 +129,7 @@ fn periods_without_a_corner_end_on_the_dense_output() {
         let (model, early, trace) = recorded(&shaken(), &until_steady(long, 1e-5));
         let periods = early.time() / PERIOD;
         assert!((4.0..100.0).contains(&periods) && (periods - periods.round()).abs() < 1e-12, "{periods}");
-        // Another run with rows at the ends.
+        // Another run with rows at the ends of periods.
         let asked = Plan { every: Some(PERIOD), ..plan(Stepper::Event { tolerance: 1e-12 }, early.time()) };
         let (_, other, rows) = recorded(&shaken(), &asked);
         let (x, exact) = (early.body(&model, 1).unwrap().0, other.body(&model, 1).unwrap().0);
@@ -137,7 +137,7 @@ fn periods_without_a_corner_end_on_the_dense_output() {
         assert!((x / exact - 1.0).abs() < within, "{stepper:?}: {x:e} {exact:e}");
         let last = &steps(&model, &rows)[periods.round() as usize - 4..];
         assert!(last.windows(2).all(|pair| (pair[1] / pair[0] - 1.0).abs() < 2e-5), "{stepper:?}: {last:?}");
-        // The books are those of a run that ends there.
+        // The energies are those of a run that ends there.
         let books = trace.rows().last().unwrap();
         let (input, error) =
             (books[channel(&model, "energy.input_J")], books[channel(&model, "energy.error_J")]);
@@ -145,7 +145,7 @@ fn periods_without_a_corner_end_on_the_dense_output() {
     }
 }
 
-/// A load of another period makes every step another one.
+/// A load of another period makes every step different.
 #[test]
 fn a_drive_that_never_settles_runs_to_its_end() {
     let mut scene = p1();
@@ -156,7 +156,7 @@ fn a_drive_that_never_settles_runs_to_its_end() {
     assert!(came_to_the_same((&model, &state), &recorded(&scene, &long).1));
 }
 
-/// A drive below its zero-step stroke comes to rest: steps of nothing are constant, too.
+/// A drive below its zero-step stroke comes to rest: steps of zero length are constant, too.
 #[test]
 fn steps_of_nothing_are_as_long_as_each_other() {
     let mut scene = p1();
@@ -172,7 +172,7 @@ fn steps_of_nothing_are_as_long_as_each_other() {
     assert!(state.time() < 100.0 * PERIOD);
 }
 
-/// Steps count from the waveform's delay on, and not after its last cycle.
+/// Steps count from the waveform's delay to its last cycle.
 #[test]
 fn delay_and_cycles_bound_the_steps() {
     let saw = |timing| Waveform::new(Shape::Sawtooth { stroke: 0.5e-6, flyback: 0.1e-3 }, timing).unwrap();

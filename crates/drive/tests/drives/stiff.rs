@@ -1,7 +1,7 @@
-//! Dampers and damped contacts that settle within nanoseconds, against closed forms of what they leave to be seen.
+//! Dampers and damped contacts that settle within nanoseconds, compared with closed forms of the slow motion.
 //!
-//! P1, whose slider the foot drags by w = s - x. Corners of s begin layers of m/c (2e-10 s) or m/(βk) (2e-8 s); rows lie beside
-//! them. Each closed form has its next term, and tells by itself how far it holds.
+//! P1, whose slider the foot drags by w = s - x. After corners of s there are layers of m/c (2e-10 s) or m/(βk) (2e-8 s); rows
+//! avoid them. Each closed form contains its next term, which shows its accuracy.
 
 use crate::parts::{FOOT_SLIDER, column, damped, damper, event, named, p1, trace};
 use stickslip_drive::scene::{Scene, Side};
@@ -11,18 +11,18 @@ const STROKE: f64 = 0.5e-6;
 const PERIOD: f64 = 1e-3;
 const FLYBACK: f64 = 0.1e-3;
 const MASS: f64 = 0.02;
-/// Limit of friction, N.
+/// Friction limit, N.
 const LIMIT: f64 = 0.15;
 const PERIODS: i32 = 5;
-/// Damping of a damper, N s/m.
+/// Damping coefficient, N s/m.
 const DAMPING: f64 = 1e8;
-/// Speeds of the foot, m/s.
+/// Velocities of the foot, m/s.
 const RISE: f64 = STROKE / (PERIOD - FLYBACK);
 const FALL: f64 = -STROKE / FLYBACK;
 
 const GROUND_SLIDER: [Side; 2] = [Side::Ground, Side::Body(1)];
 
-/// P1 whose contact is damped by β = 1 s.
+/// P1 with a contact damping β = 1 s.
 fn damped_contact() -> Scene {
     let mut scene = p1();
     scene.contacts[0].part = damped(&scene.contacts[0].part, 1.0);
@@ -36,7 +36,7 @@ fn syrup(between: [Side; 2]) -> Scene {
     scene
 }
 
-/// Displacement of gross slip, m, and stiffness at the first touch of slip, N/m: Hertz, Cattaneo and Mindlin.
+/// Gross slip displacement, m, and initial tangential stiffness, N/m: Hertz, Cattaneo and Mindlin.
 fn mindlin() -> (f64, f64) {
     let (young, nu, radius, normal) = (210e9_f64, 0.3, 1e-3_f64, 1.0);
     let e = young / (2.0 * (1.0 - nu * nu));
@@ -45,13 +45,13 @@ fn mindlin() -> (f64, f64) {
     (LIMIT / normal * e / g * d, 2.0 * g * (radius * d).sqrt())
 }
 
-/// Place and speed of the foot.
+/// Position and velocity of the foot.
 fn foot(t: f64) -> (f64, f64) {
     let s = t % PERIOD;
     if s < PERIOD - FLYBACK { (RISE * s, RISE) } else { (STROKE + FALL * (s - (PERIOD - FLYBACK)), FALL) }
 }
 
-/// Moments of the corners, and by how much the speed of the foot jumps there.
+/// Times of the corners, and jumps of the foot's velocity there.
 fn corners() -> impl Iterator<Item = (f64, f64)> {
     let of = |n| {
         let start = f64::from(n) * PERIOD;
@@ -60,11 +60,11 @@ fn corners() -> impl Iterator<Item = (f64, f64)> {
     (0..PERIODS).flat_map(of)
 }
 
-/// Holds the slider to `exact(t)` at rows beside the corners, to less than the tolerance of the stroke, and the work to less than a
-/// hundredth of what an explicit method needs.
+/// Compares the slider with `exact(t)` in rows near the corners, within the tolerance of the stroke. The number of evaluations
+/// must be below a hundredth of that of an explicit method.
 fn compare(name: &str, scene: &Scene, exact: impl Fn(&[f64]) -> Vec<f64>) {
     for tolerance in [1e-3, 1e-5, 1e-7, 1e-9, 1e-11] {
-        // The end lies beside a corner, too.
+        // The end is near a corner, too.
         let plan = event(tolerance, (f64::from(PERIODS) - 0.03) * PERIOD);
         let (model, state, rows): (_, State, _) = trace(scene, &plan, PERIOD / 7.3);
         let (t, x) = (column(&model, &rows, "time_s"), column(&model, &rows, "slider.x_m"));
@@ -78,10 +78,10 @@ fn compare(name: &str, scene: &Scene, exact: impl Fn(&[f64]) -> Vec<f64>) {
     }
 }
 
-/// The law of Cattaneo and Mindlin by its force, with Masing's branches.
+/// Law of Cattaneo and Mindlin by force, with Masing branches.
 #[derive(Default)]
 struct Loops {
-    /// Force and place where the motion turned.
+    /// Force and position at reversals.
     turns: Vec<(f64, f64)>,
     force: f64,
     rises: bool,
@@ -98,7 +98,7 @@ impl Loops {
         })
     }
 
-    /// Goes to a force in one sense, and gives the place there.
+    /// Moves to a force in one sense, and returns the position.
     fn go(&mut self, force: f64) -> f64 {
         let rises = force > self.force;
         if rises != self.rises && self.force != 0.0 {
@@ -116,9 +116,9 @@ impl Loops {
     }
 }
 
-/// β = 1 s. The springs that stick give F + βḞ, F their elastic force: βF + ∫F dt = m(ẋ - ẋ₀). A corner ends with a jump of F by
-/// mΔṡ/β(1 + 2ε), which then fades as e^{-(1+ε)t/β}, with ε = m/(β²k) = 2e-8, the next term of both roots of mλ² + βkλ + k; w follows from
-/// F by the law of the contact. What is left out is of the order of ε² and of ε times the curvature of the law, 1e-11 of w.
+/// β = 1 s. The sticking springs have the force F + βḞ with the elastic force F: βF + ∫F dt = m(ẋ - ẋ₀). At a corner F jumps by
+/// mΔṡ/β(1 + 2ε) and then decays with e^{-(1+ε)t/β}, ε = m/(β²k) = 2e-8, the next term of both roots of mλ² + βkλ + k. w follows
+/// from F by the contact law. The neglected terms are 1e-11 of w.
 #[test]
 fn a_contact_damped_by_a_second_drags_its_slider_along() {
     let (beta, scene) = (1.0, damped_contact());
@@ -133,7 +133,7 @@ fn a_contact_damped_by_a_second_drags_its_slider_along() {
                 if before != 0.0 {
                     loops.go(before);
                 }
-                // The row of the start is written before its layer.
+                // The initial row precedes its layer.
                 if *t == 0.0 {
                     force = MASS * jump / beta * (1.0 + 2.0 * slow);
                     return 0.0;
@@ -147,8 +147,8 @@ fn a_contact_damped_by_a_second_drags_its_slider_along() {
     });
 }
 
-/// 10⁸ N s/m between foot and slider: cw + ∫F dt = m(ẋ - ẋ₀), w = mṡ/c but for the contact's force, some µN, with F = kw and
-/// ∫w dt = ms/c: x = s - mṡ/c + kms/c².
+/// 10⁸ N s/m between foot and slider: cw + ∫F dt = m(ẋ - ẋ₀), w = mṡ/c up to the contact force of some µN. With F = kw and ∫w dt
+/// = ms/c: x = s - mṡ/c + kms/c².
 #[test]
 fn a_slider_in_syrup_on_its_foot_goes_with_it() {
     compare("damper to the foot", &syrup(FOOT_SLIDER), |times| {
@@ -161,12 +161,12 @@ fn a_slider_in_syrup_on_its_foot_goes_with_it() {
     });
 }
 
-/// 10⁸ N s/m between ground and slider: cx + mẋ = ∫F dt, x = (∫F dt - mF/c)/c, with F along the path w = s that the foot alone
-/// prescribes: x is 7e-12 m and turns the loops by 1e-12 of the stroke.
+/// 10⁸ N s/m between ground and slider: cx + mẋ = ∫F dt, x = (∫F dt - mF/c)/c, with F along the prescribed path w = s. x is 7e-12
+/// m and changes the loops by 1e-12 of the stroke.
 #[test]
 fn a_slider_in_syrup_on_the_ground_creeps() {
     let limit = mindlin().0;
-    // Force and its integral over the way since the last turn; all of it slips at every turn.
+    // Force and its integral over the displacement since the last reversal; every half cycle ends in gross slip.
     let branch = |scale: f64, way: f64| {
         let stuck = (1.0 - way / (scale * limit)).max(0.0);
         let force = scale * (1.0 - stuck.powf(1.5));
@@ -196,7 +196,7 @@ fn a_slider_in_syrup_on_the_ground_creeps() {
     });
 }
 
-/// Put down before and after a corner, in the layer that it leaves and far from it, in bytes, a run goes on to the same ones.
+/// Saved before and after a corner, within its layer and outside, a run continues with the same bits.
 #[test]
 fn a_run_put_down_and_taken_up_is_the_run() {
     for scene in [damped_contact(), syrup(FOOT_SLIDER), syrup(GROUND_SLIDER)] {

@@ -1,17 +1,17 @@
-//! Walks along straight lines are closed forms: no tolerance, no integral.
+//! Prescribed paths along straight lines have closed forms, independent of tolerances.
 //!
-//! References in 30 digits from a law of single springs, no curve and no grid (`tests/data/straight_walks.json` says how).
+//! References with 30 digits from single springs (`tests/data/straight_walks.json` has the method).
 
 use crate::parts::{column, contact, event, follower, named, trace};
 use stickslip_contact::Profile;
 use stickslip_drive::scene::{Body, Coordinate, Named, Normal, Scene, Side, Varying};
 use stickslip_drive::{Model, Shape, Timing, Trace, Waveform};
 
-/// Time from one corner to the next, s; four rows each.
+/// Time between corners, s; four rows each.
 const LEG: f64 = 1e-3;
 const TOLERANCES: [f64; 6] = [1e-1, 1e-2, 1e-4, 1e-6, 1e-9, 1e-12];
 
-/// What of a walk is known: title, profile, corners (d, u) in m, rows of F_x (N), elastic energy and friction work (J).
+/// Known data of a path: title, profile, corners (d, u) in m, rows of F_x (N), elastic energy and friction work (J).
 struct Known {
     title: String,
     profile: Profile,
@@ -44,7 +44,7 @@ fn table(name: &str, values: impl Iterator<Item = f64>) -> Named<Waveform> {
     named(name, Waveform::new(Shape::Table { points }, Timing::every(1.0)).unwrap())
 }
 
-/// A foot on the ground, dragged along u and pressed to d; nothing is free.
+/// Foot on the ground, moved along u and pressed to d; no coordinate is free.
 fn rig(known: &Known) -> Scene {
     let mut ball = contact([Side::Body(0), Side::Ground], known.profile.clone(), 0.15, 1.0);
     ball.normal = Normal::Indentation(Varying::Follows(1));
@@ -59,7 +59,7 @@ fn rig(known: &Known) -> Scene {
     }
 }
 
-/// The same pressed by the way of the bodies towards each other.
+/// The same, pressed by the motion of the bodies.
 fn coupled_rig(known: &Known) -> Scene {
     let mut scene = rig(known);
     scene.bodies[0].part = Body { z: Coordinate::follows(1), ..follower(0) };
@@ -74,7 +74,7 @@ fn walk(known: &Known, scene: &Scene, tolerance: f64) -> (Model, Trace) {
     (model, trace)
 }
 
-/// The work put in is integrated for itself, so that books say something: they close to the tolerance, and not to rounding.
+/// Input work is integrated separately, so the balance closes to the tolerance instead of rounding.
 #[test]
 fn books_of_straight_walks_close_to_the_tolerance() {
     for known in known() {
@@ -89,7 +89,7 @@ fn books_of_straight_walks_close_to_the_tolerance() {
     }
 }
 
-/// Largest errors of force, elastic energy and friction work, in parts of the largest of each.
+/// Largest errors of force, elastic energy and friction work, relative to the largest value of each.
 fn errors(known: &Known, scene: &Scene, tolerance: f64) -> [f64; 3] {
     let (model, trace) = walk(known, scene, tolerance);
     let channels = ["ball.fx_N", "ball.elastic_J", "ball.friction_J"];

@@ -1,5 +1,5 @@
-//! Swings in closed form against the stepper. A single slider among contacts under constant load is taken from event to
-//! event at once; two sliders that know nothing of each other are stepped, each with the same motion as alone.
+//! Closed-form oscillations compared with the stepper. A single slider under constant load is solved from event to event; two
+//! independent sliders are stepped.
 
 use crate::parts::{column, contact, end, event, follower, foot_and_slider, free, p1, push, trace, wave};
 use stickslip_contact::Profile;
@@ -10,12 +10,12 @@ use stickslip_drive::{Shape, Timing, Waveform};
 const KNOWN: f64 = 1.008_428_628_032_074_9e-5;
 const STROKE: f64 = 0.5e-6;
 
-/// One slider's share of a scene: contacts with the foot (radius, friction, force, count), mass and load.
+/// Data of one slider: contacts with the foot (radius, friction, force, count), mass and load.
 type Part = (Vec<(f64, f64, f64, u32)>, f64, f64);
 
 const PERIOD: f64 = 1e-3;
 
-/// A foot on a waveform, and sliders on it.
+/// Foot on a waveform with sliders on it.
 fn sliders(drive: &Named<Waveform>, parts: &[Part]) -> Scene {
     let mut scene = Scene { waveforms: vec![drive.clone()], ..Scene::default() };
     scene.bodies.push(Named { name: "foot".into(), part: follower(0) });
@@ -45,12 +45,12 @@ fn drives() -> Vec<Named<Waveform>> {
         wave("drive", Shape::Sawtooth { stroke: STROKE, flyback: 0.1 * PERIOD }, PERIOD),
         wave("drive", Shape::Sawtooth { stroke: 2e-6, flyback: 1e-3 * PERIOD }, PERIOD),
         wave("drive", Shape::Sawtooth { stroke: 20e-9, flyback: 0.4 * PERIOD }, PERIOD),
-        // Held still between its strokes.
+        // Constant between its strokes.
         trapezium(&[(0.0, 0.0), (0.2, 0.6e-6), (0.5, 0.6e-6), (0.53, 0.0), (1.0, 0.0)]),
     ]
 }
 
-/// Largest speed of a waveform, m/s.
+/// Largest velocity of a waveform, m/s.
 fn fastest(drive: &Named<Waveform>) -> f64 {
     let mut piece = drive.part.piece_at(0.0);
     let mut fastest = 0.0_f64;
@@ -65,7 +65,7 @@ fn pairs() -> [[Part; 2]; 3] {
     let ball = (1e-3, 0.2, 1.0, 1);
     [
         [(vec![(1e-3, 0.15, 1.0, 1)], 0.02, 0.0), (vec![(2e-3, 0.3, 0.4, 3)], 0.05, 0.0)],
-        // Contacts that slip and turn at different times; pushed.
+        // Contacts that slip and reverse at different times; under a load.
         [
             (vec![(1e-3, 0.1, 0.6, 1), (5e-3, 0.4, 0.3, 2)], 0.03, 0.01),
             (vec![(0.5e-3, 0.05, 0.2, 1)], 0.001, -0.004),
@@ -101,10 +101,10 @@ fn alone_and_side_by_side_they_move_alike() {
                 open / throughput
             );
             assert!(off < 1e-9 * travel, "{off:e} of {travel:e}");
-            // A fast follower's work is known to the last place of its speed.
+            // The work of a fast prescribed motion is limited by rounding of velocities.
             let rounding = 1e-14 * part.1 * fastest(drive).powi(2);
             assert!(open < 1e-12 * throughput + rounding, "{open:e} of {throughput:e}");
-            // Otherwise it was stepped, too.
+            // Fewer steps show that the closed form was used.
             assert!(3 * counts.steps < 2 * stepped.steps, "{counts:?} {stepped:?}");
             sum.iter_mut().zip(work).for_each(|(sum, work)| *sum += work);
         }
@@ -114,7 +114,7 @@ fn alone_and_side_by_side_they_move_alike() {
     }
 }
 
-/// Tolerances are promises: P1 keeps each of them a thousandfold, down to the last place of what is known.
+/// P1 has errors a thousand times smaller than each tolerance, down to the accuracy of the reference.
 #[test]
 fn p1_keeps_every_tolerance() {
     for exponent in 2..=13 {
@@ -127,7 +127,7 @@ fn p1_keeps_every_tolerance() {
     }
 }
 
-/// Rows read off a swing are those of a run that ends there.
+/// Rows within a closed-form interval equal those of a run that ends there.
 #[test]
 fn rows_lie_on_the_swing() {
     let scene = p1();
@@ -142,7 +142,8 @@ fn rows_lie_on_the_swing() {
     }
 }
 
-/// Drawn drives, from a thousandth to ten thousand times what full slip takes, against their stepped twins.
+/// Random drives, with strokes from a thousandth to ten thousand times the gross slip displacement, agree with their stepped
+/// copies.
 #[test]
 fn drawn_drives_move_as_their_stepped_twins() {
     let mut seed = 12345_u64;
@@ -170,14 +171,14 @@ fn drawn_drives_move_as_their_stepped_twins() {
         let travel = alone.0.iter().map(|x| x.abs()).fold(1e-9, f64::max);
         let off = alone.0.iter().zip(&beside.0).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max) / travel;
         worst = worst.max(off);
-        // Stepped beside a follower of up to 50 m/s, velocities are known to the last place of that.
+        // Next to a prescribed motion of up to 50 m/s velocities have its rounding.
         assert!(off < 1e-9, "case {case}: {off:e}");
         assert!(alone.1 < beside.1, "case {case}: {} {}", alone.1, beside.1);
     }
     println!("off by {worst:.1e} at most");
 }
 
-/// A guide without friction carries a part of the load and nothing else: the drive swings as without it, to the bit.
+/// A frictionless guide that carries part of the load changes no bit.
 #[test]
 fn a_contact_without_friction_is_no_reason_to_step() {
     let plain = p1();
@@ -191,9 +192,8 @@ fn a_contact_without_friction_is_no_reason_to_step() {
     assert_eq!(alone, beside);
 }
 
-/// Below its zero-step stroke a drive swings to and fro, the same in every period, and its turning points close the loops that those
-/// of the period before have opened: which of both comes first only rounding knows. Where a loop closed first, the speed left was
-/// taken for the root of a difference, and the turn came late by the root of the tolerance: single periods were 5e-4 u_c off at 1e-6.
+/// Below its zero-step stroke a drive oscillates periodically, and its turning points close the loops of the previous period. The
+/// order of both events is rounding and must not affect the motion.
 #[test]
 fn a_loop_that_closes_where_the_slide_turns_delays_no_turn() {
     let (period, from) = (2e-3, 40);

@@ -1,4 +1,4 @@
-//! Inputs without a caller: a run holds the initial value, and the model goes by the range.
+//! Inputs without a caller: a run uses the initial value, the model checks the range.
 
 use crate::parts::{FOOT_SLIDER, column, damped, damper, free, named, p1, piezo, plan, trace, wave};
 use stickslip_contact::FirstLoadingError;
@@ -11,14 +11,14 @@ fn input(initial: f64, range: (f64, f64), interpolation: Interpolation) -> Shape
     Shape::Input { initial, range, interpolation }
 }
 
-/// P1 with an input where its sawtooth was.
+/// P1 with an input instead of its sawtooth.
 fn driven_by(shape: Shape) -> Scene {
     let mut scene = p1();
     scene.waveforms[0] = wave("drive", shape, PERIOD);
     scene
 }
 
-/// A mass on a stack whose stroke s is there from t = 0: x = s (1 - cos ωt), ω² = k/m.
+/// Mass on a stack with the stroke s from t = 0: x = s (1 - cos ωt), ω² = k/m.
 #[test]
 fn a_mass_on_a_stack_swings_about_the_initial_stroke() {
     let (mass, stiffness, stroke, duration) = (0.02, 2e4, 3e-7, 10e-3);
@@ -47,7 +47,7 @@ fn a_mass_on_a_stack_swings_about_the_initial_stroke() {
     }
 }
 
-/// A table of a single value is another way to hold a foot.
+/// A table with a single value gives the same motion.
 #[test]
 fn a_foot_on_an_unfed_input_stays_where_a_table_holds_it() {
     let run = |shape: Shape| {
@@ -56,7 +56,7 @@ fn a_foot_on_an_unfed_input_stays_where_a_table_holds_it() {
         let plan = plan(Stepper::Event { tolerance: 1e-8 }, 3.0 * PERIOD);
         let (model, _, rows) = trace(&scene, &plan, 1e-5);
         assert!(column(&model, &rows, "foot.x_m").iter().all(|x| *x == 2e-7));
-        // The slider does move.
+        // The slider moves.
         assert!(column(&model, &rows, "slider.x_m").iter().any(|x| *x > 1e-9));
         let channels = 0..model.channels().len();
         channels.map(|place| rows.column(place).map(f64::to_bits).collect()).collect::<Vec<Vec<u64>>>()
@@ -67,7 +67,7 @@ fn a_foot_on_an_unfed_input_stays_where_a_table_holds_it() {
     }
 }
 
-/// What a caller may do counts, not what an input does by itself.
+/// The possible values count, not the initial one: dampers refuse held inputs and follow linear ones.
 #[test]
 fn a_damper_refuses_what_may_jump_and_follows_what_is_straight() {
     let refusal = |shape: Shape, change: fn(&mut Scene)| -> Option<SceneError> {
@@ -82,7 +82,7 @@ fn a_damper_refuses_what_may_jump_and_follows_what_is_straight() {
         assert_eq!((error.part, error.field), (part, Field::Damping));
         assert_eq!(error.fault, SceneFault::DampedJump("drive".to_owned()));
         assert_eq!(refusal(input(0.0, (0.0, 1e-9), Interpolation::Linear), change), None);
-        // There is nowhere to jump to.
+        // A range of one value allows no jump.
         assert_eq!(refusal(input(1e-9, (1e-9, 1e-9), Interpolation::Held), change), None);
     }
 }
@@ -97,7 +97,7 @@ fn fixed_steps_take_an_input_that_is_straight_and_none_that_jumps() {
     assert_eq!(start(Interpolation::Linear), Ok(()));
 }
 
-/// The range is checked before a run, also where the initial value would do.
+/// The range is checked before a run, even if the initial value is valid.
 #[test]
 fn a_contact_refuses_an_input_that_may_pull_it() {
     let refusal = |low: f64| {

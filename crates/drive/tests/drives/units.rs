@@ -1,4 +1,4 @@
-//! No number depends on the units in which a scene is written down: there is no threshold in metres, newtons or seconds.
+//! Results do not depend on the units of a model: there are no absolute thresholds.
 
 use crate::parts::{channel, event};
 use crate::soak::{Units, pressed, pressed_in};
@@ -6,7 +6,7 @@ use stickslip_drive::{Model, Plan, Run, Scene};
 
 const SEEDS: u64 = 60;
 
-/// Where a run ends: places and u_c, m, friction work, J, and the number of events.
+/// End of a run: positions and u_c (m), friction work (J), number of events.
 struct End {
     unit: f64,
     x: f64,
@@ -31,9 +31,8 @@ fn end(scene: &Scene, plan: &Plan) -> End {
     }
 }
 
-/// Powers of two scale without rounding, and so do square roots of even ones.
-///
-/// Contacts without friction are left out: they go by a method whose first step is a seventh root.
+/// Powers of two scale without rounding, and so do square roots of even powers. Frictionless contacts are excluded, because their
+/// method starts with a seventh root.
 #[test]
 fn other_units_are_the_same_scene() {
     let two = |exponent: i32| 2.0_f64.powi(exponent);
@@ -56,7 +55,7 @@ fn other_units_are_the_same_scene() {
                 let off = [
                     (here.x - there.x / units.length) / here.unit,
                     (here.z - there.z / units.length) / here.unit,
-                    // A contact that has not slid yet has done no work.
+                    // A contact without slip has done no work.
                     (here.friction - there.friction / units.energy()) / here.friction.abs().max(1e-300),
                 ];
                 assert!(off.iter().all(|off| off.abs() < 1e-12), "{seed} {tolerance:e}: {off:?}");

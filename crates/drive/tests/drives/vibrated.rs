@@ -1,5 +1,5 @@
-//! A slider on a vibrating foot: it sticks and goes into gross slip, twice a period, along a curved waveform. Alone it goes
-//! by Nyström's method, with DOP853 before gross slip; beside a body under a force that changes, all goes by DOP853.
+//! Slider on a vibrating foot, with stick and gross slip twice a period. Alone it uses Nyström's method, with DOP853 before gross
+//! slip; next to a body under a varying force it uses DOP853 only.
 
 use crate::parts::{FOOT_SLIDER, contact, end, event, foot_and_slider, free, named, push, sine, wave};
 use stickslip_contact::Profile;
@@ -10,7 +10,7 @@ const PERIOD: f64 = 1e-3;
 const AMPLITUDE: f64 = 1e-6;
 const DURATION: f64 = 10.0 * PERIOD;
 
-/// The slider's load moves it a little each period.
+/// The slider's load moves it a little in each period.
 fn vibrated() -> Scene {
     let ball = contact(FOOT_SLIDER, Profile::paraboloid(1e-3).unwrap(), 0.15, 1.0);
     let mut scene = foot_and_slider(wave("vibration", sine(AMPLITUDE), PERIOD), 0.1, ball);
@@ -18,7 +18,7 @@ fn vibrated() -> Scene {
     scene
 }
 
-/// The same beside a body that another force shakes.
+/// The same next to a body under another varying force.
 fn beside() -> Scene {
     let mut scene = vibrated();
     scene.waveforms.push(wave("shaking", sine(1e-3), PERIOD));
@@ -27,13 +27,13 @@ fn beside() -> Scene {
     scene
 }
 
-/// Where the slider ends, in amplitudes, and evaluations.
+/// Final position of the slider, in amplitudes, and evaluations.
 fn ends(scene: &Scene, tolerance: f64) -> (f64, u64) {
     let (model, state) = end(scene, &event(tolerance, DURATION));
     (state.body(&model, 1).unwrap().0 / AMPLITUDE, state.counts().evaluations)
 }
 
-/// The two methods agree, and each tolerance from 1e-3 to 1e-11 is kept.
+/// Both methods agree, and the errors are within each tolerance from 1e-3 to 1e-11.
 #[test]
 fn every_tolerance_is_kept() {
     let (known, _) = ends(&beside(), 1e-13);

@@ -1,4 +1,4 @@
-//! The picture of holding forces.
+//! Plot of holding forces.
 
 use super::{drawn, lanes, warnings};
 use crate::look::{Look, Picture};
@@ -6,10 +6,10 @@ use crate::pictures::FigureError;
 use stickslip_plot::{MachineCourse, MachineCurve, MachineLine};
 use stickslip_study::curve::holding::{Holding, NAME, Point};
 
-/// Draws them: the load along x that is held, and that against it, as one line where they are the same.
+/// Draws the holding forces for loads along +x and -x, as one curve if they are equal.
 ///
 /// # Errors
-/// What cannot be drawn.
+/// If the figure cannot be drawn.
 pub fn draw(
     (holding, points): (&Holding, &[Point]),
     logarithmic: bool,
@@ -41,7 +41,7 @@ fn lines(points: &[Point]) -> Vec<MachineLine<'static>> {
     }
 }
 
-/// Values without a holding force, by the kind of reason, and those that are warned of; both ways may have their own.
+/// Values without a holding force and values with warnings, grouped by reason.
 fn faults(points: &[Point]) -> Vec<(String, Vec<f64>)> {
     let kinds = points.iter().flat_map(|point| {
         point.ways.iter().filter_map(|way| Some((point.value, way.as_ref().err()?.kind().to_owned())))

@@ -1,4 +1,4 @@
-//! The picture of an optimum: how the result falls beside it, number by number.
+//! Plot of an optimum: the result along each parameter through the optimum.
 
 use super::pictured;
 use crate::look::{Look, Picture};
@@ -11,10 +11,10 @@ use stickslip_study::optimum::Section;
 /// Name of the picture.
 pub const NAME: &str = "optimum";
 
-/// Draws the sections through an optimum, over the distance from it in parts of each number's range.
+/// Draws the sections through an optimum over the distance from it, relative to the range of each parameter.
 ///
 /// # Errors
-/// What cannot be drawn.
+/// If the figure cannot be drawn.
 pub fn draw<'a>(
     job: &Job,
     result: &'a str,
@@ -35,7 +35,7 @@ pub fn draw<'a>(
         lines: sections.iter().map(line).collect(),
     };
     let machine = MachineCurve {
-        axis: ("distance from the optimum, part of the range", ""),
+        axis: ("distance from the optimum relative to the range", ""),
         logarithmic: false,
         values: &values,
         present: None,
@@ -46,7 +46,7 @@ pub fn draw<'a>(
     pictured((job, NAME), (NAME, &format!("{}: sections through the optimum", job.title())), &machine, look)
 }
 
-/// The value of a line at a place; NaN outside of it.
+/// Linear interpolation of a section; NaN outside its range.
 fn at(points: &[(f64, f64)], x: f64) -> f64 {
     let within = |pair: &&[(f64, f64)]| pair[0].0 <= x && x <= pair[1].0;
     let between = |pair: &[(f64, f64)]| {

@@ -1,11 +1,11 @@
-//! Curves that nobody could tell apart in a picture: drawn once, with all their names.
+//! Curves that coincide in a plot: drawn once, with all their names.
 
-/// Curves are alike where their values are within this share of their range: a third of a pixel.
+/// Maximum difference of equal curves relative to their range, a third of a pixel.
 const ALIKE: f64 = 2e-4;
-/// Most names that are told one by one.
+/// Maximum number of names in a legend entry.
 const MOST_NAMED: usize = 3;
 
-/// Places of curves that are alike, the first of each group first. A curve is one or more columns.
+/// Groups the indices of equal curves. A curve consists of one or more columns.
 pub(crate) fn groups(curves: &[Vec<&[f64]>]) -> Vec<Vec<usize>> {
     let mut groups: Vec<Vec<usize>> = Vec::new();
     for (place, curve) in curves.iter().enumerate() {
@@ -25,7 +25,7 @@ fn are_alike(a: &[&[f64]], b: &[&[f64]]) -> bool {
     a.len() == b.len() && a.iter().zip(b).all(near)
 }
 
-/// One name for those of a group.
+/// Legend entry of a group.
 pub(crate) fn name(names: &[&str]) -> String {
     match names {
         [only] => (*only).to_owned(),
@@ -49,7 +49,7 @@ mod tests {
         let line: Vec<f64> = (0..100).map(f64::from).collect();
         let curves = [vec![&line[..]], vec![&far], vec![&near], vec![&line[..99]], vec![&line[..], &far]];
         assert_eq!(groups(&curves), [vec![0, 2], vec![1], vec![3], vec![4]]);
-        // What stands still is like itself alone.
+        // Constant curves are equal only if their values are.
         assert_eq!(groups(&[vec![&[1.0; 3][..]], vec![&[1.0; 3]], vec![&[2.0; 3]]]), [vec![0, 1], vec![2]]);
     }
 

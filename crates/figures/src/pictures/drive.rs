@@ -1,4 +1,4 @@
-//! Voltage, current, motion and contact forces over the last two periods.
+//! Plot of voltage, current, positions and contact forces over the last two periods.
 
 use super::layout::gravity;
 use super::trajectory::tracks;
@@ -10,14 +10,14 @@ use stickslip_run::{Job, Kept, Periods, Series};
 use stickslip_scenario::{Piezo, PlotName};
 
 pub(super) const KIND: Kind = Kind {
-    shows: "voltage, current, motion and contact forces over the last two periods; limits of the driver shaded where they are active",
+    shows: "voltage, current, motion and contact forces over the last two periods; active driver limits are shaded",
     needs,
     draw,
 };
 
-/// Periods that are shown.
+/// Number of periods shown.
 const PERIODS: usize = 2;
-/// A value this near to a limit, as a share of it, is at the limit.
+/// Relative tolerance within which a value is at a limit.
 const AT_LIMIT: f64 = 1e-6;
 
 fn draw(sources: &Sources<'_>, pen: &Pen<'_>) -> Result<Vec<Picture>, Undrawn> {
@@ -46,7 +46,7 @@ fn draw(sources: &Sources<'_>, pen: &Pen<'_>) -> Result<Vec<Picture>, Undrawn> {
     Ok(pen.draw(PlotName::Drive, drive_figure(&title, &course))?)
 }
 
-/// The last two whole periods of the waveform of the figures, or all of a run without; and words for the title.
+/// Time range of the last two complete periods, or of the whole run without periods; and text for the title.
 fn span(job: &Job, kept: &Kept) -> ((f64, f64), String) {
     let waveform = job.scenario.figures.waveform.and_then(|w| job.scenario.scene.waveforms.get(w));
     let periods = waveform.and_then(|waveform| Periods::until(&waveform.part, kept.end()));
@@ -60,11 +60,11 @@ fn span(job: &Job, kept: &Kept) -> ((f64, f64), String) {
     }
 }
 
-/// Free strokes that waveforms command, from the start of the span; those of a driver are not what its stack makes.
+/// Free strokes that follow a waveform, relative to the start of the range. Stacks with a driver are left out.
 fn strokes(job: &Job, series: &Series) -> Vec<(String, Vec<f64>)> {
     let scene = &job.scenario.scene;
     let of = |(k, piezo): (usize, &Piezo)| {
-        // What a driver makes is no waveform.
+        // With a driver the stroke does not follow a waveform.
         let Some(Varying::Follows(signal)) = scene.actuators.get(k).map(|it| it.part.stroke) else {
             return None;
         };
@@ -77,7 +77,7 @@ fn strokes(job: &Job, series: &Series) -> Vec<(String, Vec<f64>)> {
     job.scenario.stacks.iter().enumerate().filter_map(of).collect()
 }
 
-/// The drivers of the stacks.
+/// Drivers of the stacks.
 fn supplies<'a>(job: &'a Job, series: &'a Series) -> Vec<Supply<'a>> {
     let of = |piezo: &'a Piezo| {
         let (driver, _) = (piezo.driver?, piezo.block?);
@@ -100,7 +100,7 @@ fn supplies<'a>(job: &'a Job, series: &'a Series) -> Vec<Supply<'a>> {
     job.scenario.stacks.iter().filter_map(of).collect()
 }
 
-/// The voltage that is commanded, V; nothing where that is no waveform.
+/// Commanded voltage, V; empty if it does not follow a waveform.
 fn command(job: &Job, piezo: &Piezo, time: &[f64]) -> Vec<f64> {
     let (Varying::Follows(w), Some(gain)) = (piezo.command, piezo.stack.stroke_per_volt) else {
         return Vec::new();
@@ -110,7 +110,7 @@ fn command(job: &Job, piezo: &Piezo, time: &[f64]) -> Vec<f64> {
     time.iter().map(at).collect()
 }
 
-/// Stretches of neighbouring moments that are all of a kind.
+/// Time ranges in which a condition holds at all samples.
 fn spans(time: &[f64], is: impl Fn(usize) -> bool) -> Vec<(f64, f64)> {
     let mut spans: Vec<(f64, f64)> = Vec::new();
     for i in 1..time.len() {
@@ -125,14 +125,14 @@ fn spans(time: &[f64], is: impl Fn(usize) -> bool) -> Vec<(f64, f64)> {
     spans
 }
 
-/// Limit of friction of the only contact, N, where its load is constant.
+/// Friction limit of the only contact, N; `None` unless its load is constant.
 fn limit(job: &Job) -> Option<f64> {
     let is_only = job.model.contacts().count() == 1 && job.has_constant_load(0);
     let count = f64::from(job.scenario.scene.contacts.first()?.part.count);
     job.model.contact_natural(0).filter(|_| is_only).map(|natural| count * natural.force)
 }
 
-/// Columns that it is drawn from.
+/// Columns that the plot requires.
 fn needs(job: &Job) -> Vec<String> {
     let drivers = job.scenario.stacks.iter().filter(|piezo| piezo.block.is_some() && piezo.driver.is_some());
     let supplies =

@@ -1,4 +1,4 @@
-//! The energy book of the whole.
+//! Plot of the energy balance.
 
 use super::period::LastPeriod;
 use super::{Kind, Sources, Undrawn};
@@ -8,15 +8,16 @@ use stickslip_run::{ENERGY, Series};
 use stickslip_scenario::PlotName;
 
 pub(super) const KIND: Kind = Kind {
-    shows: "the work that went in and what became of it, what is stored, what the book misses; of a long run the last period beside it",
+    shows: "input work, friction work, damping, stored energy; for a long run also the last period",
     needs: |_| COLUMNS.map(|quantity| format!("{ENERGY}.{quantity}")).to_vec(),
     draw,
 };
 
-/// Quantities of the book.
+/// Quantities of the energy balance.
 const COLUMNS: [&str; 6] = ["input_J", "kinetic_J", "elastic_J", "friction_J", "damping_J", "error_J"];
 
-/// Where the work that went in has gone; of a long run the last period stands beside it, counted from its start.
+/// Draws the energy balance. For a long run the last period is enlarged next to it, with work and losses counted from
+/// its start.
 fn draw(sources: &Sources<'_>, pen: &Pen<'_>) -> Result<Vec<Picture>, Undrawn> {
     let (job, kept) = (sources.job, sources.kept);
     let broken = kept.series.broken(job.scenario.written.window);
@@ -28,7 +29,7 @@ fn draw(sources: &Sources<'_>, pen: &Pen<'_>) -> Result<Vec<Picture>, Undrawn> {
     let [input, friction, damping, error] =
         [whole.input, whole.friction, whole.damping, whole.error].map(since_start);
     let part = EnergyBook { input: &input, friction: &friction, damping: &damping, error: &error, ..whole };
-    let words = format!("period {} (shaded), work from 0", period.number);
+    let words = format!("period {}, from 0", period.number);
     let figure = enlarged_beside(figure, energy_figure("", &part), period.span, &words);
     Ok(pen.draw(PlotName::Energy, figure)?)
 }

@@ -1,4 +1,4 @@
-//! Events over time.
+//! Plot of events over time.
 
 use super::period::LastPeriod;
 use super::{Kind, Sources, Undrawn, whole_title};
@@ -9,9 +9,9 @@ use stickslip_run::Track;
 use stickslip_scenario::PlotName;
 
 pub(super) const KIND: Kind =
-    Kind { shows: "what happened when; of many periods the last one below", needs: |_| Vec::new(), draw };
+    Kind { shows: "events over time; for many periods also the last one", needs: |_| Vec::new(), draw };
 
-/// One line for each kind of event of each contact and waveform, contacts first.
+/// Draws one lane per kind of event of each contact and waveform, contacts first.
 fn draw(sources: &Sources<'_>, pen: &Pen<'_>) -> Result<Vec<Picture>, Undrawn> {
     let (job, kept) = (sources.job, sources.kept);
     let contacts = job.model.contacts().map(|(name, _)| name);
@@ -27,7 +27,7 @@ fn draw(sources: &Sources<'_>, pen: &Pen<'_>) -> Result<Vec<Picture>, Undrawn> {
     let tracks: Vec<EventTrack<'_>> = tracks.collect();
     let [from, to] = job.scenario.written.window;
     let start = kept.series.time().first().copied().unwrap_or(0.0).max(from);
-    // Beyond, events are missing, and what is left of them would look like a calm.
+    // Later events are thinned, so the plot ends where they are complete.
     let (title, end) = (whole_title(job, kept), kept.whole_until().min(to));
     let figure = events_figure(&title, (start, end), &tracks);
     let Some(LastPeriod { number, span }) = LastPeriod::of_many(job, kept) else {

@@ -1,4 +1,4 @@
-//! Stress and displacement under the contacts at some moments.
+//! Plot of stresses and displacements in the contacts at several times.
 
 use super::{Kind, Sources, Undrawn, of_all, written};
 use crate::look::{Pen, Picture};
@@ -10,21 +10,21 @@ use stickslip_run::files::FIELDS;
 use stickslip_run::moments::{self, OverRadius};
 use stickslip_scenario::PlotName;
 
-/// Moments in one picture, at most.
+/// Maximum number of times.
 const MOST: usize = 6;
 
 pub(super) const KIND: Kind = Kind {
-    shows: "pressure, shear stress, displacement and slip under a contact, rings of stick and slip shaded",
+    shows: "pressure, shear stress, displacement and slip in a contact; stick and slip zones are shaded",
     needs: |_| Vec::new(),
     draw,
 };
 
-/// Two panels for each moment of each contact.
+/// Draws two panels per time of each contact.
 fn draw(sources: &Sources<'_>, pen: &Pen<'_>) -> Result<Vec<Picture>, Undrawn> {
     let job = sources.job;
     let mut moments = moments::fields(written(&sources.insides.fields, FIELDS)?)?;
     let all = moments.len();
-    // The last ones: a run ends in what it has come to.
+    // The last times are kept: they show the final state.
     moments.drain(..moments.len().saturating_sub(MOST));
     let several = moments.iter().any(|moment| moment.contact != moments[0].contact);
     let times = apart(&moments.iter().map(|moment| moment.time).collect::<Vec<f64>>(), "s");
@@ -53,7 +53,7 @@ fn draw(sources: &Sources<'_>, pen: &Pen<'_>) -> Result<Vec<Picture>, Undrawn> {
     Ok(pen.draw(PlotName::Fields, fields_figure(&title, &moments))?)
 }
 
-/// Rings of one state, from half way between two radii to half way between two others.
+/// Rings of equal state; their edges are midpoints between radii.
 fn zones(moment: &OverRadius) -> Vec<FieldsZone> {
     let r = &moment.columns[0];
     let mut zones: Vec<FieldsZone> = Vec::new();

@@ -1,4 +1,4 @@
-//! Where friction has done its work, over radius and time.
+//! Plot of the friction work per area over radius and time.
 
 use super::{Kind, Sources, Undrawn, written};
 use crate::look::{Pen, Picture};
@@ -9,15 +9,15 @@ use stickslip_run::files::FRICTION;
 use stickslip_run::moments::{self, OverRadius};
 use stickslip_scenario::PlotName;
 
-/// Contacts in one picture, at most.
+/// Maximum number of contacts.
 const MOST: usize = 4;
-/// Moments that are marked, at most.
+/// Maximum number of times with a radial distribution.
 const MARKED: usize = 6;
 
 pub(super) const KIND: Kind =
-    Kind { shows: "where friction has done its work, over the radius and time", needs: |_| Vec::new(), draw };
+    Kind { shows: "friction work per area over radius and time", needs: |_| Vec::new(), draw };
 
-/// What a contact has gone through.
+/// Friction work of a contact: times, radii, and work per area time by time.
 struct Course {
     name: String,
     moments: Vec<f64>,
@@ -25,7 +25,7 @@ struct Course {
     work: Vec<f64>,
 }
 
-/// Two panels for each contact.
+/// Draws two panels per contact.
 fn draw(sources: &Sources<'_>, pen: &Pen<'_>) -> Result<Vec<Picture>, Undrawn> {
     let mut courses: Vec<Course> = Vec::new();
     for moment in moments::friction(written(&sources.insides.friction, FRICTION)?)? {
@@ -51,7 +51,7 @@ fn draw(sources: &Sources<'_>, pen: &Pen<'_>) -> Result<Vec<Picture>, Undrawn> {
     let named = told > 1;
     let title = match all {
         all if courses.len() < all => {
-            format!("{} ({} of {all} contacts that slip)", sources.job.title(), courses.len())
+            format!("{} ({} of {all} slipping contacts)", sources.job.title(), courses.len())
         }
         _ => sources.job.title().to_owned(),
     };
@@ -71,12 +71,12 @@ impl Course {
         course
     }
 
-    /// The largest work per area, J/m².
+    /// Largest friction work per area, J/m².
     fn most(&self) -> f64 {
         self.work.iter().copied().filter(|work| work.is_finite()).fold(0.0, f64::max)
     }
 
-    /// Of several those on which friction does work, of many those on which it does the most, in their order.
+    /// Contacts with friction work, at most [`MOST`] with the largest values, in their order.
     fn busiest(mut courses: Vec<Self>) -> Vec<Self> {
         let mut most: Vec<f64> = courses.iter().map(Self::most).collect();
         most.sort_by(|a, b| b.total_cmp(a));
@@ -88,7 +88,7 @@ impl Course {
         courses
     }
 
-    /// Some of its moments, evenly chosen: with a line for each a long run would be a hatching.
+    /// Equally spaced times with their names.
     fn marks(&self) -> Vec<(f64, String)> {
         let chosen: Vec<f64> = curves::chosen(&self.moments, MARKED).into_iter().collect();
         let told = apart(&chosen, "s");
@@ -96,7 +96,7 @@ impl Course {
     }
 
     fn push(&mut self, mut moment: OverRadius) {
-        // Radii stay the same throughout a run.
+        // The radii are the same throughout a run.
         if moment.columns[1].len() == self.r.len() {
             self.moments.push(moment.time);
             self.work.append(&mut moment.columns[1]);

@@ -1,4 +1,4 @@
-//! Hysteresis loops of the contacts.
+//! Plot of the hysteresis loops of the contacts.
 
 use super::{Kind, Sources, Undrawn, alike, of_contacts, whole_title};
 use crate::look::{Pen, Picture};
@@ -11,33 +11,34 @@ use stickslip_run::contact_path;
 use stickslip_scenario::PlotName;
 
 pub(super) const KIND: Kind = Kind {
-    shows: "tangential force over displacement, in newtons and as shares of μF_N and u_c; the last period bold, those before it pale",
+    shows: "tangential force over displacement, in newtons and relative to μF_N and u_c; the last period is bold, earlier periods are pale",
     needs: |job| of_contacts(job, &["u_m", "d_m", "fx_N"]),
     draw,
 };
 
-/// A curve in the figure of loops.
+/// Curve of the plot.
 struct Curve {
     name: String,
     path: Trail,
     gross_slip: Option<f64>,
     limit: Option<f64>,
-    /// Place of its colour.
+    /// Palette index.
     place: usize,
-    /// Came before what is to be seen, and stands behind it.
+    /// Whether it is an earlier period, drawn pale in the background.
     is_pale: bool,
 }
 
-/// A point this near to the end of a period, in periods, is the end.
+/// Relative tolerance for the end of a period.
 const SAME: f64 = 1e-9;
-/// Width of what is to be seen, and of what came before.
+/// Line width of the last period and of earlier ones.
 const BOLD: f64 = 1.15;
 const FINE: f64 = 0.9;
 
-/// Force over displacement. The last period is to be seen; the ones before it stand behind, pale. Of a contact that comes back to its
-/// start in every cycle that is all the way. One that travels on, as in a drive, would smear its loops over the picture: if it is
-/// the only contact, the first period stands behind; u counts from the start of the period. Contacts whose loops nobody
-/// could tell apart are one curve.
+/// Draws the tangential force over displacement. The last period is bold; earlier periods are pale in the background.
+///
+/// A contact whose displacement returns to its start in each period shows the whole run. For a travelling contact the
+/// displacement counts from the start of the period. If it is the only contact, its first period is in the
+/// background. Contacts with equal loops are drawn as one curve.
 fn draw(sources: &Sources<'_>, pen: &Pen<'_>) -> Result<Vec<Picture>, Undrawn> {
     let (job, kept) = (sources.job, sources.kept);
     let contacts: Vec<&str> = job.model.contacts().map(|(name, _)| name).collect();
@@ -46,7 +47,7 @@ fn draw(sources: &Sources<'_>, pen: &Pen<'_>) -> Result<Vec<Picture>, Undrawn> {
     let of_group =
         |(place, group): (usize, &Vec<usize>)| curves(job, kept, group, (place, groups.len() == 1));
     let mut curves: Vec<Curve> = groups.iter().enumerate().flat_map(of_group).collect();
-    // What stands behind is drawn first.
+    // Background curves are drawn first.
     curves.sort_by_key(|curve| !curve.is_pale);
     let loops: Vec<HysteresisLoop<'_>> = curves
         .iter()
@@ -61,7 +62,7 @@ fn draw(sources: &Sources<'_>, pen: &Pen<'_>) -> Result<Vec<Picture>, Undrawn> {
     let title = whole_title(job, kept);
     let mut figure = loop_figure(&title, &loops);
     for (place, series) in figure.panels.iter_mut().flat_map(|panel| panel.series.iter_mut().enumerate()) {
-        // The panel of normalised loops leaves out those without limits; its series say whose they are.
+        // The panel of normalised loops leaves out contacts without limits. Its series give the index of their curve.
         let place = if let Some(Ink::Palette(curve)) = series.style.ink { curve } else { place };
         let Some(curve) = curves.get(place) else { continue };
         let (ink, width) =
@@ -71,7 +72,7 @@ fn draw(sources: &Sources<'_>, pen: &Pen<'_>) -> Result<Vec<Picture>, Undrawn> {
     Ok(pen.draw(PlotName::Loop, figure)?)
 }
 
-/// The curves of contacts that are alike.
+/// Curves of a group of equal contacts.
 fn curves(job: &Job, kept: &Kept, group: &[usize], (place, is_alone): (usize, bool)) -> Vec<Curve> {
     let named = |c: &usize| {
         let (name, _) = job.model.contacts().nth(*c)?;
@@ -88,7 +89,7 @@ fn curves(job: &Job, kept: &Kept, group: &[usize], (place, is_alone): (usize, bo
         name: match (is_alone && group.len() == 1, words) {
             (_, "") => name.clone(),
             (true, words) => words.to_owned(),
-            // Of several contacts each is named once: twice as many names would be cut, and pale tells what came before.
+            // With several contacts each has one legend entry, without those of earlier periods.
             (false, words) if is_alone => format!("{name}, {words}"),
             (false, _) if is_pale => String::new(),
             (false, _) => name.clone(),
@@ -99,7 +100,7 @@ fn curves(job: &Job, kept: &Kept, group: &[usize], (place, is_alone): (usize, bo
         place,
         is_pale,
     };
-    // Beyond, turning points are missing.
+    // Later turning points are missing.
     let end = kept.whole_until();
     let path = contact_path(job, c, &kept.series);
     let path = if end < kept.end() { path.part((f64::NEG_INFINITY, end)) } else { path };
@@ -121,20 +122,21 @@ fn curves(job: &Job, kept: &Kept, group: &[usize], (place, is_alone): (usize, bo
     }
 }
 
-/// The points of a window: between them and the rows at both ends of the run nothing is known without events.
+/// Points of a path inside the output window. Without events the path between the window and the first and last row
+/// of the run is unknown.
 fn windowed(path: &Trail, [from, to]: [f64; 2]) -> Trail {
-    // Rows are rounded apart from the window.
+    // The rows are rounded differently from the window.
     let hair = SAME * (to - from);
     path.within([from - hair, to + hair])
 }
 
-/// The periods up to the last of which there are points from its start to its end; none where there is no such period.
+/// Periods up to the last one that the points cover completely; `None` without such a period.
 fn seen(path: &Trail, periods: Periods) -> Option<Periods> {
     let up_to = |count: usize| Periods { count, ..periods };
     (1..=periods.count).rev().map(up_to).find(|periods| covers(path, periods.last()))
 }
 
-/// Whether there are points of a path from one time to another.
+/// Whether the points of a path cover a time range.
 fn covers(path: &Trail, (from, to): (f64, f64)) -> bool {
     let hair = SAME * (to - from);
     let ends = path.t.first().zip(path.t.last());
@@ -145,8 +147,7 @@ fn covers(path: &Trail, (from, to): (f64, f64)) -> bool {
 mod tests {
     use super::*;
 
-    /// A window in the second period without events: u at the start of that period was read off a line from the first row of the run,
-    /// and taken off all that was drawn.
+    /// An output window without events in the second period: only completely covered periods are used.
     #[test]
     fn a_period_is_drawn_where_it_was_seen_whole() {
         let trail = |from: u32, to: u32| {
@@ -160,7 +161,7 @@ mod tests {
             [trail(0, 30), trail(5, 25), trail(12, 14)].map(|path| count(&path)),
             [Some(3), Some(2), None]
         );
-        // With the rows at both ends of the run a gap would count as seen.
+        // The first and the last row of the run must not make a gap count as covered.
         let mut rows = trail(12, 14);
         for column in [&mut rows.t, &mut rows.x, &mut rows.y] {
             column.insert(0, 0.0);

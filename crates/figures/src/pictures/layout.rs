@@ -1,4 +1,4 @@
-//! The scene, to scale.
+//! Plot of the model, to scale.
 
 use super::{Kind, Sources, Undrawn};
 use crate::look::{Pen, Picture};
@@ -15,24 +15,24 @@ use stickslip_plot::{
 use stickslip_scenario::PlotName;
 
 pub(super) const KIND: Kind = Kind {
-    shows: "what there is, to scale: bodies, contacts, springs and forces; blue is free, orange follows a waveform; what climbs is drawn upright",
+    shows: "bodies, contacts, springs and forces, to scale; free bodies are blue, bodies that follow a waveform are orange; double arrows show the directions of motion; a vertical slide is drawn upright",
     needs: |_| Vec::new(),
     draw,
 };
 
-/// What there is, before anything moves.
+/// Draws the model in its initial state.
 fn draw(sources: &Sources<'_>, pen: &Pen<'_>) -> Result<Vec<Picture>, Undrawn> {
     let job = sources.job;
     Ok(pen.draw(PlotName::Layout, layout_figure(job.title(), &Sketch(&job.scenario.scene).scene()))?)
 }
 
-/// The gravity of a scene, if there is any.
+/// Gravity of a scenario; `None` if 0.
 pub(super) fn gravity(scene: &Scene) -> Option<SceneGravity> {
     let Gravity { acceleration, incline } = scene.gravity;
     (acceleration != 0.0).then_some(SceneGravity { acceleration, incline })
 }
 
-/// A scene on its way to the paper.
+/// Converts the scenario's model to the plot's model.
 struct Sketch<'a>(&'a Scene);
 
 impl<'a> Sketch<'a> {
@@ -135,13 +135,14 @@ fn fixtures(between: [Side; 2], at: [Point; 2]) -> [Fixture; 2] {
     [fixture(between[0], at[0]), fixture(between[1], at[1])]
 }
 
-/// Intervals of a profile's shape.
+/// Number of intervals of a profile.
 const STEPS: u32 = 24;
-/// Least and largest radius at which a profile is looked at, m.
+/// Minimum and maximum radius in the search for the end of a profile, m.
 const RADII: (f64, f64) = (1e-9, 10.0);
 
-/// A profile from its axis to where it is half as high as wide: its own radius of curvature for a paraboloid. A flat
-/// punch has a wall there; a cone has no length of its own, nor has a list of springs a shape.
+/// Points of a profile up to the radius r at which its height is r/2; for a paraboloid this is its radius of
+/// curvature. A flat punch ends with a vertical wall. Cones and lists of springs have no such radius and return no
+/// points.
 fn shape(profile: &Profile) -> Vec<(f64, f64)> {
     let is_low = |r: f64| profile.gap(r).is_some_and(|gap| gap < r / 2.0);
     let (mut low, mut high) = RADII;

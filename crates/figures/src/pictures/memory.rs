@@ -1,4 +1,4 @@
-//! The memory curves of the contacts at some moments, each in its wedge.
+//! Plot of the slip memory of the contacts at several times.
 
 use super::{Kind, Sources, Undrawn, of_all, written};
 use crate::look::{Pen, Picture};
@@ -8,16 +8,16 @@ use stickslip_run::curves::{self, MemoryCurve};
 use stickslip_run::files::MEMORY;
 use stickslip_scenario::PlotName;
 
-/// Most memory curves in one picture.
+/// Maximum number of memory curves.
 const MOST_CURVES: usize = 24;
 
 pub(super) const KIND: Kind = Kind {
-    shows: "the curve by which a contact remembers, in its wedge, at some moments",
+    shows: "slip memory of a contact: reversal displacements over depth, at several times",
     needs: |_| Vec::new(),
     draw,
 };
 
-/// One panel for each curve.
+/// Draws one panel per memory curve.
 fn draw(sources: &Sources<'_>, pen: &Pen<'_>) -> Result<Vec<Picture>, Undrawn> {
     let job = sources.job;
     let table = written(&sources.insides.memory, MEMORY)?;

@@ -1,4 +1,4 @@
-//! Channels over a channel, as the scenario asks for them.
+//! Plots of user-selected channels over another channel.
 
 use super::{Kind, Sources, Undrawn};
 use crate::look::{Pen, Picture, own_name};
@@ -7,12 +7,12 @@ use stickslip_quantity::names::unit;
 use stickslip_run::{Job, Series};
 use stickslip_scenario::OwnPlot;
 
-pub(super) const KIND: Kind = Kind { shows: "channels over a channel", needs, draw };
+pub(super) const KIND: Kind = Kind { shows: "channels over another channel", needs, draw };
 
-/// Height that each panel beyond the first adds to the figure, px.
+/// Height of each panel after the first, px.
 const MORE: u32 = 500;
 
-/// One picture for each that is asked for, `xy-1` and so on.
+/// Draws one figure per selection: `xy-1`, `xy-2` and so on.
 fn draw(sources: &Sources<'_>, pen: &Pen<'_>) -> Result<Vec<Picture>, Undrawn> {
     let (job, series) = (sources.job, &sources.kept.series);
     if job.scenario.own_plots.is_empty() {
@@ -28,13 +28,13 @@ fn draw(sources: &Sources<'_>, pen: &Pen<'_>) -> Result<Vec<Picture>, Undrawn> {
     Ok(pictures)
 }
 
-/// Columns that they are drawn from.
+/// Columns that the plots require.
 fn needs(job: &Job) -> Vec<String> {
     let of = |plot: &OwnPlot| [std::slice::from_ref(&plot.x), &plot.y[..]].concat();
     job.scenario.own_plots.iter().flat_map(of).collect()
 }
 
-/// A panel for each unit, in the order in which they come, one above the other.
+/// Figure with one panel per unit, in the order of the channels.
 fn figure<'a>(job: &Job, plot: &'a OwnPlot, series: &'a Series) -> Figure<'a> {
     let mut units: Vec<&str> = Vec::new();
     for name in &plot.y {
@@ -45,7 +45,7 @@ fn figure<'a>(job: &Job, plot: &'a OwnPlot, series: &'a Series) -> Figure<'a> {
     let panel = |shared: &&str| {
         let names: Vec<&String> = plot.y.iter().filter(|name| unit(name) == *shared).collect();
         let curve = |name: &&'a String| {
-            // One alone is named by its axis.
+            // A single curve is named by its axis.
             let label = if names.len() == 1 { String::new() } else { spoken(name) };
             Curve::new(label, series.named(&plot.x), series.named(name))
         };
@@ -56,7 +56,7 @@ fn figure<'a>(job: &Job, plot: &'a OwnPlot, series: &'a Series) -> Figure<'a> {
                 several => Axis::new(Label::plain(common(several)), shared),
             },
             series: names.iter().map(curve).collect(),
-            absence: Label::plain("no rows in this span"),
+            absence: Label::plain("no rows in this time range"),
             ..Panel::default()
         }
     };
@@ -72,20 +72,20 @@ fn figure<'a>(job: &Job, plot: &'a OwnPlot, series: &'a Series) -> Figure<'a> {
     }
 }
 
-/// Channel of time.
+/// Name of the time channel.
 const TIME: &str = "time_s";
 
 fn axis(channel: &str) -> Axis {
     Axis::new(Label::plain(&spoken(channel)), unit(channel))
 }
 
-/// A channel without the unit at its end, which the axis says with its prefix.
+/// Name of a channel without its unit, which the axis shows with a prefix.
 fn spoken(channel: &str) -> String {
     let end = format!("_{}", unit(channel).replace(['/', ' '], "_"));
     channel.strip_suffix(&end).unwrap_or(channel).replacen('.', " ", 1)
 }
 
-/// What channels of one unit have in common: their quantity, or nothing.
+/// Common quantity of channels with one unit; empty if they differ.
 fn common(channels: &[&String]) -> &'static str {
     let quantity = |channel: &String| channel.rsplit('.').next().unwrap_or_default().to_owned();
     let first = channels.first().map(|channel| quantity(channel)).unwrap_or_default();
@@ -93,7 +93,7 @@ fn common(channels: &[&String]) -> &'static str {
     QUANTITIES.iter().find(|(name, _)| are_alike && *name == first).map_or("", |(_, words)| words)
 }
 
-/// Quantities that have a word.
+/// Quantities with a name for the axis.
 const QUANTITIES: [(&str, &str); 6] = [
     ("x_m", "position x"),
     ("z_m", "height z"),

@@ -1,35 +1,35 @@
-//! The last period of a long run, which stands enlarged beside or below the whole: there its ringing is a solid band.
+//! Last period of a long run, which is enlarged next to or below the whole.
 
 use stickslip_run::{Job, Kept, Periods, Series};
 
-/// A run of more periods than this is long.
-const MOST_PERIODS: usize = 10;
-/// Turns of a curve that a frame a third of the whole width shows apart.
+/// Number of periods above which a run is long.
+const MOST_PERIODS: usize = 5;
+/// Maximum number of turning points of a curve that remain distinguishable.
 const MOST_TURNS: usize = 120;
-/// A swing of a smaller share of the curve's range makes a thicker line of it, no band.
+/// Minimum size of an oscillation relative to the curve's range.
 const SWING: f64 = 0.05;
-/// What has panels along time in which it may ring.
+/// Quantities whose oscillations are checked.
 const RINGING: [&str; 3] = ["u_m", "z_m", "pitch_rad"];
-/// Fewer rows than this show no more enlarged.
+/// Minimum number of rows for an enlargement.
 const LEAST_ROWS: usize = 16;
 
-/// The last whole period of the waveform that the figures are taken by.
+/// Last complete period of the waveform that defines the periods.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct LastPeriod {
-    /// Counted from 1.
+    /// Number of the period, counted from 1.
     pub(super) number: usize,
-    /// Its start and end, s.
+    /// Start and end, s.
     pub(super) span: (f64, f64),
 }
 
 impl LastPeriod {
-    /// None of a run of few periods.
+    /// Returns the last period; `None` for runs of few periods.
     pub(super) fn of_many(job: &Job, kept: &Kept) -> Option<Self> {
         Self::of(job, kept).filter(|period| period.number > MOST_PERIODS)
     }
 
-    /// The last period and its rows; none of a run that shows all by itself, for it has few periods and rings little, or whose last period
-    /// has too few rows.
+    /// Returns the last period and its rows. `None` for short runs without fast oscillations, and if the period has
+    /// too few rows.
     pub(super) fn with_rows(job: &Job, kept: &Kept) -> Option<(Self, Series)> {
         let period = Self::of(job, kept)?;
         let is_long = period.number > MOST_PERIODS || (period.number > 2 && rings(job, &kept.series));
@@ -46,7 +46,7 @@ impl LastPeriod {
         let waveform = job.scenario.scene.waveforms.get(job.scenario.figures.waveform?)?;
         let periods = Periods::until(&waveform.part, kept.whole_until())?;
         let (start, end) = periods.last();
-        // Of what was not written there is nothing to enlarge.
+        // The period must be inside the output window.
         let [from, to] = job.scenario.written.window;
         let hair = 1e-9 * (end - start);
         (from <= start + hair && to >= end - hair)
@@ -54,7 +54,7 @@ impl LastPeriod {
     }
 }
 
-/// Whether something swings more often than can be told apart.
+/// Whether a displacement oscillates too fast to be resolved in the plot.
 fn rings(job: &Job, series: &Series) -> bool {
     let bodies = job.scenario.scene.bodies.iter().map(|body| body.name.as_str());
     let parts = bodies.chain(job.model.contacts().map(|(name, _)| name));
@@ -63,7 +63,7 @@ fn rings(job: &Job, series: &Series) -> bool {
     columns.any(|column| turns(column) > MOST_TURNS)
 }
 
-/// How often a curve turns round after a way of a share of its range.
+/// Number of turning points of a curve, with a hysteresis relative to its range.
 fn turns(values: &[f64]) -> usize {
     let extent = values.iter().fold((f64::MAX, f64::MIN), |(low, high), v| (low.min(*v), high.max(*v)));
     let swing = SWING * (extent.1 - extent.0);

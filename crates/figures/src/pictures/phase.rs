@@ -1,4 +1,4 @@
-//! Velocity over displacement.
+//! Plot of velocity over displacement.
 
 use super::{Kind, Sources, Undrawn};
 use crate::look::{Pen, Picture};
@@ -11,24 +11,23 @@ use stickslip_run::Trail;
 use stickslip_scenario::PlotName;
 
 pub(super) const KIND: Kind = Kind {
-    shows: "velocity over displacement in every free coordinate; of a body that travels on, the last period",
+    shows: "velocity over displacement of each free coordinate; for a travelling body, the last period",
     needs,
     draw,
 };
 
-/// A body whose stroke is a smaller share of the largest one in a coordinate is at rest: what moves it is rounding.
+/// Minimum stroke of a body relative to the largest in a coordinate; smaller ones are rounding errors.
 const REST: f64 = 1e-9;
 
-/// A body in one of its coordinates.
+/// Coordinate of a body.
 struct Mover<'a> {
     body: &'a str,
     axis: Axis,
     is_free: bool,
 }
 
-/// The free coordinates, or else all that move. A body that comes back to its start in the last period is shown all the
-/// way; of one that travels on that period alone, in all its coordinates, x counted from its start, as in the picture
-/// of loops.
+/// Draws the free coordinates, or without any all coordinates that move. For a travelling body only the last period
+/// is shown in all its coordinates, with x counted from its start. Other bodies show the whole run.
 fn draw(sources: &Sources<'_>, pen: &Pen<'_>) -> Result<Vec<Picture>, Undrawn> {
     let (job, kept) = (sources.job, sources.kept);
     let trails: Vec<(Mover<'_>, Trail)> = movers(job)
@@ -42,7 +41,7 @@ fn draw(sources: &Sources<'_>, pen: &Pen<'_>) -> Result<Vec<Picture>, Undrawn> {
         let strokes = trails.iter().filter(|(mover, _)| mover.axis == axis).map(|(_, trail)| trail.stroke());
         strokes.fold(0.0, f64::max)
     };
-    // What a waveform prescribes is no rounding, however small.
+    // Small prescribed motions are not rounding errors.
     let is_prescribed = trails.iter().all(|(mover, _)| !mover.is_free);
     let rest = if is_prescribed { 0.0 } else { REST };
     let is_moving = |(mover, trail): &&(Mover<'_>, Trail)| trail.stroke() > rest * largest(mover.axis);
@@ -77,14 +76,14 @@ fn trail(mover: &Mover<'_>, kept: &Kept) -> Trail {
     Trail { t: kept.series.time().to_vec(), x, y: v }
 }
 
-/// Columns that it is drawn from.
+/// Columns that the plot requires.
 fn needs(job: &Job) -> Vec<String> {
     let columns =
         |mover: Mover<'_>| quantities(mover.axis).map(|quantity| format!("{}.{quantity}", mover.body));
     movers(job).into_iter().flat_map(columns).collect()
 }
 
-/// Quantities of a coordinate and its rate.
+/// Columns of a coordinate and its rate.
 fn quantities(axis: Axis) -> [&'static str; 2] {
     match axis {
         Axis::X => ["x_m", "vx_m_s"],
@@ -93,7 +92,7 @@ fn quantities(axis: Axis) -> [&'static str; 2] {
     }
 }
 
-/// The coordinate of a picture; none: along the slide.
+/// Coordinate of the plot; `None` along the slide.
 fn beside(axis: Axis) -> Option<Coordinate> {
     match axis {
         Axis::X => None,
@@ -102,33 +101,33 @@ fn beside(axis: Axis) -> Option<Coordinate> {
     }
 }
 
-/// Points between two samples of a smooth curve.
+/// Number of interpolated points between two samples.
 const BETWEEN: u32 = 4;
-/// Samples closer than this share of the mean interval are as good as one.
+/// Minimum interval for interpolation, as a fraction of the mean interval.
 const CLOSE: f64 = 0.05;
-/// Samples from which on there are enough of them.
+/// Number of samples above which nothing is interpolated.
 const MANY: usize = 100_000;
 
-/// The last period; the way along the slide is counted from its start where it does not end there.
+/// Last period. x counts from its start if the body does not return there.
 fn last(axis: Axis, whole: &Trail, periods: Periods) -> Trail {
     let last = whole.part(periods.last());
     smooth(&if axis == Axis::X && !last.is_closed() { last.counted_from_start() } else { last })
 }
 
-/// A trail of positions and velocities with points between its samples, on the cubics through both.
+/// Interpolates positions and velocities by the cubic Hermite polynomials.
 fn smooth(trail: &Trail) -> Trail {
     if trail.t.len() > MANY {
         return trail.clone();
     }
     let span = trail.t.last().unwrap_or(&0.0) - trail.t.first().unwrap_or(&0.0);
-    // Samples much closer than the others need no points between; divided by next to nothing, rounding would show.
+    // Very short intervals are not interpolated, as rounding errors would be visible.
     let least = CLOSE * span / trail.t.len() as f64;
     let mut fine = Trail::default();
     for i in 0..trail.t.len() {
         if i > 0 && trail.t[i] - trail.t[i - 1] > least {
             let h = trail.t[i] - trail.t[i - 1];
             let (from, rise) = (trail.x[i - 1], trail.x[i] - trail.x[i - 1]);
-            // Excess of the velocities at both ends over the mean one, as ways.
+            // Excess of the end velocities over the mean velocity, as displacements.
             let (a, b) = (h * trail.y[i - 1] - rise, h * trail.y[i] - rise);
             for k in 1..=BETWEEN {
                 let s = f64::from(k) / f64::from(BETWEEN + 1);
@@ -142,7 +141,7 @@ fn smooth(trail: &Trail) -> Trail {
     fine
 }
 
-/// The free coordinates of all bodies; where none is free, those that follow a waveform.
+/// Free coordinates of all bodies; without any, those that are not fixed.
 fn movers(job: &Job) -> Vec<Mover<'_>> {
     let of = |wanted: fn(&Freedom) -> bool| -> Vec<Mover<'_>> {
         let bodies = job.scenario.scene.bodies.iter();
@@ -162,7 +161,7 @@ mod tests {
 
     #[test]
     fn a_cubic_motion_has_its_points_on_the_curve() {
-        // x = t³ - 2t has no error in the cubic of positions and velocities.
+        // The cubic Hermite polynomial is exact for x = t³ - 2t.
         let (x, v) = (|t: f64| t.powi(3) - 2.0 * t, |t: f64| 3.0 * t * t - 2.0);
         let t = [0.0, 0.5, 1.0, 1.0 + 1e-15, 1.7];
         let trail = Trail { t: t.to_vec(), x: t.map(x).to_vec(), y: t.map(v).to_vec() };

@@ -1,4 +1,4 @@
-//! What the springs of each contact did over time.
+//! Plot of stick and slip of the springs of each contact over time.
 
 use super::{Kind, Sources, Undrawn, written};
 use crate::look::{Pen, Picture};
@@ -9,9 +9,9 @@ use stickslip_run::springs::{self, Springs};
 use stickslip_scenario::PlotName;
 
 pub(super) const KIND: Kind =
-    Kind { shows: "what every spring under a contact does over time", needs: |_| Vec::new(), draw };
+    Kind { shows: "stick and slip of each spring of a contact over time", needs: |_| Vec::new(), draw };
 
-/// One panel for each contact.
+/// Draws one panel per contact.
 fn draw(sources: &Sources<'_>, pen: &Pen<'_>) -> Result<Vec<Picture>, Undrawn> {
     let job = sources.job;
     let contacts = springs::read(written(&sources.insides.springs, SPRINGS)?)?;

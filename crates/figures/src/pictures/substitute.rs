@@ -1,4 +1,4 @@
-//! The contacts as their rows of springs, pressed and sheared (handbook, Figure 4.2).
+//! Plot of the contacts as rows of springs, compressed and sheared (handbook, figure 4.2).
 
 use super::{Kind, Sources, Undrawn, of_all, written};
 use crate::look::{Pen, Picture};
@@ -9,22 +9,22 @@ use stickslip_run::curves::{self, MemoryCurve};
 use stickslip_run::files::MEMORY;
 use stickslip_scenario::PlotName;
 
-/// Drawings in one picture, at most.
+/// Maximum number of sketches.
 const MOST: usize = 6;
-/// Springs of one.
+/// Number of springs of a sketch.
 const SPRINGS: usize = 41;
-/// How far the row goes, of the largest contact radius.
+/// Half-length of the row relative to the largest contact radius.
 const BEYOND: f64 = 1.4;
-/// How near to the limit's slope a piece of the memory curve was laid by slip: as digits of a table tell.
+/// Relative tolerance for slopes of the memory curve at the wedge, for the digits of the table.
 const AT_LIMIT: f64 = 1e-6;
 
 pub(super) const KIND: Kind = Kind {
-    shows: "the contact as its row of springs, pressed and sheared, coloured by stick and slip",
+    shows: "the contact as a row of springs, compressed and sheared, coloured by stick and slip",
     needs: |_| Vec::new(),
     draw,
 };
 
-/// A moment of a contact, spring by spring.
+/// Springs of a contact at one time.
 struct Row<'a> {
     law: &'a Interface,
     heading: String,
@@ -73,7 +73,7 @@ impl<'a> Row<'a> {
         Some(row)
     }
 
-    /// Stretch of a spring of this height, m, and what it does.
+    /// Stretch in m and state of a spring of this height.
     fn spring(&self, height: f64) -> (f64, SpringCondition) {
         let MemoryCurve { apex: (d, u), h, p, .. } = &self.curve;
         if height >= *d || h.len() < 2 {
@@ -82,10 +82,9 @@ impl<'a> Row<'a> {
         let above = h.partition_point(|corner| *corner <= height).clamp(1, h.len() - 1);
         let slope = (p[above] - p[above - 1]) / (h[above] - h[above - 1]);
         let stretch = u - (p[above] - slope * (h[above] - height));
-        // What slips is the outermost piece, if it lies along an edge of the wedge. The table has no front: whether such a piece
-        // still slips, or has stuck since a contact that had slipped came to rest or took the other way, it cannot tell; nor
-        // which of its springs do where several drags have become one piece. It is shown as slipping, as it last did. Without
-        // friction every piece lies along both edges, and none bears anything.
+        // Only the outermost piece of the memory curve can slip, if its slope is that of the wedge. The table does
+        // not contain the slip front, so the piece may also have stuck since its last slip. It is drawn as slipping.
+        // Without friction every piece has this slope and carries no force.
         let limit = self.law.stick_slope();
         let slips = limit > 0.0 && above + 1 == h.len() && (slope.abs() - limit).abs() <= AT_LIMIT * limit;
         let condition = match (slips, slope < 0.0) {
@@ -103,7 +102,7 @@ impl<'a> Row<'a> {
         let stick = stuck.map(|(x, _)| x.abs()).fold(0.0, f64::max);
         let slips = self.conditions.iter().any(|c| !touching(c) && *c != SpringCondition::Open);
         let radius = law.profile().radius(d);
-        // The front to the last place, where the outermost piece begins.
+        // The slip front is at the start of the outermost piece.
         let front = self.curve.h.iter().rev().nth(1).map_or(0.0, |h| law.profile().radius(*h));
         SubstituteMoment {
             heading: &self.heading,
@@ -130,7 +129,7 @@ impl<'a> Row<'a> {
         }
     }
 
-    /// F_x of the curve, N: G\* Σ slope ΔM over its pieces.
+    /// Tangential force F_x in N: G\* Σ slope ΔM over the pieces of the memory curve.
     fn force(&self) -> f64 {
         let (profile, MemoryCurve { h, p, .. }) = (self.law.profile(), &self.curve);
         let piece = |k: usize| {

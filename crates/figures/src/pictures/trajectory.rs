@@ -1,4 +1,4 @@
-//! The motion of the bodies over time.
+//! Plot of the motion of the bodies over time.
 
 use super::layout::gravity;
 use super::period::LastPeriod;
@@ -12,19 +12,19 @@ use stickslip_run::Series;
 use stickslip_scenario::PlotName;
 
 pub(super) const KIND: Kind = Kind {
-    shows: "positions over time, displacements of the contacts below; of a long run the last period beside it",
+    shows: "positions and contact displacements over time; for a long run also the last period",
     needs: |job| [needs(job), of_contacts(job, &["u_m"])].concat(),
     draw,
 };
 
-/// Positions over time, heights and angles where there are any, displacements of the contacts below. Of a long run the last period
-/// stands beside it.
+/// Draws positions over time, heights and angles if there are any, and contact displacements. For a long run the last
+/// period is enlarged next to it.
 fn draw(sources: &Sources<'_>, pen: &Pen<'_>) -> Result<Vec<Picture>, Undrawn> {
     let (job, kept) = (sources.job, sources.kept);
     let series = &kept.series;
     let contacts: Vec<&str> = job.model.contacts().map(|(name, _)| name).collect();
     let columns: Vec<Vec<&[f64]>> = contacts.iter().map(|name| vec![series.column(name, "u_m")]).collect();
-    // Those that are alike all the way: in the period beside they have the same colours.
+    // Groups of equal displacements over the whole run, so that the enlargement has the same colours.
     let groups = alike::groups(&columns);
     let named = |group: &Vec<usize>| alike::name(&group.iter().map(|&c| contacts[c]).collect::<Vec<_>>());
     let names: Vec<String> = groups.iter().map(named).collect();
@@ -37,14 +37,14 @@ fn draw(sources: &Sources<'_>, pen: &Pen<'_>) -> Result<Vec<Picture>, Undrawn> {
     let Some((period, rows)) = LastPeriod::with_rows(job, kept) else {
         return Ok(pen.draw(PlotName::Trajectory, figure)?);
     };
-    // What has travelled far from what drives it would press both flat.
+    // Counted from the start of the period, since the drift may be much larger than the stroke.
     let rows = rows.counted_from_start(&["x_m", "u_m"]);
     let part = trajectory_figure("", &motion(job, &rows, &relative));
-    let words = format!("period {} (shaded), x and u from 0", period.number);
+    let words = format!("period {}, from 0", period.number);
     Ok(pen.draw(PlotName::Trajectory, enlarged_beside(figure, part, period.span, &words))?)
 }
 
-/// What moves in a series; contacts with the names that their curves have.
+/// Motion in a series. Each contact has the name of its curve.
 fn motion<'a>(job: &'a Job, series: &'a Series, contacts: &[(&'a str, &'a str)]) -> Trajectory<'a> {
     let (feet, sliders) = tracks(job, series, Axis::X);
     let beside =
@@ -65,7 +65,7 @@ fn motion<'a>(job: &'a Job, series: &'a Series, contacts: &[(&'a str, &'a str)])
     }
 }
 
-/// Columns that it is drawn from.
+/// Columns that the plot requires.
 pub(super) fn needs(job: &Job) -> Vec<String> {
     let bodies = job.scenario.scene.bodies.iter();
     let of = |body: &Named<Body>| {
@@ -75,12 +75,12 @@ pub(super) fn needs(job: &Job) -> Vec<String> {
     bodies.flat_map(of).collect()
 }
 
-/// Motions along an axis: of the feet, which stand behind, and of the sliders.
+/// Positions along an axis: of feet and of sliders.
 pub(super) fn tracks<'a>(job: &'a Job, series: &'a Series, axis: Axis) -> (Vec<Track<'a>>, Vec<Track<'a>>) {
     tracks_of(job, series, (axis, quantity(axis)))
 }
 
-/// The same of a quantity of that axis, such as its velocity.
+/// Values of a quantity of an axis, such as the velocity: of feet and of sliders.
 pub(crate) fn tracks_of<'a>(
     job: &'a Job,
     series: &'a Series,
@@ -97,13 +97,13 @@ pub(crate) fn tracks_of<'a>(
         tracks.push(track(series, &body.name, quantity));
     }
     if sliders.is_empty() {
-        // Nothing to stand out against: the prescribed motion is what there is to see.
+        // Without sliders, the feet are drawn in full colour.
         std::mem::swap(&mut feet, &mut sliders);
     }
     (feet, sliders)
 }
 
-/// Quantity of a coordinate's column.
+/// Column of a coordinate.
 fn quantity(axis: Axis) -> &'static str {
     match axis {
         Axis::X => "x_m",
@@ -112,7 +112,7 @@ fn quantity(axis: Axis) -> &'static str {
     }
 }
 
-/// Whether an actuator moves a body.
+/// Whether an actuator is attached to a body.
 fn has_actuator(job: &Job, place: usize) -> bool {
     job.scenario.scene.actuators.iter().any(|actuator| actuator.part.between.contains(&Side::Body(place)))
 }
@@ -121,7 +121,7 @@ fn track<'a>(series: &'a Series, name: &'a str, quantity: &str) -> Track<'a> {
     Track { name, values: series.column(name, quantity) }
 }
 
-/// u_c of the only contact, where it oscillates about its start.
+/// u_c of the only contact if it oscillates about its start; `None` otherwise.
 fn gross_slip(job: &Job, kept: &Kept) -> Option<f64> {
     let (name, _) = job.model.contacts().next().filter(|_| job.model.contacts().count() == 1)?;
     let (u_c, _) = job.model.contact_scale(0).filter(|_| job.has_constant_load(0))?;

@@ -1,4 +1,4 @@
-//! The waveforms of a scenario, drawn from their own laws: no table is read.
+//! Plot of the waveforms of a scenario, computed from their definitions.
 
 use super::{Kind, Sources, Undrawn};
 use crate::look::{Pen, Picture};
@@ -8,21 +8,21 @@ use stickslip_plot::{WaveformCourse, waveform_figure};
 use stickslip_scenario::{Piezo, PlotName};
 
 pub(super) const KIND: Kind = Kind {
-    shows: "waveforms and their rates over two periods, or from start to end; dots are corners",
+    shows: "waveforms and their rates over two periods, or from start to end; corners are dots",
     needs: |_| Vec::new(),
     draw,
 };
 
-/// Most waveforms in a picture.
+/// Maximum number of waveforms.
 const MOST: usize = 12;
-/// Points to a curved piece, and to a wave in it.
+/// Number of points per curved piece, and per oscillation in it.
 const POINTS: f64 = 60.0;
-/// Most points to a piece, and most pieces.
+/// Maximum number of points per piece, and maximum number of pieces.
 const MOST_POINTS: f64 = 20_000.0;
 const MOST_PIECES: usize = 20_000;
-/// Corners from which on they are not marked: dots would cover the curve.
+/// Number of corners above which they are not marked.
 const MANY_CORNERS: usize = 100;
-/// What is shown before and after what comes once, as a part of it.
+/// Margin before and after a non-periodic waveform, as a fraction of its duration.
 const MARGIN: f64 = 0.1;
 
 fn draw(sources: &Sources<'_>, pen: &Pen<'_>) -> Result<Vec<Picture>, Undrawn> {
@@ -60,7 +60,7 @@ fn draw(sources: &Sources<'_>, pen: &Pen<'_>) -> Result<Vec<Picture>, Undrawn> {
     Ok(pen.draw(PlotName::Waveform, waveform_figure(job.title(), &courses))?)
 }
 
-/// From when to when it is shown, s: two periods, or from start to end with a margin, or the whole run.
+/// Time range in s: two periods, or from start to end with a margin, or the whole run.
 fn span(waveform: &Waveform, duration: f64) -> (f64, f64) {
     let (start, end) = waveform.window();
     match waveform.period() {
@@ -72,13 +72,13 @@ fn span(waveform: &Waveform, duration: f64) -> (f64, f64) {
     }
 }
 
-/// The free stroke of a volt, m, of a waveform that stacks follow as their voltage: a scene knows it as their stroke.
+/// Free stroke per volt, m, if stacks follow the waveform as their voltage; `None` otherwise.
 fn volt(stacks: &[Piezo], place: usize) -> Option<f64> {
     let followed = |piezo: &&Piezo| piezo.by_voltage && piezo.command == Varying::Follows(place);
     stacks.iter().find(followed)?.stack.stroke_per_volt
 }
 
-/// A waveform as points.
+/// Points of a waveform.
 #[derive(Debug, Default, PartialEq)]
 struct Drawn {
     time: Vec<f64>,
@@ -89,7 +89,7 @@ struct Drawn {
 }
 
 impl Drawn {
-    /// Straight pieces by their ends, curved ones by points that no wave falls between.
+    /// Computes the points: ends of straight pieces, and enough points to resolve curved ones.
     fn of(waveform: &Waveform, (from, to): (f64, f64)) -> Self {
         let mut drawn = Self::default();
         let mut piece = waveform.piece_at(from);
@@ -109,7 +109,7 @@ impl Drawn {
         drawn
     }
 
-    /// The same with values counted in a unit.
+    /// Divides the values by a unit.
     fn in_units_of(mut self, unit: f64) -> Self {
         let Self { value, rate, corner_values, .. } = &mut self;
         value.iter_mut().chain(rate).chain(corner_values).for_each(|number| *number /= unit);
@@ -117,14 +117,14 @@ impl Drawn {
     }
 
     fn piece(&mut self, waveform: &Waveform, piece: &Piece, (from, to): (f64, f64)) {
-        // Sines may have the same rate at both ends and in the middle.
+        // A sine may have zero acceleration at both ends and in the middle.
         let straight = [0.0, 0.137, 0.59, 1.0]
             .iter()
             .all(|part| waveform.sample(piece, from + part * (to - from)).acceleration == 0.0);
         let waves = (to - from) / (4.0 * waveform.resolution());
         let points = if straight { 1.0 } else { (POINTS * waves.max(1.0)).min(MOST_POINTS) }.ceil();
         for k in 0..=points as u32 {
-            // The last point is the end itself.
+            // The last point is exactly the end.
             let t = if f64::from(k) < points { from + (to - from) * (f64::from(k) / points) } else { to };
             let sample = waveform.sample(piece, t);
             self.time.push(t);
@@ -151,12 +151,12 @@ mod tests {
         assert!(drawn.time.len() > 200 && drawn.value.iter().all(|value| (0.0..=1.0).contains(value)));
         let sine = Shape::Sine { amplitude: 1.0, phase: 0.0, offset: 0.0 };
         let sine = Waveform::new(sine, Timing::every(1.0)).unwrap();
-        // Two waves in one piece.
+        // Two oscillations in one piece.
         assert!(Drawn::of(&sine, span(&sine, 9.0)).time.len() > 100);
-        // A stack of 20 nm/V.
+        // Stack with 20 nm/V.
         let volts = Drawn::of(&saw, span(&saw, 9.0)).in_units_of(2e-8);
         assert!((volts.value[1] - 5e7).abs() < 1.0 && (volts.rate[7] + 2e8).abs() < 1.0);
-        // What comes once is shown with what it holds before and after.
+        // A step is shown with its values before and after it.
         let step = Waveform::new(Shape::Step { height: 2.0, at: 3.0 }, Timing::every(1.0)).unwrap();
         let drawn = Drawn::of(&step, span(&step, 9.0));
         assert_eq!((drawn.time, drawn.value), (vec![0.0, 3.0, 3.0, 9.0], vec![0.0, 0.0, 2.0, 2.0]));

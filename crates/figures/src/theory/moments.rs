@@ -1,4 +1,4 @@
-//! Corners of a history as the series that their pictures are drawn from.
+//! Series for the plots of a load history at its corners.
 
 use super::spread;
 use stickslip_contact::{Interface, SpringState, Zone, ZoneKind};
@@ -6,18 +6,18 @@ use stickslip_plot::{AnchorMoment, FieldsMoment, FieldsZone, SpringCondition, Su
 use stickslip_run::theory::{Moment, Walk};
 use stickslip_run::{Real, quantity};
 
-/// Corners in one picture, at most.
+/// Maximum number of corners in a plot.
 const MOST: usize = 6;
 
-/// The corners that are shown.
+/// Corners that are shown.
 pub(super) struct Shown<'a> {
     law: &'a Interface,
     moments: Vec<Columns<'a>>,
-    /// Scales that all share: radius and indentation, stretch, m.
+    /// Common scales: radius, indentation and stretch, m.
     scale: (f64, f64, f64),
 }
 
-/// One corner, column by column.
+/// Data of one corner as columns.
 struct Columns<'a> {
     heading: String,
     moment: &'a Moment,
@@ -27,19 +27,19 @@ struct Columns<'a> {
     displacement: Vec<f64>,
     slip: Vec<f64>,
     zones: Vec<FieldsZone>,
-    /// Of all springs: places, heights, stretches, states.
+    /// Position, height, stretch and state of each spring.
     x: Vec<f64>,
     g: Vec<f64>,
     stretch: Vec<f64>,
     conditions: Vec<SpringCondition>,
-    /// Of those that touch: places, heights, anchors.
+    /// Position, height and reversal displacement of each spring in contact.
     anchored: [Vec<f64>; 3],
 }
 
 impl<'a> Shown<'a> {
-    /// Some of the corners, the first and the last with them, and the start where there is no other.
+    /// Selects some corners, including the first and the last. The start is selected only if there is no corner.
     pub(super) fn of(law: &'a Interface, walk: &'a Walk) -> Self {
-        // An unstretched start shows nothing that the others do not.
+        // The start has no tangential load.
         let first = usize::from(walk.moments.len() > 1);
         let shown = &walk.moments[first..];
         let moments = spread(shown.len(), MOST).map(|place| Columns::of(&shown[place])).collect();
@@ -96,10 +96,10 @@ impl<'a> Shown<'a> {
     }
 }
 
-/// The springs of every frame, one by one, as the corners have them.
+/// Calls `drawn` with the springs of each animation frame.
 pub(super) fn frames(law: &Interface, walk: &Walk, mut drawn: impl FnMut(&SubstituteMoment<'_>)) {
     for frame in &walk.frames {
-        // A moment without fields and memory.
+        // Only the springs are needed.
         let moment = Moment {
             stop: frame.stop,
             fields: Vec::new(),
@@ -112,7 +112,7 @@ pub(super) fn frames(law: &Interface, walk: &Walk, mut drawn: impl FnMut(&Substi
     }
 }
 
-/// Scales that all pictures of a history share: largest radius, indentation and stretch, m.
+/// Common scales of the plots: largest radius, indentation and stretch, m.
 fn scale(law: &Interface, walk: &Walk) -> (f64, f64, f64) {
     let springs = walk.moments.iter().flat_map(|moment| &moment.springs);
     let largest = springs.fold(0.0_f64, |most, spring| most.max(spring.spring.stretch.abs()));
@@ -147,15 +147,15 @@ impl<'a> Columns<'a> {
     }
 }
 
-/// Number of the corner, and where it is.
+/// Heading of a corner: its number and displacement.
 fn heading(moment: &Moment) -> String {
     let stop = &moment.stop;
     let words = format!("{}: u = {}", stop.corner, quantity(Real(stop.apex.u), "m"));
-    // With the minus of the axes.
+    // Minus signs as on the axes.
     words.replace('-', "−")
 }
 
-/// A ring as pictures know it.
+/// Converts a ring to that of the plot.
 fn ring(zone: &Zone) -> FieldsZone {
     let slips = |sense: i8| {
         if sense < 0 { SpringCondition::SlipBackward } else { SpringCondition::SlipForward }

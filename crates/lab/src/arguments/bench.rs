@@ -9,34 +9,35 @@ use stickslip_scenario::quantity;
 
 /// Long help; paragraphs are broken where the terminal ends.
 pub(crate) const ABOUT: &str = "\
-Measure what accuracy costs: every stepper on both engines, errors over time and evaluations
+Measure accuracy versus computing time of all steppers
 
-Runs a scenario by every stepper of the program (event and dopri5 at tolerances from 1e-1 to 1e-12, rk4 and verlet at steps \
-halved again and again, whose corners fall on steps), each on the exact curve and on rows of 64, 256 and 1 024 springs. The \
-scenario's own stepper, engines and output do not matter. Beside them, where they know the scene, what others would do: \
-\"loop\" and \"loop-rk4\", velocity Verlet and rk4 over half rows of 64 to 4 096 springs in code of its own, tuned; \"exact-verlet\" \
-and \"exact-rk4\", the same on the exact contact under a constant load; \"ode_solvers\", Dopri5 of that crate with the exact contact and \
-events found by hand; and \"floor-4\", \"floor-10\" and \"floor-16\", the least code for P1 and its like, with so many nodes.
+The command runs a scenario with every stepper: event and dopri5 at tolerances from 1e-1 to 1e-12, rk4 and verlet at time steps that \
+are halved repeatedly and end at corners. Each stepper runs on the exact curve and on rows of 64, 256 and 1 024 springs. Stepper, \
+engines and output of the scenario have no effect. If a model is simple enough, these reference programs run it as well: \"loop\" and \
+\"loop-rk4\", velocity Verlet and rk4 on half rows of 64 to 4 096 springs, in tuned separate code; \"exact-verlet\" and \
+\"exact-rk4\", the same on the exact contact under constant load; \"ode_solvers\", Dopri5 of this crate with the exact contact and \
+events located by hand; and \"floor-4\", \"floor-10\" and \"floor-16\", minimal code for P1 and similar drives, with this number of \
+nodes.
 
-An error is the largest error of any free coordinate, at the end or at any of 1 001 moments of the run, in parts of the \
-stroke of the scenario's waveform (or of the largest travel, where no body follows it); an angle counts as the way it makes \
-at the farthest contact point. Errors are against the event stepper at a tolerance of 1e-14, whose difference from \
-itself at 1e-13 is told.
+An error is the largest error of any free coordinate, at the end or at any of 1 001 times of the run, relative to the stroke of the \
+waveform (or to the largest travel, if no body follows a waveform). An angle counts as the displacement at the farthest contact \
+point. The reference is the event stepper at a tolerance of 1e-14. Its difference from the same stepper at 1e-13 is reported.
 
-Times are those of the run alone, without building and output: wall times, and processor times, which a busy machine does not \
-spoil; pictures and pages show these. With --instructions the page also has what the event stepper takes at 1e-3, 1e-6 and \
-1e-9 counted in instructions by valgrind, where that is installed. All runs take turns, several rounds; the shortest turn counts. What does not fit into the budget is left out with a note.
+Times are those of the run alone, without building and output: wall times, and processor times, which do not depend on the load of \
+the machine. Plots and pages have processor times. With --instructions the page also has the instructions of the event stepper at \
+1e-3, 1e-6 and 1e-9, counted by valgrind. All runs alternate in several rounds, and the shortest time counts. Runs that exceed the \
+budget are left out with a note.
 
-Writes OUT/NAME/bench.csv and work-precision.png (also dark, and as SVG), and the page asked for, which tells how many times as \
-long as the event stepper the others take for the same error.
+Writes OUT/NAME/bench.csv and work-precision.png (also dark, and as SVG), and the page given by --page. The page has the time of each \
+stepper relative to the event stepper for the same error.
 
-With --realtime it measures frames in real time instead, of every scenario by \"frames\" and by \"event\": --frames of each --period one after \
-the other, then --paced after a clock; inputs change in every frame. Execution times and wake-up latency are shown beside an empty loop's, the worst \
-frames with what happened in them, counted work, overruns, and errors against the whole run. Writes OUT/frames.csv, worst_frames.csv, \
-histograms.csv, accuracy.csv and frames.png (also dark, and as SVG), and the page asked for.
+With --realtime the command measures frames in real time instead, with \"frames\" and \"event\" for each scenario: --frames frames of \
+each --period in immediate succession, then --paced frames on a clock. Inputs change in every frame. The output has execution times \
+and wake-up latency together with those of an empty loop, the worst frames with their events, counted work, overruns, and errors \
+relative to the whole run. Writes OUT/frames.csv, worst_frames.csv, histograms.csv, accuracy.csv and frames.png (also dark, and as \
+SVG), and the page given by --page.
 
-Exit codes: 0 done, 2 bad input, 3 the \
-reference cannot be computed or something cannot be written, 130 interrupted.";
+Exit codes: 0 done, 2 bad input, 3 the reference cannot be computed or a file cannot be written, 130 interrupted.";
 
 /// Examples under the long help.
 pub(crate) const EXAMPLES: &str = "\
@@ -79,6 +80,9 @@ pub(crate) struct BenchArguments {
     /// A page in Markdown with the tables and pictures of all scenarios
     #[arg(long, value_name = "FILE")]
     pub(crate) page: Option<PathBuf>,
+    /// Draw the diagrams anew from OUT/NAME/bench.csv, without a measurement
+    #[arg(long, requires = "files", conflicts_with_all = ["growth", "realtime", "page"])]
+    pub(crate) redraw: bool,
     /// Measure frames in real time: how long they take, what happens in them, what they lose
     #[arg(long, requires = "files", conflicts_with_all = ["growth", "known", "budget", "instructions"])]
     pub(crate) realtime: bool,

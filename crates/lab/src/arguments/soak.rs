@@ -6,34 +6,36 @@ use std::path::PathBuf;
 
 /// Long help; paragraphs are broken where the terminal ends.
 pub(crate) const ABOUT: &str = "\
-Draw scenes, run them all, and judge them: do they end, and are they right?
+Test the event stepper with random scenarios: completion, accuracy, energy balance
 
-A seed draws a scenario: every profile, both engines, contacts pressed by constants, by waveforms and by the bodies' own heights, \
-waveforms of every kind with phases, starts anywhere or in equilibrium, one to four bodies, counts, damping, stacks, inclines. The \
-same seed draws the same scenario on every machine; --write writes it as a file for `stickslip run`.
+A seed determines a scenario: all profiles, both engines, contacts pressed by constants, by waveforms and by the positions of bodies, \
+all kinds of waveforms with phases, any start or equilibrium, one to four bodies, counts, damping, stacks and inclines. The same seed \
+gives the same scenario on every machine. --write writes it as a file for `stickslip run`.
 
-Each is run by the stepper `event` at tolerances of 1e-6, 1e-8 and 1e-10, and is right where, at each, it ends; where no \
-coordinate is ever off the run at 1e-10 by more than 100 tolerances in its natural length, times S where the scene itself makes \
-more of a change of its start: S is the growth of one of 1e-9 natural lengths; and where the energy books close to 100 \
-tolerances of what went through them. With --rows K the first K are also run on rows of 2 048 springs by velocity Verlet, its step halved \
-until it agrees with itself, and must meet them to 1e-5 natural lengths times S.
+The stepper `event` runs each scenario at tolerances of 1e-6, 1e-8 and 1e-10. A scenario is right if three conditions hold at each \
+tolerance. The run ends. The difference of each coordinate from the run at 1e-10 is below 100 tolerances in natural lengths, or S \
+times that if the scenario itself amplifies a change of its start: S is the growth of a change of 1e-9 natural lengths. The energy \
+balance closes within 100 tolerances of the energy throughput. With --rows K the first K scenarios also run on rows of 2 048 springs \
+with velocity Verlet, whose time step is halved until the result converges. The results must agree within 1e-5 natural lengths times \
+S.
 
-Prints a table of shares, and what is neither right nor warned by seed, a line each: refused before the start, left the range of the \
-model, grazing (off by more than S explains, but not more than the growth of a change as large as the tolerance), books open, \
-wrong, stopped, hung (20 s), panicked. Exit codes: 0 none of the last five, 1 some of them, 2 bad input, 3 something cannot be written, \
-130 interrupted.
+Prints a table of fractions, and one line for each seed that is neither right nor warned: refused before the start, left the range of \
+the model, grazing (a difference larger than S explains, but not larger than the growth of a change of the size of the tolerance), \
+unbalanced (energy balance), wrong, stopped, hung (20 s), panicked. Exit codes: 0 none of the last five, 1 some of them, 2 bad input, \
+3 a file cannot be written, 130 interrupted.
 
---hostile judges a matrix of scenes instead: one thing of a plain drive at a time at its extremes, by every stepper and tolerance; with --out and --page it writes the stability record, a page that says how its cells are judged, with a picture and a table.";
+--hostile judges a matrix of scenarios instead: a plain drive with one parameter at an extreme value, with every stepper and \
+tolerance. With --out and --page it writes the stability record, a page with criteria, a plot and a table.";
 
 /// Examples under the long help.
 pub(crate) const EXAMPLES: &str = "\
 Examples:
   stickslip-lab soak                           the seeds 0 to 499
-  stickslip-lab soak --seeds 5000 --rows 200   all that is asked of a release
-  stickslip-lab soak 258 1041                  two of them
-  stickslip-lab soak 258 --write scenes        scenes/seed-258.json, for `stickslip run`
+  stickslip-lab soak --seeds 5000 --rows 200   before a release
+  stickslip-lab soak 258 1041                  two seeds
+  stickslip-lab soak 258 --write drawn         drawn/seed-258.json, for `stickslip run`
   stickslip-lab soak --hostile --out docs/stability --page docs/stability.md
-  stickslip-lab soak --hostile 17 --write scenes   scenes/cell-17.json";
+  stickslip-lab soak --hostile 17 --write drawn    drawn/cell-17.json";
 
 #[derive(Debug, Args)]
 pub(crate) struct SoakArguments {

@@ -7,22 +7,21 @@ use stickslip_validation::Subject;
 
 /// Long help; paragraphs are broken where the terminal ends.
 pub(crate) const ABOUT: &str = "\
-Compute what is known from elsewhere, and write pages that show both
+Compare the program with published results, and write the pages
 
-Each page compares the program with something measured, computed by another program or in closed form: a measured impact, the \
-boundary-element program CONTACT, Mindlin and Deresiewicz' oblique loading, oblique impact in theory and by finite elements, \
-loading and loops. It says what is computed and how, what it is compared with and of what kind that is, how far apart the two may \
-be and are, with a picture, tables and what the comparison does not show. Nothing is fitted, and the published numbers are part of \
-the program.
+Each page compares the program with a measurement, another program or a closed form: a measured impact, the boundary-element program \
+CONTACT, oblique loading by Mindlin and Deresiewicz, oblique impact in theory and by finite elements, loading and hysteresis loops. A \
+page has the computed quantity and method, the kind of reference, the tolerance and the deviation, a plot, tables and the limits of \
+the comparison. No parameter is fitted, and the published numbers are part of the program.
 
-Everything is computed before the first file is written, in a few seconds; the same is written every time. README.md, the page of \
-all pages, is written when all are asked for. Exit codes: 0 done, 1 something asked is not kept, 2 bad input, 3 something cannot be \
-written, 130 interrupted.";
+All results are computed before the first file is written, in a few seconds. The result is reproducible. index.md, the overview, is \
+written together with all pages. Exit codes: 0 done, 1 a tolerance is exceeded, 2 bad input, 3 a file cannot be written, 130 \
+interrupted.";
 
 pub(super) const EXAMPLES: &str = "\
 Examples:
   stickslip-lab validate                           all pages into docs/validation/
-  stickslip-lab validate contact --out pages       one of them into pages/";
+  stickslip-lab validate contact --out pages       one page into pages/";
 
 #[derive(Debug, Args)]
 pub(crate) struct ValidateArguments {

@@ -1,4 +1,4 @@
-//! `stickslip-lab bench`: what accuracy costs.
+//! `stickslip-lab bench`: measures computing time versus error.
 
 use crate::arguments::BenchArguments;
 use stickslip_bench::{BenchError, Known, ProblemError, TABLE, frames, growth, instructions, picture};
@@ -10,21 +10,21 @@ use stickslip_drive::RunError;
 use stickslip_run::{Job, Refusal};
 use thiserror::Error;
 
-/// Why there is no measurement.
+/// Error that stops the command.
 #[derive(Debug, Error)]
 enum BenchFailure {
-    /// A scenario.
+    /// A scenario is rejected.
     #[error(transparent)]
     Refused(#[from] Refusal),
-    /// A name after `--known`.
-    #[error("--known {0}: expected the name of one of the scenarios")]
+    /// The name after `--known` is unknown.
+    #[error("--known {0}: expected the name of a scenario of the command")]
     Unknown(String),
-    /// The measurement.
+    /// The measurement fails.
     #[error(transparent)]
     Bench(#[from] BenchError),
 }
 
-/// Measures scenarios, one after the other.
+/// Measures scenarios one after another.
 pub(crate) fn bench(arguments: &BenchArguments) -> Verdict {
     match measure_all(arguments) {
         Ok(()) => Verdict::Done,
@@ -38,7 +38,9 @@ pub(crate) fn bench(arguments: &BenchArguments) -> Verdict {
 fn measure_all(arguments: &BenchArguments) -> Result<(), BenchFailure> {
     let (interrupt, progress) = (Interrupt::install(), Progress::new(!arguments.quiet));
     if cfg!(debug_assertions) && !arguments.quiet {
-        complain(format_args!("this program was built without --release: its times tell little"));
+        complain(format_args!(
+            "this program was built without --release: its times do not apply to a release build"
+        ));
     }
     let request = arguments.request();
     let jobs = prepare(arguments)?;
@@ -46,6 +48,9 @@ fn measure_all(arguments: &BenchArguments) -> Result<(), BenchFailure> {
         let run = |job: &Job| instructions::counted(job, what);
         let stopped = |source: RunError| BenchError::Stopped { name: String::new(), why: source.to_string() };
         return Ok(jobs.iter().try_for_each(run).map_err(stopped)?);
+    }
+    if arguments.redraw {
+        return Ok(jobs.iter().try_for_each(stickslip_bench::redraw)?);
     }
     if arguments.realtime {
         return measure_frames(arguments, &jobs, &progress, &interrupt);
@@ -74,7 +79,7 @@ fn measure_all(arguments: &BenchArguments) -> Result<(), BenchFailure> {
     Ok(stickslip_bench::write_page(&chapters, &request, page)?)
 }
 
-/// Measures frames in real time.
+/// Measures computing times of frames in real time.
 fn measure_frames(
     arguments: &BenchArguments,
     jobs: &[Job],
@@ -92,7 +97,7 @@ fn measure_frames(
     Ok(())
 }
 
-/// All scenarios: they are read before the first is run.
+/// Reads all scenarios before the first run.
 fn prepare(arguments: &BenchArguments) -> Result<Vec<Job>, BenchFailure> {
     let job = |file| Ok(Job::prepare(file, &arguments.set, &arguments.out)?);
     let jobs = arguments.files.iter().map(|file| job(file)).collect::<Result<Vec<Job>, BenchFailure>>()?;

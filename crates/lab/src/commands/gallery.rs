@@ -1,4 +1,4 @@
-//! `stickslip-lab gallery`: all pictures of all scenarios of a folder, and the page that shows them.
+//! `stickslip-lab gallery`: draws all plots of all scenarios in a folder and writes the pages that show them.
 
 use crate::arguments::GalleryArguments;
 use std::fs;
@@ -15,27 +15,27 @@ use stickslip_run::folder::Folder;
 use stickslip_run::{Job, Refusal};
 use thiserror::Error;
 
-/// Name of the page.
-const PAGE: &str = "README.md";
+/// File name of the index page.
+const PAGE: &str = "index.md";
 
-/// Why the gallery is not complete.
+/// Error that stops the command.
 #[derive(Debug, Error)]
 enum GalleryFailure {
-    /// A scenario.
+    /// A scenario is rejected.
     #[error(transparent)]
     Refused(#[from] Refusal),
-    /// A folder without scenarios.
-    #[error("{}: has no scenarios, files NAME.json\n   help: name another folder with --scenarios", .0.display())]
+    /// The folder has no scenarios.
+    #[error("{}: contains no scenario files NAME.json\n   help: name another folder with --scenarios", .0.display())]
     Nothing(PathBuf),
-    /// No folder of scenarios.
+    /// The folder cannot be read.
     #[error("{}: expected a folder of scenarios: {}\n   help: name one with --scenarios", .path.display(), words(.source))]
     NoFolder { path: PathBuf, source: io::Error },
-    /// Pictures that are not there.
+    /// Plots or pages fail.
     #[error(transparent)]
     Gallery(#[from] GalleryError),
 }
 
-/// Draws the gallery. Its page is written when all its pictures are there.
+/// Draws the gallery. The pages are written when all plots are complete.
 pub(crate) fn gallery(arguments: &GalleryArguments) -> Verdict {
     match hang(arguments) {
         Ok(exhibits) => {
@@ -55,7 +55,7 @@ pub(crate) fn gallery(arguments: &GalleryArguments) -> Verdict {
 
 fn hang(arguments: &GalleryArguments) -> Result<Vec<Exhibit>, GalleryFailure> {
     let (interrupt, progress) = (Interrupt::install(), Progress::new(!arguments.quiet));
-    // All are read before the first is run.
+    // Read all scenarios before the first run.
     let jobs = scenarios(&arguments.scenarios)?
         .into_iter()
         .map(|file| Ok((Job::prepare(&file, &[], &arguments.out)?, file)))
@@ -71,12 +71,13 @@ fn hang(arguments: &GalleryArguments) -> Result<Vec<Exhibit>, GalleryFailure> {
     }
     let failed = |source| GalleryError::File { path: arguments.out.join(PAGE), source };
     let mut folder = Folder::make(&arguments.out).map_err(failed)?;
-    let text = gallery::page(&exhibits, &arguments.scenarios, &arguments.out).map_err(failed)?;
-    folder.write(PAGE, text.as_bytes()).and_then(|()| folder.publish()).map_err(failed)?;
+    let pages = gallery::pages(&exhibits, &arguments.scenarios, &arguments.out).map_err(failed)?;
+    pages.iter().try_for_each(|(name, text)| folder.write(name, text.as_bytes())).map_err(failed)?;
+    folder.publish().map_err(failed)?;
     Ok(exhibits)
 }
 
-/// The scenarios of a folder, by name.
+/// Returns the scenario files of a folder, sorted by name.
 fn scenarios(folder: &Path) -> Result<Vec<PathBuf>, GalleryFailure> {
     let failed = |source| GalleryFailure::NoFolder { path: folder.to_owned(), source };
     let entries = fs::read_dir(folder).map_err(failed)?.collect::<io::Result<Vec<_>>>().map_err(failed)?;

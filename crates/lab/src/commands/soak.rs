@@ -1,4 +1,4 @@
-//! `stickslip-lab soak`: scenes drawn from seeds, run and judged.
+//! `stickslip-lab soak`: runs random scenarios and checks their results.
 
 use crate::arguments::SoakArguments;
 use comfy_table::Table;
@@ -15,21 +15,21 @@ use stickslip_run::complaint::words;
 use stickslip_run::folder::Folder;
 use thiserror::Error;
 
-/// Why not everything was done.
+/// Error that stops the command.
 #[derive(Debug, Error)]
 enum SoakFailure {
-    /// A cell beyond the matrix.
-    #[error("there is no cell {0}: the matrix has the cells 0 to {1}")]
+    /// The cell is outside the matrix.
+    #[error("there is no cell {0}: the matrix has cells 0 to {1}")]
     NoCell(u64, usize),
-    /// The stability record.
+    /// The stability record fails.
     #[error(transparent)]
     Record(#[from] BenchError),
-    /// Something that cannot be written.
+    /// A file cannot be written.
     #[error("{}: {}", .path.display(), words(.source))]
     Unwritten { path: PathBuf, source: io::Error },
 }
 
-/// Judges seeds or the matrix, or writes their scenarios.
+/// Checks random scenarios or the matrix, or writes their scenario files.
 pub(crate) fn soak(arguments: &SoakArguments) -> Verdict {
     let done = match &arguments.write {
         Some(folder) => write(arguments, folder).map(|()| Verdict::Done),
@@ -41,7 +41,7 @@ pub(crate) fn soak(arguments: &SoakArguments) -> Verdict {
     })
 }
 
-/// The seeds or cells asked for.
+/// Returns the requested seeds or cells.
 fn seeds(arguments: &SoakArguments) -> Result<Vec<u64>, SoakFailure> {
     let cells = hostile::size();
     match arguments.named.iter().find(|cell| arguments.hostile && **cell >= cells as u64) {
@@ -52,7 +52,7 @@ fn seeds(arguments: &SoakArguments) -> Result<Vec<u64>, SoakFailure> {
     }
 }
 
-/// Scenarios of seeds, as files to be run.
+/// Writes scenario files of seeds or cells.
 fn write(arguments: &SoakArguments, path: &Path) -> Result<(), SoakFailure> {
     let failed = |source| SoakFailure::Unwritten { path: path.to_owned(), source };
     let seeds = seeds(arguments)?;
@@ -81,7 +81,7 @@ fn judge(arguments: &SoakArguments) -> Result<Verdict, SoakFailure> {
     };
     drop(bar);
     match (&arguments.out, &arguments.page) {
-        // An interrupted record would tell of half a matrix.
+        // An interrupted record would be incomplete.
         (Some(out), Some(page)) if !interrupt.is_raised() => hostile::write_record(&findings, page, out)?,
         (Some(out), None) => write_table(&findings, out)?,
         _ => {}
@@ -101,7 +101,7 @@ fn write_table(findings: &[Finding], path: &Path) -> Result<(), SoakFailure> {
     folder.write(soak::TABLE, &table).and_then(|()| folder.publish()).map_err(failed)
 }
 
-/// How the command ends.
+/// Returns the exit status of the command.
 fn ending(interrupted: bool, findings: &[Finding]) -> Verdict {
     match (interrupted, findings.iter().any(|finding| finding.verdict.is_fault())) {
         (true, _) => Verdict::Interrupted,
@@ -110,12 +110,12 @@ fn ending(interrupted: bool, findings: &[Finding]) -> Verdict {
     }
 }
 
-/// How many of each kind ended how.
+/// Returns a table of the numbers of scenarios by kind and verdict.
 fn shares(findings: &[Finding]) -> Table {
     let met = soak::Verdict::ALL.into_iter().filter(|verdict| soak::count(findings, None, *verdict) > 0);
     let verdicts: Vec<soak::Verdict> = met.collect();
     let heads = verdicts.iter().map(|verdict| verdict.name());
-    let mut table = table::plain(["kind", "scenes"].into_iter().chain(heads));
+    let mut table = table::plain(["kind", "scenarios"].into_iter().chain(heads));
     let mut kinds: Vec<&str> = Vec::new();
     for finding in findings {
         if !kinds.contains(&finding.kind) {
@@ -134,14 +134,14 @@ fn shares(findings: &[Finding]) -> Table {
     table
 }
 
-/// What it took.
+/// Describes the number of runs and their computing times.
 fn work(findings: &[Finding]) -> String {
     let runs: u32 = findings.iter().map(|finding| finding.runs.0).sum();
     let wall: f64 = findings.iter().map(|finding| finding.runs.1).sum();
     let longest = findings.iter().map(|finding| finding.runs.2).fold(0.0, f64::max);
     let detours = findings.iter().filter(|finding| finding.detours > 0).count();
     let mean = wall / f64::from(runs.max(1));
-    format!("{runs} runs, {mean:.3} s each, the longest {longest:.1} s; detours in {detours} scenes")
+    format!("{runs} runs, mean {mean:.3} s, maximum {longest:.1} s; step doubling in {detours} scenarios")
 }
 
 #[cfg(test)]

@@ -1,4 +1,4 @@
-//! `stickslip-lab validate`: known results, and what the program makes of them.
+//! `stickslip-lab validate`: compares the program with known results.
 
 use crate::arguments::ValidateArguments;
 use std::io;
@@ -15,20 +15,20 @@ use stickslip_run::folder::Folder;
 use stickslip_validation::{Page, Subject, ValidationError, index};
 use thiserror::Error;
 
-/// Name of the page of all pages.
-const INDEX: &str = "README.md";
+/// File name of the index page.
+const INDEX: &str = "index.md";
 
-/// Why the pages are not there.
+/// Error that stops the command.
 #[derive(Debug, Error)]
 enum ValidateFailure {
-    /// A page.
+    /// A page cannot be computed.
     #[error("{name}: {source}")]
     Page { name: &'static str, source: ValidationError },
-    /// A picture.
+    /// A plot fails.
     #[error("{name}: {source}")]
     Picture { name: &'static str, source: PlotError },
-    /// Writing.
-    #[error("{}: cannot be written: {}\n   help: choose another place with --out", .path.display(), words(.source))]
+    /// A file cannot be written.
+    #[error("{}: cannot be written: {}\n   help: choose another folder with --out", .path.display(), words(.source))]
     File { path: PathBuf, source: io::Error },
 }
 
@@ -39,12 +39,12 @@ pub(crate) fn validate(arguments: &ValidateArguments) -> Verdict {
             let lost = pages.iter().flat_map(|page| page.checks.iter().map(move |check| (page, check)));
             let lost: Vec<_> = lost.filter(|(_, check)| !check.holds()).collect();
             for (page, check) in &lost {
-                complain(format_args!("{}: not kept: {check}", page.name()));
+                complain(format_args!("{}: not met: {check}", page.name()));
             }
             if !arguments.quiet {
                 let asked: usize = pages.iter().map(|page| page.checks.len()).sum();
                 let (out, kept) = (arguments.out.display(), asked - lost.len());
-                say(format_args!("{out}: {} pages, {kept} of {asked} tolerances kept", pages.len()));
+                say(format_args!("{out}: {} pages, {kept} of {asked} tolerances met", pages.len()));
             }
             if lost.is_empty() { Verdict::Done } else { Verdict::Differs }
         }
@@ -60,7 +60,7 @@ fn write(arguments: &ValidateArguments) -> Result<Vec<Page>, ValidateFailure> {
     let (interrupt, progress) = (Interrupt::install(), Progress::new(!arguments.quiet));
     let wanted = |subject: &Subject| arguments.pages.is_empty() || arguments.pages.contains(subject);
     let subjects: Vec<Subject> = Subject::ALL.into_iter().filter(wanted).collect();
-    // Before anything is computed in vain.
+    // Before the first computation.
     let mut folder = Folder::make(&arguments.out).map_err(failed)?;
     let bar = progress.budget("validate", subjects.len() as f64, &interrupt);
     let mut pages = Vec::new();

@@ -1,39 +1,39 @@
-//! Forth and back: the stretches of a period in which its waveform rises, falls or rests.
+//! Directions of a waveform: the intervals of a period in which it rises, falls or is constant.
 
 use stickslip_drive::{Piece, Waveform};
 
-/// Parts of a smooth stretch in which a turn is looked for.
+/// Number of parts of a smooth piece that are searched for turning points.
 const PARTS: usize = 64;
-/// The same of one that is all of a period.
+/// Number of parts for a piece that covers more than half of the period.
 const PARTS_OF_ALL: usize = 2048;
-/// Most pieces of a period, and most turns in it, for which the stretches are worth telling.
+/// Maximum numbers of pieces and turning points of a period.
 const MOST_PIECES: usize = 4096;
 const MOST_TURNS: usize = 16;
-/// A moment this near to a turn, in periods, is the turn.
+/// Time difference below which two times are equal, in periods.
 const SAME: f64 = 1e-9;
-/// Halvings of an interval in which the rate changes sign: to the last place.
+/// Number of bisections of an interval with a sign change of the rate. It suffices for full precision.
 const HALVINGS: u32 = 64;
 
-/// Which way a waveform goes.
+/// Direction of a waveform.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Sense {
-    /// Upwards.
+    /// The value increases.
     Rising,
-    /// Downwards.
+    /// The value decreases.
     Falling,
-    /// Nowhere.
+    /// The value is constant.
     Resting,
 }
 
-/// The stretches of a period, from its start.
+/// Directions of a waveform in the intervals of its period.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Phases {
-    /// Start of the period they were taken from, and length of all, s.
+    /// Start of the analysed period and length of the period, s.
     start: f64,
     length: f64,
-    /// Where each begins after the start of the period, s, ascending from 0, and which way it goes.
+    /// Start of each interval after the start of the period, s, in ascending order from 0, and the direction of the waveform in it.
     stretches: Vec<(f64, Sense)>,
-    /// By how much the waveform rises and falls within a period, in its own unit.
+    /// Total rise and total fall of the waveform in a period, in its unit.
     ways: [f64; 2],
 }
 
@@ -50,9 +50,10 @@ impl Sense {
 }
 
 impl Phases {
-    /// Those of a waveform's second period, or its first where it stops before; none without a period, or with too many turns in it.
+    /// Returns the directions of a waveform in its second period, or in its first one if it stops earlier.
     ///
-    /// The first period of a flyback that is late has none of it.
+    /// The second period is used because a delayed flyback may be missing in the first one. Returns `None` if the waveform is not periodic
+    /// or has more than 16 turning points per period.
     pub fn of(waveform: &Waveform) -> Option<Self> {
         let (length, delay) = (waveform.period()?, waveform.timing().delay);
         let is_repeated = waveform.window().1 >= delay + 2.0 * length;
@@ -63,12 +64,12 @@ impl Phases {
         for _ in 0..MOST_PIECES {
             let until = piece.end.min(end);
             let from = piece.start.max(start);
-            // A piece of many waves turns more often than that.
+            // A piece that contains many waves has more turning points than allowed.
             if (until - from) > MOST_TURNS as f64 * 4.0 * waveform.resolution() {
                 return None;
             }
             phases.take(waveform, &piece, [from, until]);
-            // Ends are rounded apart.
+            // Times of piece ends are rounded.
             if until >= end - SAME * length {
                 let enough = phases.stretches.len() <= MOST_TURNS;
                 return enough.then_some(phases);
@@ -79,7 +80,7 @@ impl Phases {
         None
     }
 
-    /// Takes the part of a piece from one moment to another, s.
+    /// Adds the part of a piece between two times, s.
     fn take(&mut self, waveform: &Waveform, piece: &Piece, [from, to]: [f64; 2]) {
         let is_all = to - from > 0.5 * self.length;
         let parts = if is_all { PARTS_OF_ALL } else { PARTS };
@@ -87,7 +88,7 @@ impl Phases {
         let (mut before, mut told) = (from, from);
         for i in 1..=parts {
             let t = if i == parts { to } else { from + (to - from) * (i as f64 / parts as f64) };
-            // By the middle: the ends of a part may be turns.
+            // The direction is taken at the middle, because the ends of a part may be turning points.
             let sense = Sense::of(at(0.5 * (before + t)).rate);
             if self.stretches.last().is_none_or(|(_, last)| *last != sense) {
                 let turn = self.turn(|t| at(t).rate, [before, t], [from, to], sense);
@@ -100,7 +101,9 @@ impl Phases {
         self.leap(at(to).value - at(told).value);
     }
 
-    /// Where the rate takes a sense that it has in the middle of a part and had not in the middle of the one before.
+    /// Returns the turning point at which the direction becomes `sense`, by bisection, s.
+    ///
+    /// The direction differs between the middle of `part` and the middle of the part before it.
     fn turn(&self, rate: impl Fn(f64) -> f64, part: [f64; 2], whole: [f64; 2], sense: Sense) -> f64 {
         let width = part[1] - part[0];
         let (mut low, mut high) = (part[0] - 0.5 * width, part[0] + 0.5 * width);
@@ -115,16 +118,16 @@ impl Phases {
         high
     }
 
-    /// Books a way.
+    /// Adds a change of the value to the total rise or fall.
     fn leap(&mut self, way: f64) {
         let [rise, fall] = &mut self.ways;
         if way > 0.0 { *rise += way } else { *fall -= way }
     }
 
-    /// Which way it goes just after a moment, s, and from when on that has to be asked again, s: a little before it turns.
+    /// Returns the direction just after time t, s, and the time until which it is valid, s. That time is slightly before the next turn.
     pub fn sense_after(&self, t: f64) -> (Sense, f64) {
         let (within, same) = ((t - self.start).rem_euclid(self.length), SAME * self.length);
-        // What is as good as the end is the beginning.
+        // Times close to the end of the period belong to the next one.
         let within = if self.length - within <= same { 0.0 } else { within };
         let after = self.stretches.partition_point(|(begin, _)| *begin <= within + same);
         let sense = after.checked_sub(1).and_then(|k| self.stretches.get(k));
@@ -132,12 +135,12 @@ impl Phases {
         (sense.map_or(Sense::Resting, |(_, sense)| *sense), t + (turn - within) - 2.0 * same)
     }
 
-    /// Where in a period the waveform turns, s after its start, but for the start.
+    /// Iterates over the turning points of a period, s after its start. The start itself is excluded.
     pub fn turns(&self) -> impl Iterator<Item = f64> {
         self.stretches.iter().skip(1).map(|(begin, _)| *begin)
     }
 
-    /// By how much it rises and falls within a period, in its own unit.
+    /// Returns the total rise and the total fall in a period, in the unit of the waveform.
     pub fn ways(&self) -> [f64; 2] {
         self.ways
     }
@@ -164,7 +167,7 @@ mod tests {
         assert_relative_eq!(phases.turns().next().unwrap(), 9.99e-3, max_relative = 1e-12);
         assert_relative_eq!(phases.ways()[0], 2e-7, max_relative = 1e-12);
         assert_relative_eq!(phases.ways()[1], 2e-7, max_relative = 1e-12);
-        // In the seventh period; at its end the next begins.
+        // In the seventh period; the next one starts at its end.
         let at = |within: f64| phases.sense_after(0.5 + 7.0 * 1e-2 + within).0;
         assert_eq!(
             [at(0.0), at(9.9e-3), at(9.995e-3), at(1e-2)],

@@ -1,40 +1,40 @@
-//! Cycles of a contact as they end, with their regimes.
+//! Classification of the cycles of a contact by slip regime.
 
 use super::CycleFigures;
 use crate::Setting;
 use crate::Thresholds;
 use stickslip_contact::{Interface, Profile};
 
-/// Thresholds below this are those of a flat punch, which are 0.
+/// Threshold values below this one are 0, as for a flat punch.
 const ROUNDING: f64 = 1e-12;
-/// A force that misses the limit of friction by less than this share of it has come to it.
-// Partial slip of a sphere is as near at 1 - 1e-6 of u_c.
+/// Relative distance from the friction limit within which a force has reached it.
+// In partial slip of a sphere, 1 - 1e-6 of u_c gives a force this close to the limit.
 const AT_LIMIT: f64 = 1e-9;
 
-/// A cycle and, where it is a loop under a constant load, its regime.
+/// A cycle with its slip regime. Only a closed loop under constant load has a regime other than "still".
 #[derive(Debug, Clone, Copy)]
 pub struct JudgedCycle {
-    /// Its quantities.
+    /// Results of the cycle.
     pub figures: CycleFigures,
-    /// "still" of one that moves by no more than can be told from rest, "stick", "partial" or "gross".
+    /// Slip regime: "still" (at rest within the resolution), "stick", "partial" or "gross".
     pub regime: Option<&'static str>,
 }
 
-/// What has been told of the cycles of a contact.
+/// Classified cycles of a contact.
 #[derive(Debug, Clone, Default)]
 pub struct ContactCycles {
-    /// How many.
+    /// Number of cycles.
     pub count: usize,
-    /// The last.
+    /// Last cycle.
     pub last: Option<JudgedCycle>,
-    /// All of them, where a run is kept in memory.
+    /// All cycles, if the run is kept in memory.
     pub all: Vec<JudgedCycle>,
-    /// Thresholds of its profile as deep as it stood in the first: none under a load that varies, or of a damped contact.
+    /// Thresholds between partial and gross slip for the profile and the initial indentation. `None` for varying loads and damped contacts.
     pub thresholds: Option<Thresholds>,
 }
 
 impl ContactCycles {
-    /// Takes the next cycle of contact `c`.
+    /// Classifies the next cycle of contact `c`.
     pub fn take(
         &mut self,
         setting: &Setting,
@@ -56,9 +56,10 @@ impl ContactCycles {
     }
 }
 
-/// The limit between partial and gross slip of any profile at indentation d, on a rigid rig. By Masing's rule the loop
-/// of amplitude u_c has `E_d = 4μE*κ(Md - 2N)` and crosses F_x = 0 where M(h) = M(d)/2: A = 1 - 2N/(Md), D = 2h/d - 1; for
-/// f ~ rⁿ these are 1/(2n+1) and 2^{1/(n+1)} - 1. None for an open contact.
+/// Returns the thresholds between partial and gross slip of a profile at indentation d, for a rigid rig.
+///
+/// By Masing's rule, the loop of amplitude u_c has `E_d = 4μE*κ(Md - 2N)` and crosses F_x = 0 where M(h) = M(d)/2. Hence A = 1 - 2N/(Md)
+/// and D = 2h/d - 1. For f ~ rⁿ these are 1/(2n+1) and 2^{1/(n+1)} - 1. Returns `None` for an open contact.
 fn thresholds(profile: &Profile, d: f64) -> Option<Thresholds> {
     let reduced_force = profile.reduced_force(d);
     let energy = 1.0 - 2.0 * profile.reduced_energy(d) / (reduced_force * d);
@@ -71,9 +72,10 @@ fn thresholds(profile: &Profile, d: f64) -> Option<Thresholds> {
     })
 }
 
-/// How a contact slips in a loop: all of it where its force comes both ways to what friction bears, `limit`, N. That holds for any
-/// profile and for a row of few springs; A, B and D are made for loops whose limit of friction nobody knows, and B of a small loop
-/// is near 2/3 on any profile, above the threshold of a worn one.
+/// Returns the slip regime of a loop. Gross slip means that the force amplitude reaches the friction limit `limit`, N.
+///
+/// This criterion holds for any profile and for a row of few springs. The ratios A, B and D are for loops with an unknown friction limit. B
+/// of a small loop is near 2/3 for any profile and would exceed the threshold of a worn profile.
 fn regime(figures: &CycleFigures, limit: f64) -> &'static str {
     let cycle = &figures.cycle;
     if cycle.force_amplitude >= (1.0 - AT_LIMIT) * limit {

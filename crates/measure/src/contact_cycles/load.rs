@@ -1,18 +1,18 @@
-//! The mean normal force of a contact over a cycle, where a waveform presses it.
+//! Mean normal force of a contact over a cycle, for a load that follows a waveform.
 
 use crate::Setting;
 use stickslip_contact::Interface;
 use stickslip_drive::Waveform;
 use stickslip_drive::scene::{Normal, Varying};
 
-/// Error that the mean may have, relative to the largest force.
+/// Tolerance of the mean force, relative to the largest force.
 const WANTED: f64 = 1e-11;
-/// Parts of the shortest wave, or piece, from which the rule begins: no wave lies between its points.
+/// Number of initial integration intervals per shortest wave or piece.
 const PARTS: f64 = 4.0;
-/// Most halvings of a part: a force that comes to 0 bends there.
+/// Maximum number of bisections of an interval. They are needed where the force reaches 0, because it has a kink there.
 const HALVINGS: u32 = 40;
 
-/// A waveform that presses a contact, as a force, an indentation or a radius.
+/// A waveform that prescribes the normal force, the indentation or the contact radius of a contact.
 #[derive(Debug, Clone)]
 pub(super) struct Load {
     waveform: Waveform,
@@ -29,7 +29,9 @@ enum Quantity {
 }
 
 impl Load {
-    /// That of contact `c`; none of a constant load, or where bodies press, or a block, or somebody in the course of the run.
+    /// Returns the load of contact `c`.
+    ///
+    /// Returns `None` for constant loads, loads by bodies, and loads that are computed or set during the run.
     pub(super) fn of(setting: &Setting, c: usize) -> Option<Self> {
         let (varying, quantity) = match setting.scenario.scene.contacts.get(c)?.part.normal {
             Normal::Force(load) => (load, Quantity::Force),
@@ -43,11 +45,10 @@ impl Load {
         is_known.then(|| Self { waveform: waveform.clone(), quantity, count: f64::from(setting.count(c)) })
     }
 
-    /// Mean force from one moment to a later one, s, of all identical contacts, N: Simpson's rule on every piece of the waveform, in
-    /// parts halved until two halves are worth what the whole is.
+    /// Returns the mean normal force of all identical contacts between two times, s, in N. It uses adaptive Simpson integration.
     pub(super) fn mean(&self, law: &Interface, [from, to]: [f64; 2]) -> f64 {
         let longest = self.waveform.quickest() / PARTS;
-        // By the largest force and not by that of a part: where a load comes to 0 all of it is rounding.
+        // The tolerance is relative to the largest force, because where the load is near 0 everything is rounding.
         let wanted = WANTED * self.force(law, self.waveform.range().1);
         let (mut sum, mut piece) = (0.0, self.waveform.piece_at(from));
         loop {
@@ -65,7 +66,7 @@ impl Load {
         }
     }
 
-    /// The force of one contact, N, at a value of the waveform.
+    /// Returns the normal force of one contact for a value of the waveform, N.
     fn force(&self, law: &Interface, value: f64) -> f64 {
         match self.quantity {
             Quantity::Force => value.max(0.0),
@@ -75,7 +76,7 @@ impl Load {
     }
 }
 
-/// A stretch of time, with the force at both ends and in the middle.
+/// An integration interval with the forces at both ends and at the middle.
 #[derive(Clone, Copy)]
 struct Part {
     ends: [f64; 2],
@@ -92,7 +93,7 @@ impl Part {
         (end - start) * (a + 4.0 * b + c) / 6.0
     }
 
-    /// ∫ F dt, Ns, within `wanted`, N, times its length, or after so many halvings.
+    /// Returns ∫ F dt, N s, by recursive bisection. The error is below `wanted` (N) times the length, unless `halvings` is exhausted.
     fn integral(&self, (wanted, halvings): (f64, u32), force: &impl Fn(f64) -> f64) -> f64 {
         let ([start, end], [a, b, c]) = (self.ends, self.forces);
         let middle = 0.5 * (start + end);
@@ -103,7 +104,7 @@ impl Part {
         let halves = [half([start, middle], [a, b]), half([middle, end], [b, c])];
         let fine: f64 = halves.iter().map(Self::simpson).sum();
         let change = fine - self.simpson();
-        // The error of the halves is a fifteenth of the change, and is taken off: what is left is of a higher order.
+        // Richardson extrapolation: the error of the halves is 1/15 of the change.
         if halvings == 0 || change.abs() <= wanted * (end - start) {
             return fine + change / 15.0;
         }
@@ -123,8 +124,8 @@ mod tests {
         Load { waveform, quantity, count: 2.0 }
     }
 
-    /// Of a sine its offset over whole periods, however many; of one that lifts off half of the time A/π; of a depth d₀ + A sin ωt of
-    /// a paraboloid, F = c d^{3/2}, that of the binomial series, c d₀^{3/2}(1 + 3/16 ε² + 9/1024 ε⁴ + …), ε = A/d₀.
+    /// Means from closed forms. Sine: its offset. Sine with lift-off for half of the time: A/π. Paraboloid at the depth d₀ + A sin ωt, F =
+    /// c d^{3/2}: the binomial series c d₀^{3/2}(1 + 3/16 ε² + 9/1024 ε⁴ + …) with ε = A/d₀.
     #[test]
     fn means_are_those_of_closed_forms() {
         let law =
@@ -134,7 +135,7 @@ mod tests {
         for frequency in [16.0, 50.0, 128.0, 256.0] {
             near(load(6.0, 10.0, frequency, Quantity::Force).mean(&law, [3.0, 4.0]), 20.0);
         }
-        // One that comes to 0 and no further: what is left there is rounding, which no halving makes smaller.
+        // A load that reaches 0 exactly: only rounding is left there, which bisection cannot reduce.
         near(load(10.0, 10.0, 50.0, Quantity::Force).mean(&law, [1.0, 2.0]), 20.0);
         near(load(6.0, 0.0, 7.0, Quantity::Force).mean(&law, [0.0, 1.0]), 2.0 * 6.0 / std::f64::consts::PI);
         let swelling = 1.0 + 3.0 / 16.0 * 1e-4 + 9.0 / 1024.0 * 1e-8;

@@ -1,4 +1,4 @@
-//! The cycles of a contact as its run goes on.
+//! Detection of the cycles of a contact during a run.
 
 use super::load::Load;
 use super::walk::Walk;
@@ -12,52 +12,54 @@ use crate::returning_cycles;
 use std::collections::HashMap;
 use stickslip_contact::Interface;
 
-/// Most moments of a cycle that are kept, and of a whole run whose cycles are told at its end.
+/// Maximum numbers of stored samples: per cycle, and per run if cycles are evaluated at its end.
 const MOST: [usize; 2] = [1 << 18, 1 << 21];
-/// Moments that a walk may be behind: of contacts that never come back no cycle asks for it, and short runs go without.
+/// Maximum number of samples by which the replayed contact may lag behind. Contacts without cycles never need the replay.
 const PENDING: usize = 1 << 14;
-/// Quantities of a contact, in the order of its track.
+/// Channels of a contact, in the order of its samples.
 const QUANTITIES: [&str; 5] = ["u_m", "d_m", "fx_N", "fn_N", "friction_J"];
 
-/// A contact whose cycles are looked for.
+/// Detects and evaluates the cycles of one contact.
 pub struct Loops {
-    /// Its columns among all channels, in the order of [`QUANTITIES`].
+    /// Channel indices in the order of [`QUANTITIES`].
     places: [usize; 5],
-    /// The column of what dampers have taken, where that is what its own damping has; none where it has no damping.
+    /// Channel index of the damping losses of the whole model, if only this contact has damping.
     damping: Option<usize>,
     knows_damping: bool,
     load: Option<Load>,
-    /// Whether it is looked at in parts of a period.
+    /// Whether the contact is sampled several times per period.
     is_dense: bool,
-    /// Whether its force never jumps: nothing that drives the scene does, and no springs of it are damped.
+    /// Whether the tangential force is continuous: no input jumps and the contact has no damping.
     is_continuous: bool,
     cut: Cutting,
     track: Track,
     walk: Option<Walk>,
     /// Number of identical contacts.
     count: f64,
-    /// Range of u up to which it stands still, m.
+    /// Range of u below which the contact is at rest, m.
     still: f64,
-    /// Most moments of its track.
+    /// Maximum number of samples.
     most: usize,
-    /// Moments for which there was no room.
+    /// Number of samples that were dropped.
     pub left_out: u64,
-    /// Whether some of the cycle under way are among them.
+    /// Whether samples of the current cycle were dropped.
     is_torn: bool,
 }
 
-/// Where cycles begin and end.
+/// Rule for the ends of cycles.
 enum Cutting {
-    /// At the ends of periods.
+    /// Cycles end at period ends.
     Periods(Tracker),
-    /// At reversals, which are known when all moments are.
+    /// Cycles end at reversals, which are determined at the end of the run.
     Reversals,
-    /// There are none any more.
+    /// There are no further cycles.
     Over,
 }
 
 impl Loops {
-    /// Those of contact `c`; none where nothing that drives it has periods or is a table. `places` are those of all channels.
+    /// Creates the detection for contact `c`. `places` are the channel indices by name.
+    ///
+    /// Returns `None` if the contact is driven neither periodically nor by a table.
     pub fn of(setting: &Setting, c: usize, places: &HashMap<&str, usize>) -> Option<Self> {
         let cut = match (Periods::of_contact(setting, c, f64::INFINITY), table_of(setting, c)) {
             (Some(periods), _) => Cutting::Periods(Tracker::new(periods)),
@@ -92,8 +94,9 @@ impl Loops {
         })
     }
 
-    /// Takes the next moment, a row of all channels, and whether something `bends` there; returns the cycle that it ends, where that
-    /// comes back.
+    /// Adds a sample, a row of all channels. `bends` is true at an event.
+    ///
+    /// Returns the evaluated cycle if the sample ends one and u returns.
     pub fn take(&mut self, law: &Interface, values: &[f64], bends: bool) -> Option<CycleFigures> {
         if matches!(self.cut, Cutting::Over) {
             return None;
@@ -101,7 +104,7 @@ impl Loops {
         let t = values.first().copied()?;
         let at = |place: usize| values.get(place).copied().unwrap_or(f64::NAN);
         let [u, d, force, normal, friction] = self.places.map(at);
-        // Nothing goes on smoothly to where a run starts.
+        // The start of a run counts as a kink.
         let bends = bends || t == 0.0;
         let moment = Moment { u, d, force, normal, friction, damping: self.damping.map_or(0.0, at), bends };
         let ended = match &mut self.cut {
@@ -126,13 +129,13 @@ impl Loops {
         figures
     }
 
-    /// What it takes, B.
+    /// Returns the memory used, in bytes.
     pub fn bytes(&self) -> usize {
         let pending = self.walk.as_ref().map_or(0, |walk| walk.pending.capacity());
         size_of::<f64>() * (7 * self.track.t.capacity() + pending) + self.track.bends.capacity()
     }
 
-    /// The cycles that are known only when the run has ended.
+    /// Returns the cycles that can only be evaluated at the end of the run.
     pub fn finish(&mut self, law: &Interface) -> Vec<CycleFigures> {
         if !matches!(self.cut, Cutting::Reversals) || self.track.t.is_empty() {
             return Vec::new();
@@ -151,7 +154,7 @@ impl Loops {
             return;
         }
         if is_full {
-            // A cycle without some of its moments is none; those after it are, so that their contact goes on.
+            // A cycle with dropped samples is not evaluated. Later cycles are.
             self.is_torn = true;
             self.left_out += self.track.t.len() as u64 - 1;
             self.forget(law);
@@ -162,7 +165,7 @@ impl Loops {
         self.track.push(t, moment);
     }
 
-    /// A moment before the first cycle.
+    /// Adds a sample before the first cycle.
     fn wait(&mut self, law: &Interface, moment: Moment) {
         let Some(walk) = &mut self.walk else { return };
         walk.begin(moment.d);
@@ -172,7 +175,7 @@ impl Loops {
         }
     }
 
-    /// The cycle that ends with the last moment of the track.
+    /// Evaluates the cycle that ends with the last sample. Returns `None` if u does not return.
     fn end_cycle(&mut self, law: &Interface) -> Option<CycleFigures> {
         let span = 0..self.track.t.len().checked_sub(1)?;
         let is_whole = !self.is_torn;
@@ -181,7 +184,7 @@ impl Loops {
         comes_back.then(|| track.figures(&span, &setup, walk.as_mut()))
     }
 
-    /// Moments, what figures are taken with, and the contact led along them.
+    /// Returns the samples, the data for the evaluation and the replayed contact.
     fn parts<'a>(&'a mut self, law: &'a Interface) -> (&'a Track, Setup<'a>, &'a mut Option<Walk>) {
         let Self { track, walk, load, count, still, .. } = self;
         let (is_dense, is_continuous) = (self.is_dense, self.is_continuous);
@@ -190,16 +193,16 @@ impl Loops {
         (track, setup, walk)
     }
 
-    /// Begins a cycle where the one before has ended, with the last moment of the track.
+    /// Starts a new cycle with the last sample of the previous one.
     fn begin_cycle(&mut self, law: &Interface) {
         self.is_torn = false;
         self.forget(law);
     }
 
-    /// Forgets all moments but the last, along which its contact still has to be led.
+    /// Removes all samples except the last one. The replayed contact still has to follow them.
     fn forget(&mut self, law: &Interface) {
         if let Some(walk) = &mut self.walk {
-            // Where no figures were asked for it has been left behind; it never stands inside of a cycle.
+            // If a cycle was not evaluated, the replayed contact is behind. It is never inside a cycle.
             let behind = walk.at.map_or(0, |at| at + 1);
             walk.pending.extend(self.track.u.iter().skip(behind));
             walk.at = Some(0);
@@ -229,7 +232,6 @@ mod tests {
         Loops::of(setting, 0, &places.collect()).unwrap()
     }
 
-    /// One cycle with more moments than there is room for once silenced all that came after it.
     #[test]
     fn a_cycle_without_room_is_lost_and_no_other() {
         let setting = sphere();
@@ -243,7 +245,7 @@ mod tests {
                 for k in 0..count {
                     let share = f64::from(k) / f64::from(count);
                     row[0] = period * (f64::from(cycle) + share);
-                    // Not the same in each, so that figures hang on the way until then.
+                    // The values differ between the cycles, so that the results depend on the whole path.
                     let turn = 2.0 * std::f64::consts::PI * share;
                     row[loops.places[0]] = 1e-7 * (turn.sin() + 0.1 * f64::from(cycle) * (3.0 * turn).sin());
                     row[loops.places[1]] = setting.start.memories()[0].apex().d;
@@ -259,7 +261,6 @@ mod tests {
         assert_eq!(some, [&all[..2], &all[3..]].concat());
     }
 
-    /// What is kept does not grow with the run.
     #[test]
     fn no_more_is_kept_than_a_cycle() {
         let setting = sphere();

@@ -1,32 +1,33 @@
-//! Extremes between the moments of a contact.
+//! Extremes of quantities between the samples of a contact.
 //!
-//! Between two events values are smooth, and a polynomial through a few moments has their extreme. Next to an event they are not: as gross
-//! slip comes near, the part of the springs that still holds ends at a place that goes straight to the centre, and of a paraboloid
-//! the force is short of its limit by the power 3/2 of the time that is left. So polynomials there are in the root of it, without a term of
-//! the first order.
+//! Between two events the quantities are smooth, and a polynomial through a few samples gives their extreme. Near an event they are not: as
+//! gross slip approaches, the edge of the stick area moves linearly to the centre. For a paraboloid, the force differs from its limit by
+//! the power 3/2 of the remaining time. Therefore the polynomials there are in the square root of this time, without a linear term.
 
 use super::{ROUNDING, Track};
 use crate::series::extent;
 use std::ops::Range;
 
-/// Moments nearer than this share of their mean distance are one.
+/// Samples closer than this fraction of their mean distance count as one.
 const NEAR: f64 = 0.01;
-/// How far from an event the next moment may be for a limit there, in mean distances of those after it.
+/// Maximum distance of the nearest sample from an event for an extrapolation to the event, in mean distances.
 const FAR: f64 = 1.5;
-/// By how much of the range of values a limit may depend on the last of the moments that tell it: more does where a fast motion follows
-/// an event, such as what is left of damping where a contact begins to slide. Of a damped ball that is shaken by 200 µm the peak was 6.5 %
-/// above the limit of friction.
+/// Maximum influence of the last sample on the extrapolated value, relative to the range of values.
+///
+/// It is larger if a fast transient follows the event, such as the decay of damping forces at the onset of slip. Then the extrapolation is
+/// rejected.
 const CREDIBLE: f64 = 1e-3;
-/// Neighbours on either side.
+/// Number of neighbouring samples on either side.
 const SIDE: usize = 2;
-/// Halvings of the time between neighbours: values there differ by the square of what is left.
+/// Number of bisections. The error of the extreme is quadratic in the remaining interval.
 const HALVINGS: u32 = 32;
 
 impl Track {
-    /// Least and largest value over a cycle: where an extreme is no event, those of the polynomial through the moment and its
-    /// neighbours, up to four and none beyond an event: of the sixth order in the time between them. A cycle that comes back goes on where it
-    /// began. Where values may jump at events, one next to an event is an extreme as it is.
-    /// There the limits on both sides are values, too.
+    /// Returns the minimum and maximum of `values` over a cycle.
+    ///
+    /// An extreme that is no event is the extreme of the polynomial through the sample and up to four neighbours. No neighbour is beyond an
+    /// event. The error is of sixth order in the sampling interval. A closed cycle is continued periodically. If the values may jump at
+    /// events, an extreme next to an event is taken as sampled. The limits on both sides of events are then included.
     pub(super) fn peaks(&self, span: &Range<usize>, values: &[f64], is_continuous: bool) -> (f64, f64) {
         let (low, high) = extent(&values[span.start..=span.end]);
         let of = (values, high - low, is_continuous);
@@ -40,8 +41,10 @@ impl Track {
         limits.fold(met, |(low, high), limit| (low.min(limit), high.max(limit)))
     }
 
-    /// What values come to on both sides of an event, by the polynomials through the moments before and after it; none where there are
-    /// too few, none so near that these tell it, or where one of them less tells another limit, by a share of the `range`.
+    /// Returns the limits of `values` on both sides of an event, by extrapolating polynomials.
+    ///
+    /// A limit is omitted if the samples are too few or too far away, or if it depends too much on the last sample. `range` is
+    /// the range of the values.
     fn limits(
         &self,
         span: &Range<usize>,
@@ -61,7 +64,7 @@ impl Track {
         })
     }
 
-    /// The extreme of the polynomial about the moment at which `extreme` is met; the extreme itself where there is none.
+    /// Returns the extreme of the polynomial near the sample with the value `extreme`, or `extreme` itself if there is none.
     fn vertex(
         &self,
         (first, last): (usize, usize),
@@ -69,11 +72,11 @@ impl Track {
         extreme: f64,
     ) -> f64 {
         let Some(i) = (first..=last).find(|i| values[*i] == extreme) else { return extreme };
-        // Only moments of a motion without bends are on one polynomial.
+        // A polynomial is valid only for samples between two events.
         if self.bends[i] {
             return extreme;
         }
-        // A cycle that comes back goes on where it began, to the last digits; others end there.
+        // A closed cycle continues at its start; an open one ends here.
         let apart = (values[last] - values[first]).abs();
         if (i == first || i == last) && apart > ROUNDING * range {
             return extreme;
@@ -90,7 +93,7 @@ impl Track {
             (false, true) => by_roots(back.iter().map(of), on.iter().map(of)),
             (true, false) => by_roots(on.iter().map(of), back.iter().map(of)),
             _ => {
-                // As many on either side as there are, and more on one where there are too few on the other.
+                // Use equal numbers of neighbours on both sides, and more on one side if there are too few on the other.
                 let few = |own: usize, other: usize| own.min((2 * SIDE).saturating_sub(other.min(SIDE)));
                 let (left, right) = (few(back.len(), on.len()), few(on.len(), back.len()));
                 let left = back[..left].iter().map(of).map(|(way, value)| (-way, value));
@@ -101,8 +104,9 @@ impl Track {
         extreme + rise.unwrap_or(0.0)
     }
 
-    /// The moments next to moment `i` on one side, and how far they are, s: none so near another that their difference is rounding, and
-    /// none beyond a bend.
+    /// Returns the neighbours of sample `i` on one side, with their distances, s.
+    ///
+    /// Neighbours that are very close to each other are skipped. No neighbour is beyond an event.
     fn side(
         &self,
         (first, last): (usize, usize),
@@ -131,8 +135,10 @@ impl Track {
     }
 }
 
-/// The extreme of the polynomial in the root of the time to an event by a moment, and those away from the event and towards it, which is the
-/// last of these: how far they are, s, and by how much values are larger there.
+/// Returns the extreme of a polynomial in the square root of the time to an event, relative to the value at the sample.
+///
+/// `away` are the samples on the side away from the event, `towards` those on its side; the last of these is the event. Each sample is
+/// given by its distance, s, and its value relative to that of the central sample.
 fn by_roots(
     away: impl Iterator<Item = (f64, f64)> + Clone,
     towards: impl DoubleEndedIterator<Item = (f64, f64)> + Clone,
@@ -142,20 +148,20 @@ fn by_roots(
     let towards = towards.rev().skip(1).map(|(way, value)| (event - way, value));
     let away = away.map(|(way, value)| (event + way, value));
     let moments = towards.chain([(event, 0.0)]).chain(away).take(2 * SIDE);
-    // Twice, and flat there.
+    // The event is a double point, so that the polynomial has slope 0 there.
     let points = [(0.0, there); 2].into_iter().chain(moments.map(|(way, value)| (way.sqrt(), value)));
     let nearest = (event - after).max(NEAR * NEAR * event);
     Polynomial::through(points).extreme([nearest.sqrt(), (event + before).sqrt()])
 }
 
-/// Newton's form of a polynomial.
+/// A polynomial in Newton's form.
 struct Polynomial {
     places: Vec<f64>,
     differences: Vec<f64>,
 }
 
 impl Polynomial {
-    /// Through points; flat where two in a row are one.
+    /// Interpolates points. Two equal points in a row give slope 0 there.
     fn through(points: impl Iterator<Item = (f64, f64)>) -> Self {
         let (places, mut differences): (Vec<f64>, Vec<f64>) = points.unzip();
         for order in 1..places.len() {
@@ -168,7 +174,7 @@ impl Polynomial {
         Self { places, differences }
     }
 
-    /// Its value and its slope.
+    /// Returns the value and the slope at x.
     fn at(&self, x: f64) -> [f64; 2] {
         let terms = self.places.iter().zip(&self.differences).rev();
         terms.fold([0.0; 2], |[value, slope], (place, difference)| {
@@ -176,7 +182,7 @@ impl Polynomial {
         })
     }
 
-    /// Its value where its slope changes its sign between two places; none where it has the same at both.
+    /// Returns the value at which the slope changes sign within an interval. Returns `None` if it has equal signs at both ends.
     fn extreme(&self, [mut low, mut high]: [f64; 2]) -> Option<f64> {
         let slope = |x: f64| self.at(x)[1];
         let rises = slope(low) > 0.0;
@@ -207,8 +213,9 @@ mod tests {
         track
     }
 
-    /// A sine of 64 moments has peaks of ±1: the moments miss them by up to h²/8, quartics by |x(x²-h²)(x²-4h²)|/5! of the fifth derivative,
-    /// which is below 2.5 h so near to a peak, |x| ≤ h/2, h = 2π/64.
+    /// A sine with 64 samples per period has the peaks ±1. The samples miss them by up to h²/8 with h = 2π/64.
+    ///
+    /// Quartic interpolation has the error |x(x²-h²)(x²-4h²)|/5! times the fifth derivative, which is below 2.5 h for |x| ≤ h/2.
     #[test]
     fn peaks_of_a_sine_are_those_of_the_sine() {
         let h: f64 = std::f64::consts::TAU / 64.0;
@@ -222,7 +229,7 @@ mod tests {
         assert!(worst[0] > 1e-3 && worst[1] < 1.42 * 2.5 * h.powi(6) / 120.0, "{worst:?}");
     }
 
-    /// 1 - s - (s_e - s)^{3/2} towards an event at s_e: least where (s_e - s)^{1/2} = 2/3.
+    /// The function 1 - s - (s_e - s)^{3/2} before an event at s_e. Its minimum is at (s_e - s)^{1/2} = 2/3.
     #[test]
     fn an_extreme_just_before_gross_slip_is_met() {
         let (event, h) = (0.5, 0.1);
@@ -242,7 +249,7 @@ mod tests {
         }
     }
 
-    /// A force that rises by t³ up to a corner and jumps to nothing there: the limit before it, which no moment meets.
+    /// A force that increases by t³ up to a corner and jumps down there. No sample has its limit before the jump.
     #[test]
     fn a_peak_just_before_a_jump_is_met() {
         let mut track = Track::default();
@@ -256,12 +263,12 @@ mod tests {
         assert!((track.peaks(&(0..40), &track.force, true).1 - 0.125).abs() > 1e-3);
     }
 
-    /// An event is where something bends: its own value is the extreme.
+    /// An event is a kink: its own value is the extreme.
     #[test]
     fn an_extreme_that_is_an_event_stays() {
         let bent = track(64, 1.0, true);
         assert_eq!(bent.peaks(&(0..64), &bent.force, true), extent(&bent.force));
-        // Up straight, and at an event down at once: no parabola goes above what it comes to there.
+        // Linear up to an event and a jump down there: no parabola exceeds the value before the jump.
         let mut jumping = Track::default();
         for (t, force, bends) in [(0.0, 0.0, false), (0.5, 0.5, false), (1.0, 1.0, false), (1.5, -9.0, true)]
         {

@@ -1,57 +1,58 @@
-//! The way of a contact in a cycle, walked once more, and what its law is asked there.
+//! Replays a contact along the sampled displacements and evaluates its law between the samples.
 
 use super::Track;
 use std::ops::Range;
 use stickslip_contact::{Apex, Interface, Memory, Segment};
 
-/// Halvings of an interval in which the force changes sign: to the last place.
+/// Number of bisections of an interval with a sign change of the force. It suffices for full precision.
 const HALVINGS: u32 = 64;
 
-/// What the law is asked for in a cycle: between which moment and the next, and at which u; without one, where F_x passes the
-/// middle of its range.
+/// A point of a cycle at which the contact law is evaluated, between the samples `after` and `after + 1`.
+///
+/// Without `u`, it is the point where F_x crosses the middle of its range.
 pub(super) struct Question {
     pub(super) after: usize,
     pub(super) u: Option<f64>,
-    /// Extreme of u that this u is on the way back from, m.
+    /// Extreme of u from which the secant to this u starts, m.
     pub(super) extreme: f64,
-    /// u where F_x passes the middle, or F_x at u.
+    /// Result: u at the crossing, m, or F_x at u, N.
     pub(super) answer: f64,
 }
 
-/// A contact led once more along the moments of a run.
+/// A contact that is moved a second time along the samples of a run.
 pub(super) struct Walk {
     memory: Memory,
     /// Indentation, m.
     d: f64,
-    /// Displacements of moments before those of the track, which it has not been led to yet, m.
+    /// Displacements of earlier samples along which the contact has not been moved yet, m.
     pub(super) pending: Vec<f64>,
-    /// The moment of the track where it stands, once it has been led along all that are pending.
+    /// Index of the sample that the contact has reached.
     pub(super) at: Option<usize>,
 }
 
 impl Walk {
-    /// Where the run starts.
+    /// Creates a contact with the slip memory at the start of the run.
     pub(super) fn new(memory: Memory) -> Self {
         Self { memory, d: f64::NAN, pending: Vec::new(), at: None }
     }
 
-    /// Takes the indentation of the first moment: it is that of all.
+    /// Sets the indentation, which is constant, at the first sample.
     pub(super) fn begin(&mut self, d: f64) {
         if self.d.is_nan() {
             self.d = d;
         }
     }
 
-    /// Leads it along what is pending.
+    /// Moves the contact along the pending displacements.
     pub(super) fn catch_up(&mut self, law: &Interface) {
         let Self { memory, d, pending, .. } = self;
         for u in pending.drain(..) {
-            // The run has been here: its contact was not refused.
+            // The run has accepted these displacements, so the commit cannot fail.
             let _ = memory.commit(law, Segment::Straight(Apex { d: *d, u }));
         }
     }
 
-    /// Answers questions of a cycle that is not before the one asked about last.
+    /// Evaluates the points of a cycle. Cycles must be in order of time.
     pub(super) fn answer(
         &mut self,
         (track, law): (&Track, &Interface),
@@ -61,7 +62,7 @@ impl Walk {
     ) {
         self.catch_up(law);
         let d = self.d;
-        // In order of their moments.
+        // The questions are in order of time.
         let mut next = 0;
         for i in self.at.map_or(0, |at| at + 1)..=span.end {
             if i > span.start {
@@ -81,7 +82,7 @@ impl Walk {
     }
 }
 
-/// Where a force that changes its sign once vanishes.
+/// Returns the zero of a force that changes its sign once, by bisection.
 fn zero(force: impl Fn(f64) -> f64, [mut from, mut to]: [f64; 2]) -> f64 {
     let falls = force(to) < 0.0;
     for _ in 0..HALVINGS {

@@ -1,4 +1,4 @@
-//! How the bodies of a contact move between two samples: on the cubics through their places and velocities.
+//! Motion of a contact between two samples, by cubic interpolation of the positions and velocities of its bodies.
 
 use crate::Setting;
 use crate::simulated::Series;
@@ -6,7 +6,7 @@ use stickslip_contact::{Apex, Interface};
 use stickslip_drive::scene::{Axis, Contact, Freedom, Normal, Side, Varying};
 use stickslip_drive::{Piece, Waveform};
 
-/// The motion of a contact through its samples.
+/// Sampled motion of a contact.
 pub(super) struct Motion<'a> {
     time: &'a [f64],
     u: &'a [f64],
@@ -15,32 +15,32 @@ pub(super) struct Motion<'a> {
     law: &'a Interface,
     waveforms: Vec<&'a Waveform>,
     along: Vec<Part<'a>>,
-    /// Empty where no motion presses the contact.
+    /// Motion across the contact plane. Empty if the bodies do not press the contact.
     across: Vec<Part<'a>>,
 }
 
-/// What a coordinate of a body adds to a rate: a multiple of its own.
+/// Contribution of one coordinate of a body to a relative velocity: its velocity times a factor.
 struct Part<'a> {
     factor: f64,
     rate: Rate<'a>,
 }
 
-/// The rate of a coordinate.
+/// Velocity of a coordinate.
 #[derive(Clone, Copy)]
 enum Rate<'a> {
-    /// As recorded, in every sample.
+    /// Recorded in every sample.
     Recorded(&'a [f64]),
-    /// That of a waveform, which breaks where its pieces end.
+    /// Rate of a waveform, which may jump at piece ends.
     Driven(&'a Waveform),
 }
 
-/// The motion between two samples; `s` goes from 0 to 1.
+/// Motion between two samples, as a function of s from 0 to 1.
 pub(super) struct Leg<'a> {
     u: Cubic,
     depth: Depth<'a>,
 }
 
-/// A cubic by its ends: value and rise, and what the rates at both ends exceed the mean one by, times the duration.
+/// Cubic polynomial, defined by its start value, its rise, and the excess of the end slopes over the mean slope.
 #[derive(Clone, Copy)]
 struct Cubic {
     from: f64,
@@ -48,10 +48,10 @@ struct Cubic {
     excess: [f64; 2],
 }
 
-/// How the indentation goes.
+/// Time history of the indentation.
 enum Depth<'a> {
     Cubic(Cubic),
-    /// With a waveform: the normal force, the indentation or the radius that it is.
+    /// Determined by a waveform that prescribes the normal force or the indentation.
     Driven {
         waveform: &'a Waveform,
         piece: Piece,
@@ -69,7 +69,7 @@ enum Kind {
 }
 
 impl<'a> Motion<'a> {
-    /// The motion of contact `c`; none where a rate that it needs was not recorded, or is not that of a coordinate.
+    /// Creates the motion of contact `c`. Returns `None` if a required velocity was not recorded or a motion is not supported.
     pub(super) fn new(setting: &'a Setting, c: usize, series: &'a Series) -> Option<Self> {
         let (name, law) = setting.model.contacts().nth(c)?;
         let contact = &setting.scenario.scene.contacts.get(c)?.part;
@@ -89,7 +89,7 @@ impl<'a> Motion<'a> {
         }
         for ((side, point), sign) in contact.between.into_iter().zip(contact.at).zip([1.0, -1.0]) {
             let Side::Body(body) = side else { continue };
-            // A point at (X, Z) moves by x - Zθ along the slide and by z + Xθ across it.
+            // A point (X, Z) of a body moves by x - Zθ along the contact plane and by z + Xθ across it.
             motion.along.extend(part(setting, series, (body, Axis::X), sign)?);
             motion.along.extend(part(setting, series, (body, Axis::Pitch), -sign * point.z)?);
             if contact.normal == Normal::Coupled {
@@ -100,7 +100,7 @@ impl<'a> Motion<'a> {
         Some(motion)
     }
 
-    /// The motion from sample i-1 to sample i, which are some time apart.
+    /// Returns the motion between samples i-1 and i. Their times must differ.
     pub(super) fn leg(&self, i: usize) -> Leg<'a> {
         let (start, end) = (self.time[i - 1], self.time[i]);
         let cubic = |values: &[f64], parts: &[Part<'_>]| {
@@ -126,7 +126,7 @@ impl<'a> Motion<'a> {
     }
 }
 
-/// A coordinate's part in a rate; nothing of one that stays where it is.
+/// Returns the contribution of a coordinate. The inner `None` means no contribution, the outer one an unknown velocity.
 fn part<'a>(
     setting: &'a Setting,
     series: &'a Series,
@@ -138,7 +138,7 @@ fn part<'a>(
     let rate = match body.part.coordinates()[axis as usize].1.freedom {
         _ if factor == 0.0 => return Some(None),
         Freedom::Fixed => return Some(None),
-        // What has no mass may go on at another rate at any moment.
+        // The velocity of a massless coordinate may jump at any time.
         Freedom::Balanced => return None,
         Freedom::Follows(w) if w < scene.waveforms.len() => Rate::Driven(&scene.waveforms[w].part),
         Freedom::Follows(_) | Freedom::Free => {
@@ -158,7 +158,7 @@ fn part<'a>(
 }
 
 impl Rate<'_> {
-    /// At a sample, as it is between samples i-1 and i.
+    /// Returns the velocity at a sample, as the one-sided limit from between samples i-1 and i.
     fn at(self, sample: usize, (i, time): (usize, &[f64])) -> f64 {
         match self {
             Self::Recorded(rates) => rates[sample],
@@ -171,12 +171,12 @@ impl Rate<'_> {
 }
 
 impl Leg<'_> {
-    /// Where the contact is.
+    /// Returns the indentation and the displacement u at s.
     pub(super) fn at(&self, s: f64) -> Apex {
         Apex { d: self.depth.at(s), u: self.u.at(s) }
     }
 
-    /// How far the way bends off the straight one, as shares of a stroke and of the indentation.
+    /// Returns the deviation of the motion from a straight line, as fractions of the stroke and of the indentation.
     pub(super) fn bend(&self, stroke: f64) -> f64 {
         let [start, end] = [0.0, 1.0].map(|s| self.at(s));
         let off = |s: f64| {
@@ -186,7 +186,7 @@ impl Leg<'_> {
             let across = (at.d - straight(start.d, end.d)).abs() / start.d.max(end.d);
             along + if start.d.max(end.d) > 0.0 { across } else { 0.0 }
         };
-        // A cubic that turns twice is straight in its middle.
+        // A cubic with an inflection point may cross the straight line at its middle.
         off(0.25).max(off(0.5)).max(off(0.75))
     }
 }

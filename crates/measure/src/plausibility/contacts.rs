@@ -1,23 +1,25 @@
-//! Materials, pressures, shapes.
+//! Plausibility of materials, contact pressures and geometry.
 
 use super::{Implausible, told};
 use std::f64::consts::PI;
 use stickslip_contact::Interface;
 use stickslip_scenario::substance;
 
-/// How far outside the range of its kind a modulus may lie: porous, rolled and alloyed varieties do not lie further.
+/// Factor by which a modulus may lie outside the range of its material. It covers porous, rolled and alloyed varieties.
 const APART: f64 = 3.0;
-/// Mean pressure in yield stresses at which a ball begins to yield below its surface: p_max = 1.6 Y, p = ⅔ p_max (Johnson, *Contact
-/// Mechanics*, section 6.1).
+/// Mean pressure at which a ball begins to yield below its surface, in yield stresses.
+///
+/// p_max = 1.6 Y and p = ⅔ p_max (Johnson, *Contact Mechanics*, section 6.1).
 const ONSET: f64 = 1.07;
-/// Largest pressure that anything but diamond bears in use, Pa.
+/// Largest pressure that hard ceramics withstand, Pa.
 const PRESSURE: f64 = 10e9;
-/// Contact radius in radii of the ball beyond which neither is the ball a paraboloid nor the body a half-space: at 0.2 the height
-/// of a sphere is 1 % more than that of its paraboloid, at 0.4 4 %.
+/// Contact radius, in radii of the ball, above which paraboloid and half-space are poor approximations.
+///
+/// At 0.2, the height of a sphere exceeds that of its paraboloid by 1 %; at 0.4, by 4 %.
 const FLAT: f64 = 0.2;
 
 impl Implausible<'_> {
-    /// Moduli far from what the names beside them mean.
+    /// Checks that the moduli fit the names of the materials.
     pub(super) fn materials(&mut self) {
         let setting = self.setting;
         for (name, modulus) in setting.scenario.materials() {
@@ -26,10 +28,10 @@ impl Implausible<'_> {
             if (low / APART..=high * APART).contains(&modulus) {
                 continue;
             }
-            // Whether the name is wrong or the number: what it bears is not known either.
+            // The strength is unknown as well, whether the name or the number is wrong.
             self.misnamed.push(name);
             let path = format!("materials.{name}.youngs_modulus");
-            // Softer than any solid it is already.
+            // A modulus below that of any solid has its own warning.
             if setting.scenario.warnings.iter().any(|odd| odd.kind == "modulus" && odd.path == path) {
                 continue;
             }
@@ -44,7 +46,7 @@ impl Implausible<'_> {
         }
     }
 
-    /// Contacts that hold nothing, pressures that nothing bears, and balls pressed in too far.
+    /// Checks friction coefficients, contact pressures and the indentation of balls.
     pub(super) fn contacts(&mut self) {
         let setting = self.setting;
         for (c, (name, law)) in setting.model.contacts().enumerate() {
@@ -67,7 +69,7 @@ impl Implausible<'_> {
                     "give a larger coefficient, or 0 for a contact without friction",
                 );
             } else if law.friction() == 0.0 && !setting.is_coupled(c) {
-                // A contact that its bodies press bears them all the same.
+                // A contact that is pressed by its bodies supports them even without friction.
                 let message = "without friction this contact slides under any force and dissipates nothing";
                 self.find(
                     "friction",
@@ -84,7 +86,7 @@ impl Implausible<'_> {
     }
 
     fn pressures(&mut self, c: usize, (name, law): (&str, &Interface), d: f64) {
-        // A list of heights has no area to press on.
+        // A list of spring heights has no contact area.
         let Some(peak) = law.peak_pressure(d) else { return };
         let mean = law.normal_force(d) / (PI * law.profile().radius(d).powi(2));
         let setting = self.setting;

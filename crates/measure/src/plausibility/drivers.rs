@@ -1,18 +1,18 @@
-//! Drivers so fast that the steps of a run are theirs.
+//! Plausibility of drivers: time constants that determine the number of time steps.
 
 use super::{Implausible, told};
 use stickslip_drive::{Accuracy, Stepper};
 
-/// Times in which a driver settles that a step of the event stepper takes, by its stability.
-// DOP853 ends at 6.4. The stage of docs/piezo.md behind 1 mΩ, which its 2 A hold for 29 % of the time, took one per 6.3 in the rest,
-// 157 617 in 10 ms for what takes 1 566 without a resistance, and 1 570 041 behind 0.1 mΩ, before both were stepped over.
+/// Largest stable time step of the event-driven integrator, in time constants of a driver.
+// The stability limit of DOP853 on the negative real axis is 6.4.
 const STRIDE: f64 = 6.0;
-/// Steps from which on a run is longer than one waits for without a word: some seconds.
+/// Number of time steps from which a run takes some seconds.
 const MANY: f64 = 1e6;
 
 impl Implausible<'_> {
-    /// Limits of current that the charge of strain meets, under a stepper whose steps do not end there: it goes into the limit and out
-    /// of it from step to step, however short they are.
+    /// Warns about current limits of reciprocal drivers without series resistance if the integrator does not locate events.
+    ///
+    /// The driver then switches between limited and unlimited operation at every time step.
     pub(super) fn chatter(&mut self, stepper: Stepper) {
         if stepper.locates_events() {
             return;
@@ -29,7 +29,7 @@ impl Implausible<'_> {
         }
     }
 
-    /// Drivers that follow so fast that stability, not what is to be seen, makes the steps.
+    /// Warns about drivers whose time constant limits the time step by stability.
     pub(super) fn drivers(&mut self, stepper: Stepper) {
         let setting = self.setting;
         let duration = setting.scenario.plan.duration;
@@ -37,13 +37,13 @@ impl Implausible<'_> {
             let (Some(spec), Some(_)) = (&piezo.driver, piezo.block) else { continue };
             let rate = spec.rate();
             let steps = match stepper.accuracy() {
-                // Implicit steps go over what settles.
+                // Implicit methods need no small time steps for fast transients.
                 Accuracy::Tolerance(_) if setting.model.is_stiff() => continue,
                 Accuracy::Tolerance(_) => duration * rate / STRIDE,
                 Accuracy::Frame { length, error } => {
                     duration / length * setting.model.substeps(length, error)
                 }
-                // As given; one that is too long is refused.
+                // A fixed time step is given by the user. One that is too long is an error.
                 Accuracy::Step(_) => continue,
             };
             if rate == 0.0 || steps < MANY {

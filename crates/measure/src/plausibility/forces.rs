@@ -1,41 +1,40 @@
-//! Loads that nothing holds, stacks that ring, masses and stacks out of all proportion.
+//! Plausibility of loads, damping and stiffness of stacks, and masses.
 
 use super::{Implausible, told};
 use std::f64::consts::TAU;
 use stickslip_drive::scene::{Freedom, Side, Varying};
 
-/// Masses of bodies that drives of this kind move, kg: from a grain of dust to what one person may lift by hand (ISO 11228-1).
+/// Range of plausible masses, kg: from a grain of dust to the largest mass lifted by hand (ISO 11228-1).
 const MASSES: (f64, f64) = (1e-9, 25.0);
-/// Stiffnesses of piezo actuators, N/m: those with a lever of flexures begin at some 0.2 N/µm, stacks at 1 N/µm, and the thickest rings
-/// end below 10 kN/µm.
+/// Range of plausible stiffnesses of piezo actuators, N/m: from lever actuators with 0.2 N/µm to thick rings below 10 kN/µm.
 const STIFFNESSES: (f64, f64) = (2e5, 1e10);
-/// Capacitances of piezo actuators, F: a chip has some 10 nF, the largest stacks of low voltage some 100 µF.
+/// Range of plausible capacitances of piezo actuators, F: from chips with some 10 nF to low-voltage stacks with some 100 µF.
 const CAPACITANCES: (f64, f64) = (1e-11, 1e-3);
-/// Quality factor of a piezo stack in its mount, which sets the damping that is proposed.
+/// Quality factor of a mounted piezo stack, for the proposed damping.
 const QUALITY: f64 = 30.0;
 
-/// What pulls at a body along x and what holds it.
+/// Forces on a body along x and their support.
 #[derive(Clone)]
 struct Pull {
     /// Smallest and largest force, N.
     range: (f64, f64),
-    /// Σ μF_N of its contacts, N; none where nothing holds it, or something besides them does.
+    /// Sum of the friction limits μF_N of its contacts, N. `None` without contacts, or if something else holds the body.
     holds: Option<f64>,
-    /// Whether it has no inertia, which bears what contacts do not hold.
+    /// Whether the body is massless, so that its forces must balance.
     is_balanced: bool,
-    /// What pulls most, N, and its place among the loads; none for gravity.
+    /// Largest force, N, and the index of its load. The index is `None` for gravity.
     cause: (f64, Option<usize>),
 }
 
 impl Implausible<'_> {
-    /// Loads beyond what all contacts of a body hold together.
+    /// Warns about loads that exceed the total friction limit of the contacts of a body.
     pub(super) fn loads(&mut self) {
         for (body, pull) in self.pulls().into_iter().enumerate() {
             let (low, high) = pull.range;
             let counts = if pull.is_balanced {
                 low.abs().max(high.abs())
             } else if low <= 0.0 && high >= 0.0 {
-                // What changes its sign may hold on average.
+                // A load that changes its sign may be balanced on average.
                 0.0
             } else {
                 low.abs().min(high.abs())
@@ -45,9 +44,9 @@ impl Implausible<'_> {
             let path = pull.cause.1.map_or("gravity".to_owned(), |i| format!("loads[{i}].x"));
             let [load, holds] = [counts, holds].map(|force| told(force, "N"));
             let then = if pull.is_balanced {
-                "nothing balances it, and the run stops there"
+                "no force balances the load, and the run stops"
             } else {
-                "it slides away"
+                "the body slides away"
             };
             let message = format!(
                 "a load of {load} on {name} exceeds the friction limit of its contacts, {holds} (μF_N): {then}"
@@ -88,7 +87,7 @@ impl Implausible<'_> {
         for (c, contact) in scene.contacts.iter().enumerate() {
             let law = &contact.part.interface;
             let d = self.depth(c);
-            // Where bodies press and are apart at the start nobody knows how hard they will.
+            // If bodies press the contact and it is open at the start, its normal force is unknown.
             let unknown = d <= 0.0 && self.setting.is_coupled(c);
             let limit = f64::from(contact.part.count) * law.friction() * law.normal_force(d);
             let limit = if unknown { f64::INFINITY } else { limit };
@@ -118,7 +117,7 @@ impl Implausible<'_> {
         pulls
     }
 
-    /// Stacks that nothing damps.
+    /// Warns about stacks without damping.
     pub(super) fn actuators(&mut self) {
         let setting = self.setting;
         let scene = &setting.scenario.scene;
@@ -143,14 +142,15 @@ impl Implausible<'_> {
             }
             let frequency = told((part.stiffness * mobility).sqrt() / TAU, "Hz");
             let proposed = (part.stiffness / mobility).sqrt() / QUALITY;
-            let message =
-                format!("this stack has no damping: it rings without end, at about {frequency} when free");
+            let message = format!(
+                "this stack has no damping: its ringing does not decay; the frequency is about {frequency} without a load"
+            );
             let help = format!("a quality factor of {QUALITY} has \"damping\": {proposed:.2}, in N s/m");
             self.find("damping", &format!("actuators.{name}"), message, &help);
         }
     }
 
-    /// Stiffnesses and capacitances of stacks that suggest another prefix.
+    /// Checks the stiffnesses and capacitances of stacks for a wrong unit prefix.
     pub(super) fn stacks(&mut self) {
         let setting = self.setting;
         for piezo in &setting.scenario.stacks {
@@ -169,7 +169,7 @@ impl Implausible<'_> {
         }
     }
 
-    /// Masses that suggest a forgotten unit.
+    /// Checks the masses for a missing unit.
     pub(super) fn masses(&mut self) {
         let setting = self.setting;
         for (i, body) in setting.scenario.scene.bodies.iter().enumerate() {
@@ -178,10 +178,11 @@ impl Implausible<'_> {
             let said = told(1e3 * mass, "g");
             if mass > MASSES.1 {
                 let most = told(1e3 * MASSES.1, "g");
-                let message = format!("a mass of {said} is more than stick-slip drives move, {most} at most");
+                let message =
+                    format!("a mass of {said} exceeds the masses that stick-slip drives move, up to {most}");
                 self.find("mass", &path, message, "a number without a unit is in kg; ten grams are \"10 g\"");
             } else if mass < MASSES.0 {
-                let message = format!("a mass of {said} is less than that of a grain of dust");
+                let message = format!("a mass of {said} is less than the mass of a grain of dust");
                 self.find("mass", &path, message, "a number without a unit is in kg; ten grams are \"10 g\"");
             }
         }

@@ -1,5 +1,4 @@
-//! Strokes out of all proportion, times that are too short or too long for a contact, resonances that a drive meets, tolerances that
-//! hide a step.
+//! Plausibility of strokes, time scales of contacts, resonances, tolerances and frames.
 
 use super::{ASKED, Implausible, told};
 use std::f64::consts::TAU;
@@ -8,51 +7,50 @@ use stickslip_drive::scene::{Freedom, Normal, Side, Varying};
 use stickslip_drive::{Accuracy, Shape, Stepper, Waveform};
 use stickslip_scenario::{Hysteresis, substance};
 
-/// Strokes of piezo drives, m: below the first the noise of any amplifier is larger, and above the second there is no flexure.
+/// Range of plausible strokes of piezo drives, m: from the noise of amplifiers to the largest flexure drives.
 const STROKES: (f64, f64) = (1e-12, 1e-3);
-/// Time constant of a contact's damping, in periods of the drive, beyond which its springs yield to dampers all along and not only while
-/// they ring.
+/// Largest plausible damping time of a contact, in periods of the drive. Above it, damping forces dominate at all times.
 const DAMPED: f64 = 0.1;
-/// Passages of a shear wave across a contact that a flank has to last: the contact is taken as a spring without inertia, which a
-/// half-space under a round load is for ωa/c ≪ 1 (Johnson, *Contact Mechanics*, section 11.2, after Miller and Pursey); at ten passages of
-/// the diameter 2a, T = 20 a/c, ωa/c is 0.3.
+/// Minimum duration of a flank, in passages of a shear wave through the contact.
+///
+/// The contact is modelled as a spring without inertia, which holds for ωa/c ≪ 1 (Johnson, *Contact Mechanics*, section 11.2, after Miller
+/// and Pursey). At ten passages of the diameter 2a, T = 20 a/c and ωa/c = 0.3.
 const PASSAGES: f64 = 10.0;
-/// Harmonics of a drive that are looked at: higher ones lie so close that a resonance is always near one.
+/// Number of harmonics that are checked. Higher harmonics are so close that one is always near a resonance.
 const HARMONICS: u32 = 5;
-/// Share of the resonance within which a harmonic meets it.
-// P1 has its resonance at 2.12 times its frequency, which is 6 % from the second harmonic: it does not resonate.
+/// Relative distance from the resonance frequency within which a harmonic excites it.
+// The resonance of P1 is at 2.12 times the drive frequency, 6 % from the second harmonic, and is not excited.
 const NEAR: f64 = 0.02;
-/// Amplitude in parts of the largest harmonic's that is worth a word.
+/// Smallest amplitude of a harmonic that is reported, relative to the largest one.
 const NOTICEABLE: f64 = 0.05;
-/// Moments of a period by which its harmonics are summed.
+/// Number of samples per period for the computation of harmonics.
 const MOMENTS: u32 = 4096;
-/// Coordinates up to which modes are looked for: of more of them one always lies near a harmonic.
+/// Maximum number of free coordinates for the resonance check. With more modes, one is always near a harmonic.
 const COORDINATES: usize = 8;
-/// Displacement of a contact, as a share of the largest in its mode, from which on the mode is the contact's.
+/// Smallest displacement of a contact in a mode, relative to the largest one, for which the mode is assigned to the contact.
 const MOVED: f64 = 0.05;
 
-/// Times that differ by less than this, as a part of them, are the same.
+/// Relative difference below which two times are equal.
 const ROUNDED: f64 = 1e-9;
-/// What damped springs resist to a flank, of what they hold, from which on it matters to frames when they give way.
+/// Damping displacement of a contact at a flank, relative to its natural displacement, above which the error of frames is unbounded.
 const STRUCK: f64 = 0.1;
-/// Accuracy of frames down to which limits of drivers may be met a step late: of two drawn drives 7e-5 and 8e-4 of a stroke were lost
-/// where 1e-5 was asked.
+/// Accuracy of frames above which late detection of driver limits is not reported.
 const LIMITS: f64 = 1e-3;
-/// The same where a window cuts a voltage that follows at once: 7e-3 were lost where 1e-3 was asked, and 3.4e-4 of 1e-6.
+/// The same accuracy if a voltage window limits a voltage that follows without delay.
 const HARD_LIMITS: f64 = 1e-2;
-/// Lift of a foot, in depths of its contact at the start, from which on it may part: a ball bounces on it.
+/// Lift of a foot, relative to the initial indentation, above which the contact may open.
 const LIFTED: f64 = 0.5;
-/// Pieces of a waveform that are looked at.
+/// Maximum number of waveform pieces that are examined.
 const PIECES: usize = 100_000;
-/// Events, or steps, of a run of some days.
+/// Number of events or time steps that corresponds to some days of computing time.
 const MANY: f64 = 1e12;
-/// Bodies up to which they are estimated, which takes all modes.
+/// Maximum number of bodies for which this number is estimated. The estimate needs all modes.
 const BODIES: usize = 32;
-/// How many a second there are at best, 1/s.
+/// Highest computing rate of events or time steps, 1/s.
 const RATE: f64 = 1e6;
 
 impl Implausible<'_> {
-    /// Waveforms that lengths follow, with the bodies that feel them.
+    /// Returns the waveforms that prescribe lengths, with the bodies that they move.
     fn lengths(&self) -> Vec<(usize, Vec<Side>)> {
         let scene = &self.setting.scenario.scene;
         let mut driven: Vec<Vec<Side>> = vec![Vec::new(); scene.waveforms.len()];
@@ -76,7 +74,7 @@ impl Implausible<'_> {
         driven.into_iter().enumerate().filter(|(_, sides)| !sides.is_empty()).collect()
     }
 
-    /// Strokes that suggest a forgotten unit.
+    /// Checks the strokes for a missing unit.
     pub(super) fn strokes(&mut self) {
         for (w, _) in self.lengths() {
             let (low, high) = self.setting.scenario.scene.waveforms[w].part.range();
@@ -87,7 +85,7 @@ impl Implausible<'_> {
                 self.find(
                     "stroke",
                     &path,
-                    format!("a stroke of {said} is more than any piezo drive has"),
+                    format!("a stroke of {said} is larger than that of any piezo drive"),
                     help,
                 );
             } else if stroke > 0.0 && stroke < STROKES.0 {
@@ -101,7 +99,7 @@ impl Implausible<'_> {
         }
     }
 
-    /// Contacts whose damping takes longer than it may in a period of whatever moves or presses anything.
+    /// Warns about contact damping times that are long compared with the shortest period.
     pub(super) fn damping_times(&mut self) {
         let setting = self.setting;
         let scene = &setting.scenario.scene;
@@ -121,7 +119,7 @@ impl Implausible<'_> {
         }
     }
 
-    /// Flanks that are over before waves have crossed the contacts that they reach.
+    /// Warns about flanks that are short compared with the passage of a shear wave through the contact.
     pub(super) fn flanks(&mut self) {
         let (setting, scene) = (self.setting, &self.setting.scenario.scene);
         for (w, sides) in self.lengths() {
@@ -144,13 +142,14 @@ impl Implausible<'_> {
         }
     }
 
-    /// Time in which a shear wave crosses contact `c`, s: its diameter over √(G/ρ) of the slower body; none where no name says what
-    /// it is made of, or nothing presses it.
+    /// Returns the time in which a shear wave crosses contact `c`, s: its diameter divided by √(G/ρ) of the slower material.
+    ///
+    /// Returns `None` if the materials are unknown or the contact is open.
     fn passage(&self, c: usize) -> Option<f64> {
         let scenario = &self.setting.scenario;
         let (_, law) = self.setting.model.contacts().nth(c)?;
         let radius = law.profile().radius(self.depth(c));
-        // Where a modulus is not that of its name, what is wrong is said already.
+        // A modulus that does not fit its name has its own warning.
         let known = scenario.materials_of(c)?.into_iter().filter(|name| !self.misnamed.contains(name));
         let speed = |name: &str| {
             let (modulus, ratio) = scenario.elasticity(name)?;
@@ -160,7 +159,7 @@ impl Implausible<'_> {
         Some(2.0 * radius / slowest).filter(|time| *time > 0.0)
     }
 
-    /// Low harmonics of a drive that meet a resonance of contacts whose load is constant.
+    /// Warns about low harmonics of a drive that excite a resonance of a contact under constant load.
     pub(super) fn resonances(&mut self) {
         let setting = self.setting;
         let scene = &setting.scenario.scene;
@@ -209,7 +208,7 @@ impl Implausible<'_> {
         }
     }
 
-    /// Tolerances coarser than what is to be seen.
+    /// Warns about tolerances that exceed the expected step length.
     pub(super) fn tolerance(&mut self) {
         let setting = self.setting;
         let stepper = setting.model.effective(setting.scenario.plan.stepper);
@@ -227,7 +226,7 @@ impl Implausible<'_> {
                 .map(|(w, _)| setting.scenario.scene.waveforms[*w].part.range())
                 .fold(0.0, |most: f64, (low, high)| most.max(high - low));
             let idle = zero_step_stroke(law, d, 0.0).unwrap_or(0.0);
-            // Below the zero-step stroke all there is to see is the way to and fro.
+            // Below the zero-step stroke, only the back-and-forth motion can be resolved.
             let expected = if widest > idle { widest - idle } else { widest };
             if expected > 0.0 && tolerance * unit > expected {
                 let [expected, unit] = [expected, unit].map(|length| told(length, "m"));
@@ -240,8 +239,9 @@ impl Implausible<'_> {
         }
     }
 
-    /// Fixed steps that go over whole pieces of a waveform: what happens on these is seen by no step, and books of energy may close all
-    /// the same.
+    /// Warns about fixed time steps that are longer than a piece of a waveform.
+    ///
+    /// Such a step does not resolve the motion, and the energy balance may be fulfilled nevertheless.
     pub(super) fn steps(&mut self) {
         let setting = self.setting;
         let stepper = setting.model.effective(setting.scenario.plan.stepper);
@@ -249,21 +249,21 @@ impl Implausible<'_> {
         let plan = &setting.scenario.plan;
         for waveform in &setting.scenario.scene.waveforms {
             let ((low, high), quickest) = (waveform.part.range(), quickest(&waveform.part, plan.duration));
-            // As long as a piece is no longer than it, but for rounding.
+            // A difference within rounding is allowed.
             if high > low && step > quickest * (1.0 + ROUNDED) {
                 let path = format!("run.stepper.{}.step", stepper.name());
                 let [step, quickest] = [step, quickest].map(|time| told(time, "s"));
                 let message = format!(
-                    "{} reverses within {quickest}: a time step of {step} cannot resolve it",
+                    "{} reverses within {quickest}: a time step of {step} does not resolve this",
                     waveform.name
                 );
-                let help = "use time steps of at most a fifth of that, or run.stepper.event, whose steps end at corners";
+                let help = "use time steps of at most a fifth of this time, or run.stepper.event, whose steps end at corners";
                 return self.find("step", &path, message, help);
             }
         }
     }
 
-    /// Runs that nobody will see the end of.
+    /// Warns about runs that would take days.
     pub(super) fn endless(&mut self) {
         let (setting, plan) = (self.setting, &self.setting.scenario.plan);
         if setting.scenario.scene.bodies.len() > BODIES {
@@ -282,8 +282,7 @@ impl Implausible<'_> {
         }
     }
 
-    /// Frames under a normal that comes from outside: there a contact goes by the whole law of its memory, one chord a step, and
-    /// no step is cut where its course turns.
+    /// Warns about frames whose error is unbounded: if an input sets the normal load, and in the cases of the following methods.
     pub(super) fn frames(&mut self, stepper: Stepper) {
         let setting = self.setting;
         let Stepper::Frames { accuracy, .. } = stepper else { return };
@@ -304,7 +303,7 @@ impl Implausible<'_> {
             if is_fed(varying) {
                 let path = format!("contacts.{}.normal.{key}", contact.name);
                 let message = format!(
-                    "an input sets the normal load of this contact, where frames have no bound of error: it may exceed {accuracy:e} of a stroke"
+                    "an input sets the normal load of this contact: the error of frames is not bounded and may exceed {accuracy:e} of a stroke"
                 );
                 let help = "compare with shorter frames, or use the stepper `event`";
                 self.find("frames_under_input", &path, message, help);
@@ -315,7 +314,7 @@ impl Implausible<'_> {
         self.limited_frames(accuracy);
     }
 
-    /// Contacts that bodies press and a foot may lift off: what a touch leaves of an error the next one multiplies.
+    /// Warns about contacts that a moving foot may open. Each impact amplifies the error.
     fn lifted_frames(&mut self, accuracy: f64) {
         let setting = self.setting;
         let scene = &setting.scenario.scene;
@@ -333,7 +332,7 @@ impl Implausible<'_> {
                 let path = format!("contacts.{}.normal", contact.name);
                 let (lift, depth) = (told(lift, "m"), told(depth, "m"));
                 let message = format!(
-                    "a foot lifts by {lift}, and the indentation of this contact is {depth} at the start: {}",
+                    "a foot lifts by {lift}, but the initial indentation of this contact is {depth}: {}",
                     multiplied(accuracy)
                 );
                 let help = "compare with a smaller accuracy, or use the stepper `event`";
@@ -342,7 +341,7 @@ impl Implausible<'_> {
         }
     }
 
-    /// Stacks that meet a limit or whose plays turn: steps do not end there.
+    /// Warns about frames with stacks that reach a limit or have a hysteresis with reversals. Time steps do not end there.
     fn limited_frames(&mut self, accuracy: f64) {
         let setting = self.setting;
         for piezo in &setting.scenario.stacks {
@@ -361,15 +360,16 @@ impl Implausible<'_> {
             };
             let path = format!("actuators.{}.{key}", piezo.name);
             let message = format!(
-                "frames {what} up to one step late: the error may exceed {accuracy:e} of a stroke where it acts"
+                "frames {what} up to one time step late: the error may then exceed {accuracy:e} of a stroke"
             );
             let help = "compare with shorter frames, or use the stepper `event`";
             self.find("frames_under_limits", &path, message, help);
         }
     }
 
-    /// Damped springs under a normal that moves, where a flank comes at once: no step ends just where the last of them slips; and those of
-    /// a profile whose stiffness jumps: no step ends at each of its jumps.
+    /// Warns about frames with damped contacts: under a varying normal load with a flank, or with a stiffness that jumps.
+    ///
+    /// Time steps do not end where the last spring slips or where the stiffness jumps.
     fn damped_frames(&mut self, accuracy: f64) {
         let setting = self.setting;
         let flanks: Vec<(f64, Vec<Side>)> = self
@@ -392,7 +392,7 @@ impl Implausible<'_> {
             let own = flanks.iter().filter(|(_, sides)| meets(sides)).map(|(flank, _)| *flank);
             let way = contact.part.interface.damping() * own.fold(0.0, f64::max);
             let what = if !is_still && way > STRUCK * natural.displacement {
-                "damped under a moving normal load and excited by a flank"
+                "damped, under a varying normal load, and excited by a flank"
             } else if jumps {
                 "damped, and their stiffness jumps with the indentation"
             } else {
@@ -402,18 +402,18 @@ impl Implausible<'_> {
             let message = format!(
                 "springs of this contact are {what}: the error of frames may exceed the requested {accuracy:e} of a stroke"
             );
-            let help = "compare with the stepper `event`, or use it";
+            let help = "use the stepper `event`, or compare with it";
             self.find("frames_under_damping", &path, message, help);
         }
     }
 }
 
-/// What frames lose of an accuracy where contacts part and touch.
+/// Returns the text about the error of frames with impacts.
 pub fn multiplied(accuracy: f64) -> String {
     format!("each impact multiplies errors: they may exceed the requested {accuracy:e} of a stroke")
 }
 
-/// Amplitude of a harmonic in parts of the largest of the first ones.
+/// Returns the amplitude of a harmonic relative to the largest of the first five.
 fn share(waveform: &Waveform, period: f64, order: u32) -> f64 {
     let delay = waveform.timing().delay;
     let values: Vec<f64> = (0..MOMENTS)
@@ -433,7 +433,7 @@ fn share(waveform: &Waveform, period: f64, order: u32) -> f64 {
     if largest > 0.0 { amplitude(order) / largest } else { 0.0 }
 }
 
-/// Largest change of a waveform's rate at a corner of its first period, m/s; 0 where it goes on smoothly.
+/// Returns the largest jump of a waveform's rate in its first period, m/s; 0 for a smooth waveform.
 fn flank(waveform: &Waveform) -> f64 {
     let until = waveform.period().map_or(f64::INFINITY, |period| waveform.timing().delay + 1.5 * period);
     let mut pieces = waveform.pieces_from(0.0).take(PIECES).take_while(|piece| piece.start <= until);
@@ -448,8 +448,9 @@ fn flank(waveform: &Waveform) -> f64 {
     most
 }
 
-/// Shortest time in which a waveform would go over its whole range as fast as it does on one of its pieces, s: the flyback of a sawtooth,
-/// half a period of a sine; infinite where it never moves.
+/// Returns the shortest time in which a waveform crosses its range at the mean rate of one of its pieces, s.
+///
+/// It is the flyback of a sawtooth and half a period of a sine. It is infinite for a constant waveform.
 fn shortest_flank(waveform: &Waveform) -> f64 {
     let (low, high) = waveform.range();
     let until = waveform.timing().delay + waveform.period().map_or(f64::INFINITY, |period| 1.5 * period);
@@ -461,7 +462,7 @@ fn shortest_flank(waveform: &Waveform) -> f64 {
     flanks.filter(|flank| *flank > 0.0).fold(2.0 * waveform.resolution(), f64::min)
 }
 
-/// Shortest time between two turns of a waveform within a run of so long, s: its shortest piece there, or half of its shortest wave.
+/// Returns the shortest time between two turning points of a waveform until a time, s: its shortest piece or half of its shortest wave.
 fn quickest(waveform: &Waveform, until: f64) -> f64 {
     let inside = waveform.pieces_from(0.0).take(PIECES).take_while(|piece| piece.end <= until);
     inside.map(|piece| piece.end - piece.start).fold(2.0 * waveform.resolution(), f64::min)

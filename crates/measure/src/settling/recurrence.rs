@@ -1,47 +1,46 @@
-//! The linear recurrence that the last half of a sequence obeys, fitted to its differences.
+//! Linear recurrence of a sequence, fitted to the differences of its last half.
 
 use crate::sequence::Sequence;
 use crate::series::sum;
 use nalgebra::{Complex, ComplexField, DMatrix, DVector, Schur};
 
-/// Orders of recurrences that are tried.
-// Three lines of a spectrum are told apart; what needs more is called irregular. With order 2 alone the growth of a beat whose
-// first overtone is a tenth of it comes out with the wrong sign.
+/// Orders of the tried recurrences.
+// These orders distinguish up to three oscillations.
 const ORDERS: [usize; 5] = [1, 2, 3, 4, 6];
-/// What a recurrence may leave of the differences to count as exact, and where growth is to be read off it.
+/// Relative residual below which a recurrence counts as exact. `CLEAN` is the limit for reading the growth factor from the root.
 const EXACT: f64 = 1e-5;
 pub(super) const CLEAN: f64 = 0.03;
-/// Most iterations of a decomposition: a shift of exactly four values never comes to an end.
+/// Maximum number of iterations of a matrix decomposition. It may not converge for a cyclic shift.
 const MOST_TURNS: usize = 1000;
-/// Most values that are fitted.
+/// Maximum number of fitted values.
 const MOST: usize = 4096;
-/// Swings of which the growth is told.
+/// Minimum number of oscillations for determining the growth factor.
 const MANY: f64 = 3.0;
-/// No drive grows by that much in a period: a recurrence with such a root fits rounding.
+/// Root magnitude above which a recurrence is rejected. Such a recurrence fits rounding.
 const WILD: f64 = 1.25;
-/// Least number of values to read a recurrence off.
+/// Minimum number of values for a fit.
 pub(super) const FEWEST: usize = 6;
 
 /// A recurrence fitted to the end of a sequence.
 pub(super) struct Recurrence {
-    /// What it leaves of the differences: root mean squares over each other, that of what is left by its degrees of freedom.
+    /// Relative residual: ratio of root mean squares, corrected for the degrees of freedom.
     pub(super) rest: f64,
-    /// The largest root: its magnitude and its angle.
+    /// Largest root: magnitude and angle, rad.
     pub(super) root: (f64, f64),
-    /// Where the sequence goes.
+    /// Limit of the sequence.
     pub(super) limit: f64,
-    /// How far that is from the limit by another order.
+    /// Difference between this limit and that of another order.
     pub(super) apart: f64,
 }
 
 impl Recurrence {
-    /// The lowest order that leaves nothing, or else the one that leaves least.
+    /// Returns the lowest order with an exact fit, or else the order with the smallest residual.
     pub(super) fn best<S: Sequence + ?Sized>(values: &S) -> Option<Self> {
         let count = values.count();
         if count < FEWEST {
             return None;
         }
-        // The way in is left out: the half of a long sequence, the first two values of a short one.
+        // The transient at the start is omitted.
         let from = if count > 32 {
             (count / 2).max(count.saturating_sub(MOST))
         } else {
@@ -54,7 +53,7 @@ impl Recurrence {
             let before = best.as_ref().map_or(f64::INFINITY, |best| best.rest);
             let apart = best.as_ref().map_or(f64::INFINITY, |best| (best.limit - fit.limit).abs());
             if before <= EXACT {
-                // One order more tells how sure the limit is, and nothing else: it fits rounding.
+                // The next order is used only for the error of the limit, because it fits rounding.
                 best = best.map(|best| Self { apart: best.apart.min(apart), ..best });
                 break;
             }
@@ -65,8 +64,9 @@ impl Recurrence {
         best
     }
 
-    /// Of one order; none where there are too few values, all are equal, or a root says that it fits rounding. The roots are the
-    /// eigenvalues of the companion matrix, whose first row is a.
+    /// Fits a recurrence of one order. The roots are the eigenvalues of the companion matrix, whose first row is a.
+    ///
+    /// Returns `None` if there are too few values, if all are equal, or if a root is implausibly large.
     fn of(values: &[f64], order: usize) -> Option<Self> {
         let steps: Vec<f64> = values.windows(2).map(|pair| pair[1] - pair[0]).collect();
         let largest = steps.iter().fold(0.0, |most: f64, e| most.max(e.abs()));
@@ -81,7 +81,7 @@ impl Recurrence {
         if a.iter().any(|a| !a.is_finite()) {
             return None;
         }
-        // What is fitted leaves less than it should by its own freedom: six coefficients make a pattern of thirteen numbers of chaos.
+        // Without this correction, a fit with many coefficients would look too good.
         let freedom = rows as f64 / (rows - order) as f64;
         let rest = (&matrix * &a - &after).norm() / after.norm() * freedom.sqrt();
         let companion = DMatrix::from_fn(order, order, |i, j| match i {
@@ -90,13 +90,13 @@ impl Recurrence {
         });
         let roots = Schur::try_new(companion, f64::EPSILON, MOST_TURNS)?.complex_eigenvalues();
         let largest_root = roots.iter().max_by(|p, q| p.modulus().total_cmp(&q.modulus()))?;
-        // A swing and its overtones grow alike: it is the slowest of them.
+        // An oscillation and its harmonics grow alike. The slowest one is used.
         let alike =
             |root: &&Complex<f64>| root.modulus() >= 0.995 * largest_root.modulus() && root.argument() != 0.0;
         let slowest =
             roots.iter().filter(alike).min_by(|p, q| p.argument().abs().total_cmp(&q.argument().abs()));
         let root = slowest.filter(|_| largest_root.argument() != 0.0).unwrap_or(largest_root);
-        // S = Σ of all later differences: S = Σ aⱼ (S + the last j of them).
+        // The sum S of all later differences satisfies S = Σ aⱼ (S + sum of the last j differences).
         let known = |j: usize| sum((0..=j).map(|k| e(steps.len() - 1 - k)));
         let left = sum((0..order).map(|j| a[j] * known(j))) / (1.0 - a.sum());
         let limit = values.last()? + left * largest;
@@ -109,9 +109,10 @@ impl Recurrence {
         })
     }
 
-    /// By which factor a swing grows from one value to the next: that of the root where nothing else is left, or else that of the
-    /// deviations, root mean squares over as many whole swings at the start and at the end of the last half. None where these are
-    /// less than one swing each, or contradict the root.
+    /// Returns the growth factor of an oscillation per value.
+    ///
+    /// It is the root if the residual is small. Otherwise it follows from the root mean square deviations at the start and at the end of
+    /// the last half. Returns `None` for too few periods, or if the two methods contradict each other.
     pub(super) fn growth<S: Sequence + ?Sized>(&self, values: &S, period: f64) -> Option<f64> {
         let (count, middle) = (values.count(), values.count() / 2);
         let half = count - middle;
@@ -128,7 +129,7 @@ impl Recurrence {
         (growth.is_finite() && (agree || self.rest > CLEAN)).then_some(growth)
     }
 
-    /// How often the last half passes the limit.
+    /// Returns the number of crossings of the limit in the last half.
     pub(super) fn crossings<S: Sequence + ?Sized>(&self, values: &S) -> usize {
         let mut above = values.part(values.count() / 2..values.count()).map(|value| value > self.limit);
         let mut before = above.next().unwrap_or_default();

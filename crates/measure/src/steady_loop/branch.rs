@@ -1,22 +1,21 @@
-//! The branches of a steady loop, as a family of curves, and the figures of a loop that has them.
+//! Family of curves for the branches of a steady loop.
 
-/// A branch from one reversal to the other over the share x of the way: B(x) = height · (ρx + (1 - ρ) g(x)/g(1)) with
-/// g(x) = 1 - (1 - min(x/y, 1))ⁿ.
+/// A branch from one reversal to the other as a function of the relative displacement x from 0 to 1.
 ///
-/// n = 1 is an elastic-plastic element, n = 3/2 a ball, n = 2 a cone, each at constant load, in partial (y > 1) and in gross slip; ρ is the share
-/// of an elastic line.
+/// B(x) = height · (ρx + (1 - ρ) g(x)/g(1)) with g(x) = 1 - (1 - min(x/y, 1))ⁿ. Gross slip starts at x = y; y > 1 is partial slip. At
+/// constant load, n = 1 is an elastic-plastic element, n = 3/2 a ball and n = 2 a cone. The term with ρ is an elastic part.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Branch {
-    /// Share y of the way after which all slips.
+    /// Relative displacement y at the onset of gross slip.
     pub(super) way: f64,
-    /// Power n.
+    /// Exponent n.
     pub(super) power: f64,
-    /// Share ρ.
+    /// Weight ρ of the elastic part.
     pub(super) elastic: f64,
 }
 
 impl Branch {
-    /// B(x) of height 1.
+    /// Returns B(x) for height 1.
     pub(super) fn at(&self, x: f64) -> f64 {
         self.elastic * x + (1.0 - self.elastic) * self.graded(x) / self.graded(1.0)
     }
@@ -29,12 +28,12 @@ impl Branch {
         1.0 - if self.power == 1.0 { left } else { math::exp(self.power * math::ln(left)) }
     }
 
-    /// Slope at the reversal.
+    /// Returns the slope at the reversal.
     pub(super) fn slope(&self) -> f64 {
         self.elastic + (1.0 - self.elastic) * self.power / self.way / self.graded(1.0)
     }
 
-    /// Area of the loop of height 1 over a way of 1: twice the integral of B, less one.
+    /// Returns the loop area for height 1 and stroke 1: twice the integral of B, minus 1.
     pub(super) fn area(&self) -> f64 {
         let mean = 1.0 / (self.power + 1.0);
         let integral = if self.way <= 1.0 {
@@ -43,18 +42,20 @@ impl Branch {
             let left = 1.0 - 1.0 / self.way;
             1.0 - self.way * mean * (1.0 - math::exp((self.power + 1.0) * math::ln(left)))
         };
-        // An elastic line encloses nothing.
+        // The elastic part does not contribute to the area.
         (1.0 - self.elastic) * (2.0 * integral / self.graded(1.0) - 1.0).max(0.0)
     }
 
-    /// Half the opening, in ways, at a level above the middle, in heights; none beyond the ends.
+    /// Returns half the opening, relative to the stroke, at a force level above the middle, relative to the height.
+    ///
+    /// Returns `None` outside of the loop.
     pub(super) fn half_opening(&self, level: f64) -> Option<f64> {
         let down = self.place(0.5 - level)?;
         let up = self.place(0.5 + level)?;
         Some((0.5 * (1.0 - down - up)).max(0.0))
     }
 
-    /// Where B is a height between 0 and 1.
+    /// Returns the x at which B(x) has a value from 0 to 1, by bisection.
     fn place(&self, height: f64) -> Option<f64> {
         if !(0.0..=1.0).contains(&height) {
             return None;

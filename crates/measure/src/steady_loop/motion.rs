@@ -1,37 +1,37 @@
-//! The periodic displacement of a stage: mean, drift and harmonics by least squares.
+//! Periodic displacement: mean, drift and harmonics by least squares.
 
 use nalgebra::{DMatrix, DVector};
 use std::f64::consts::{PI, TAU};
 
-/// Numbers of harmonics that are tried, one after the other, while the next ones are more than noise.
+/// Numbers of harmonics that are tried in this order, as long as the fit improves significantly.
 const ORDERS: [usize; 9] = [1, 2, 3, 5, 8, 12, 18, 26, 40];
-/// By how many times its expectation from noise alone a further harmonic has to lessen the sum of squares.
+/// Minimum reduction of the sum of squares by a further harmonic, relative to the expectation for noise.
 const MORE: f64 = 8.0;
-/// Rows farther from the fit than so many standard deviations, by the median, are spikes.
+/// Residual of a spike, in robust standard deviations.
 const SPIKE: f64 = 6.0;
-/// With this share of the largest harmonic beside: corners, of which harmonics leave something, are no spikes.
+/// Additional residual of a spike, relative to the largest harmonic. It covers the residuals at corners.
 const CORNER: f64 = 0.05;
-/// By how much of the first harmonic the others may differ from those of a triangle.
+/// Tolerance of the harmonics of a triangle, relative to the first harmonic.
 const CORNERS: f64 = 2e-3;
-/// Steps of the search of the frequency and of the rows that are no spikes.
+/// Number of iterations of the frequency search.
 const ROUNDS: usize = 5;
-/// Points on which a period is looked through for its extremes.
+/// Number of points per period in the search for extremes.
 const FINE: usize = 4096;
 
-/// Least squares by harmonics of a phase: value = c₀ + c₁τ + Σ aₕ cos hφ + bₕ sin hφ.
+/// Least-squares fit by harmonics of a phase: value = c₀ + c₁τ + Σ aₕ cos hφ + bₕ sin hφ.
 #[derive(Debug, Clone)]
 pub(super) struct Harmonics {
-    /// c₀, c₁, a₁, b₁, a₂, …
+    /// Coefficients c₀, c₁, a₁, b₁, a₂, …
     pub(super) coefficients: Vec<f64>,
     /// Inverse of the normal matrix.
     inverse: DMatrix<f64>,
-    /// Standard deviation of the residual.
+    /// Standard deviation of the residuals.
     pub(super) deviation: f64,
-    /// Which rows are no spikes.
+    /// Whether each row is used, because it is no spike.
     pub(super) is_sound: Vec<bool>,
 }
 
-/// Cosines and sines of a phase and its multiples, after a one and a time.
+/// Computes a row of the design matrix: 1, time, and the cosines and sines of multiples of the phase.
 fn columns(time: f64, phase: f64, order: usize, row: &mut Vec<f64>) {
     row.clear();
     row.extend([1.0, time]);
@@ -44,7 +44,7 @@ fn columns(time: f64, phase: f64, order: usize, row: &mut Vec<f64>) {
 }
 
 impl Harmonics {
-    /// Fits values at times and phases; rows that are far off are left out.
+    /// Fits values at times and phases. Spikes are omitted.
     pub(super) fn fit(time: &[f64], phase: &[f64], values: &[f64], order: usize) -> Option<Self> {
         let mut is_sound = vec![true; values.len()];
         let (mut fit, mut row) = (None, Vec::new());
@@ -92,14 +92,14 @@ impl Harmonics {
         Some(Self { coefficients, inverse: factors.inverse(), deviation: 0.0, is_sound: Vec::new() })
     }
 
-    /// The harmonics alone, at a phase.
+    /// Returns the sum of the harmonics at a phase.
     pub(super) fn at(&self, phase: f64) -> f64 {
         let mut row = Vec::new();
         columns(0.0, phase, (self.coefficients.len() - 2) / 2, &mut row);
         dot(&row[2..], &self.coefficients[2..])
     }
 
-    /// Its derivative by the phase.
+    /// Returns the derivative of the harmonics with respect to the phase.
     fn slope(&self, phase: f64) -> f64 {
         let pairs = self.coefficients[2..].chunks(2).zip(1..);
         pairs
@@ -110,8 +110,9 @@ impl Harmonics {
             .sum()
     }
 
-    /// Whether these are the first harmonics of a triangle, whose corners all further ones would have to draw: those of the orders 3 and 5 are 1/9 and
-    /// 1/25 of the first, and there are no even ones.
+    /// Returns whether the first harmonics are those of a triangle, which has corners.
+    ///
+    /// The third and fifth harmonics of a triangle are 1/9 and 1/25 of the first one. Even harmonics are absent.
     fn is_triangle(&self, rows: f64) -> bool {
         let pairs: Vec<&[f64]> = self.coefficients[2..].chunks(2).collect();
         let Some(first) = pairs.first().map(|pair| pair[0]).filter(|_| pairs.len() >= 5) else {
@@ -126,40 +127,40 @@ impl Harmonics {
         )
     }
 
-    /// Drift c₁ per unit of time, and its standard deviation.
+    /// Returns the drift c₁ per unit of time and its standard deviation.
     pub(super) fn drift(&self) -> [f64; 2] {
         [self.coefficients[1], self.deviation * self.inverse[(1, 1)].sqrt()]
     }
 
-    /// ∮ own dφ-integral of these values over the other's displacement: ∮ F du of a period.
+    /// Returns the work ∮ F du of one period for the force `self` and the displacement `motion`.
     pub(super) fn work(&self, motion: &Self) -> f64 {
         let both = self.coefficients[2..].chunks(2).zip(motion.coefficients[2..].chunks(2)).zip(1..);
         0.5 * TAU * both.map(|((f, u), h)| f64::from(h) * (f[0] * u[1] - f[1] * u[0])).sum::<f64>()
     }
 }
 
-/// A periodic displacement: about the middle, with the phase zero at its maximum.
+/// Periodic displacement with phase 0 at its maximum.
 #[derive(Debug, Clone)]
 pub(super) struct Motion {
-    /// Time of the middle of the rows, s.
+    /// Time at the middle of the record, s.
     pub(super) middle: f64,
     /// Angular frequency, rad/s.
     pub(super) frequency: f64,
     /// Phases of the rows.
     pub(super) phase: Vec<f64>,
-    /// Its harmonics.
+    /// Harmonics of the displacement.
     pub(super) harmonics: Harmonics,
     /// Phase of the minimum.
     pub(super) turn: f64,
-    /// Amplitude δ*, and its standard deviation, m.
+    /// Amplitude δ* and its standard deviation, m.
     pub(super) amplitude: [f64; 2],
-    /// Least value.
+    /// Minimum of the displacement, m.
     pub(super) low: f64,
     is_triangle: bool,
 }
 
 impl Motion {
-    /// Fits displacements at times, of about this period, to so many harmonics as are more than noise.
+    /// Fits displacements with an approximate period. The number of harmonics is increased while the fit improves significantly.
     pub(super) fn fit(t: &[f64], u: &[f64], period: f64) -> Option<Self> {
         let middle = 0.5 * (t.first()? + t.last()?);
         let time: Vec<f64> = t.iter().map(|t| (t - middle) / period).collect();
@@ -177,7 +178,7 @@ impl Motion {
             });
             let size = fit.coefficients[2].abs().max(fit.coefficients[3].abs());
             let is_exact = fit.deviation < 1e-7 * size;
-            // Two orders without a gain may stand before one with it: a triangle has odd harmonics alone.
+            // A triangle has only odd harmonics, so two orders without an improvement may precede a better one.
             if is_better {
                 best = Some(fit);
             } else if order >= 5 {
@@ -230,7 +231,7 @@ impl Motion {
         Some(Self { middle, frequency, phase, harmonics, turn, amplitude, low, is_triangle })
     }
 
-    /// Displacement at a phase, about the mean.
+    /// Returns the displacement at a phase, relative to the mean.
     pub(super) fn at(&self, phase: f64) -> f64 {
         if !self.is_triangle {
             return self.harmonics.at(phase);
@@ -240,7 +241,7 @@ impl Motion {
     }
 }
 
-/// Phases of the maximum and of the minimum, by Newton from the best of many points.
+/// Returns the phases of the maximum and the minimum, by bisection near the largest and smallest of many points.
 fn extremes(harmonics: &Harmonics) -> (f64, f64) {
     let at = |k: usize| TAU * k as f64 / FINE as f64;
     let values: Vec<f64> = (0..FINE).map(|k| harmonics.at(at(k))).collect();
@@ -256,7 +257,7 @@ fn extremes(harmonics: &Harmonics) -> (f64, f64) {
     (best(1.0), best(-1.0).rem_euclid(TAU))
 }
 
-/// Turns per unit of time, close to one, of the first harmonic.
+/// Returns the frequency of the first harmonic relative to the approximate one. Returns `None` if it differs by a factor of 2.
 fn frequency(time: &[f64], u: &[f64]) -> Option<f64> {
     let mut turns = 1.0;
     for _ in 0..ROUNDS {
@@ -265,11 +266,11 @@ fn frequency(time: &[f64], u: &[f64]) -> Option<f64> {
     (0.5..2.0).contains(&turns).then_some(turns)
 }
 
-/// A step of Gauss and Newton towards the frequency: what is left of the fit, by its derivative.
+/// Improves the frequency by one Gauss–Newton step.
 fn refine(time: &[f64], u: &[f64], turns: f64, order: usize) -> Option<f64> {
     let phase: Vec<f64> = time.iter().map(|time| TAU * turns * time).collect();
     let fit = Harmonics::fit(time, &phase, u, order)?;
-    // The derivative by the frequency is τ times that by the phase; what of it the harmonics themselves have is taken out by a fit.
+    // The derivative with respect to the frequency is τ times that with respect to the phase. Its projection on the harmonics is removed.
     let by: Vec<f64> = time.iter().zip(&phase).map(|(time, phase)| TAU * time * fit.slope(*phase)).collect();
     let own = Harmonics::solve(time, &phase, &by, order, &fit.is_sound)?;
     let (mut up, mut down, mut row) = (0.0, 0.0, Vec::new());
@@ -286,7 +287,7 @@ fn dot(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
 
-/// The middle one of values.
+/// Returns the median.
 pub(super) fn median(mut values: Vec<f64>) -> f64 {
     if values.is_empty() {
         return 0.0;

@@ -1,4 +1,4 @@
-//! Which branches, amplitudes and lags are compatible with the rows of a steady loop: samples of them, as likely as they are.
+//! Posterior sampling of the branch parameters, amplitude and time lag of a steady loop.
 
 use super::branch::Branch;
 use chacha20::ChaCha8Rng;
@@ -6,49 +6,51 @@ use chacha20::rand_core::{Rng, SeedableRng};
 use nalgebra::{DMatrix, DVector};
 use std::f64::consts::TAU;
 
-/// Phases into which rows are folded.
+/// Number of phase bins.
 pub(super) const BINS: usize = 256;
-/// Points of a period on which the way of the displacement is tabulated.
+/// Number of intervals per period of the tabulated displacement.
 const TABLE: usize = 2048;
-/// Chains that step together, and their steps: those of the first part are forgotten.
+/// Number of Markov chains, number of their steps, and number of discarded initial steps.
 const WALKERS: usize = 24;
 const STEPS: usize = 400;
 const FORGOTTEN: usize = 160;
-/// One step of so many is kept: neighbours are alike.
+/// Interval of the kept steps, because consecutive steps are correlated.
 const KEPT: usize = 4;
-/// Largest stretch of a step (Goodman and Weare 2010).
+/// Largest stretch factor of a step (Goodman and Weare 2010).
 const STRETCH: f64 = 2.0;
-/// Largest lag, in periods.
+/// Largest time lag, in periods.
 const LAG: f64 = 0.05;
-/// Bounds of ln y, of the coordinate of n, and of that of ρ. What lies beyond 1 of n and beyond 0 and 1 of ρ is drawn to these ends: an
-/// element without a grade, and one without an elastic line, or with nothing else, are likely cases.
+/// Bounds of the parameters: lag, ln y, and the coordinates of n and ρ.
+///
+/// Coordinates of n below 1 and of ρ outside of 0 to 1 are set to these limits. Elements with n = 1, ρ = 0 or ρ = 1 then have a finite
+/// probability.
 const BOUNDS: [[f64; 2]; 4] = [[-LAG, LAG], [-4.6, 1.8], [0.6, 2.6], [-0.5, 1.2]];
 
-/// Largest correlation of neighbouring bins that is reckoned with.
+/// Maximum correlation of neighbouring bins that is taken into account.
 const MOST_ALIKE: f64 = 0.95;
-/// Least noise, as a share of the largest force.
+/// Minimum noise, relative to the largest force.
 const LEAST: f64 = 1e-7;
-/// Steps of the search of the best place, and differences of its derivatives in shares of the bounds.
+/// Maximum number of iterations of the optimisation, and relative step of its finite differences.
 const ROUNDS: usize = 40;
 const DIFFERENCE: f64 = 1e-6;
 
-/// Lag in periods, ln y, coordinate of n, coordinate of ρ.
+/// Parameters: lag in periods, ln y, coordinate of n, coordinate of ρ.
 type Place = [f64; 4];
 
-/// A steady loop, folded into one period.
+/// A steady loop averaged over one period.
 #[derive(Debug, Clone)]
 pub(super) struct Folded {
-    /// Phases, mean forces and numbers of rows.
+    /// Phase, mean force and number of rows of each bin.
     pub(super) bins: Vec<[f64; 3]>,
     /// Sum of squares of the rows about the means of their bins, and its degrees of freedom.
     pub(super) within: [f64; 2],
-    /// Displacements by the phase ([`Folded::shares`]).
+    /// Tabulated relative displacement versus phase ([`Folded::shares`]).
     pub(super) shares: Vec<f64>,
     /// Phase of the minimum.
     pub(super) turn: f64,
 }
 
-/// A sample: the lag in periods, the branch, its height (N), and the middle of the forces (N).
+/// One posterior sample: lag in periods, branch, its height, N, and the middle of the forces, N.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Sample {
     pub(super) lag: f64,
@@ -57,36 +59,36 @@ pub(super) struct Sample {
     pub(super) middle: f64,
 }
 
-/// The height and the middle that fit a branch and a lag best, and what is left.
+/// Height and middle that fit best for a given branch and lag, with the residual.
 struct Fit {
     squares: f64,
     height: f64,
     middle: f64,
-    /// Reciprocal of the variance of the height, for a noise of 1.
+    /// Reciprocal variance of the height for unit noise.
     weight: f64,
 }
 
 impl Folded {
-    /// Displacements by the phase, from 0 to 2π, as shares of the way from the lowest to the highest.
+    /// Returns the relative displacement, from 0 (minimum) to 1 (maximum), at equally spaced phases from 0 to 2π.
     pub(super) fn shares(u: impl Fn(f64) -> f64, [low, high]: [f64; 2]) -> Vec<f64> {
         (0..=TABLE).map(|k| (u(TAU * k as f64 / TABLE as f64) - low) / (high - low)).collect()
     }
 
-    /// Displacement at a phase, as a share of the way from the lowest to the highest.
+    /// Returns the relative displacement at a phase, from 0 (minimum) to 1 (maximum).
     pub(super) fn share(&self, phase: f64) -> f64 {
         let place = phase.rem_euclid(TAU) / TAU * TABLE as f64;
         let k = (place as usize).min(TABLE - 1);
         self.shares[k] + (place - k as f64) * (self.shares[k + 1] - self.shares[k])
     }
 
-    /// Share of the way gone since the last reversal, and whether that was the maximum, at a phase.
+    /// Returns the relative displacement since the last reversal at a phase, and whether this reversal was the maximum.
     fn way(&self, phase: f64) -> (f64, bool) {
         let share = self.share(phase);
         let goes_down = phase.rem_euclid(TAU) < self.turn;
         ((if goes_down { 1.0 - share } else { share }).clamp(0.0, 1.0), goes_down)
     }
 
-    /// Share of the loop's height at a bin about its middle.
+    /// Returns the model force at a phase for height 1, relative to the middle.
     fn model(&self, branch: &Branch, lag: f64, phase: f64) -> f64 {
         let (way, goes_down) = self.way(phase - TAU * lag);
         let value = branch.at(way) - 0.5;
@@ -111,7 +113,7 @@ impl Folded {
         Fit { squares: (yy - height * xy).max(0.0), height, middle, weight: xx }
     }
 
-    /// What the best height and middle leave of each bin, and of it all.
+    /// Returns the residuals of all bins for the best height and middle, and the fit.
     fn left(&self, place: &Place) -> (DVector<f64>, Fit) {
         let (fit, branch) = (self.fit(place), branch(place));
         let left = self.bins.iter().map(|[phase, force, rows]| {
@@ -121,8 +123,9 @@ impl Folded {
         (left.clone(), Fit { squares: left.norm_squared(), ..fit })
     }
 
-    /// The best place of all lags, or of one that is known, for a force that drives or that resists: from the best of many places for each power, by
-    /// the method of Levenberg and Marquardt.
+    /// Returns the best parameters for a given sign of the force, with a free or a known lag.
+    ///
+    /// It starts from the best points of a grid for each exponent and uses the Levenberg–Marquardt method.
     fn best(&self, lag: Option<f64>, is_turned: bool) -> (f64, Place) {
         let lags: Vec<f64> = match lag {
             Some(lag) => vec![lag],
@@ -147,7 +150,7 @@ impl Folded {
         ends.into_iter().min_by(|a, b| a.0.total_cmp(&b.0)).unwrap_or(starts[0])
     }
 
-    /// Improves a place in its coordinates from the first that is free.
+    /// Improves the parameters from index `first` on.
     fn improve(&self, start: (f64, Place), first: usize, is_turned: bool) -> (f64, Place) {
         let (mut squares, mut place) = start;
         if squares.is_infinite() {
@@ -189,7 +192,7 @@ impl Folded {
         (squares, place)
     }
 
-    /// Whether the force has the other sign, and by how many times the noise that is more likely.
+    /// Returns whether the measured force has the opposite sign, and the difference of the sums of squares relative to the noise variance.
     pub(super) fn sense(&self) -> (bool, f64) {
         let (driving, resisting) = (self.best(None, false), self.best(None, true));
         let is_turned = resisting.0 < driving.0;
@@ -197,8 +200,10 @@ impl Folded {
         (is_turned, (driving.0 - resisting.0).abs() / noise)
     }
 
-    /// Variance of the noise of a row: that within the bins, or that of the bins about the best branch where this is larger, as with a
-    /// branch that is none of the family; and the root of their mean square about it, 0 if it is.
+    /// Returns the noise variance of a row, and the root mean square misfit of the best branch.
+    ///
+    /// The noise is that of the rows. If the deviations of the bins from the branch are significantly larger, they determine the noise.
+    /// Otherwise the misfit is 0.
     fn noise(&self, squares: f64) -> (f64, f64) {
         let count = self.bins.len() as f64;
         let rows: f64 = self.bins.iter().map(|bin| bin[2]).sum();
@@ -212,7 +217,7 @@ impl Folded {
         (noise.max(least), if is_other { (squares / rows).sqrt() } else { 0.0 })
     }
 
-    /// How many neighbouring bins stand for one, as what the branch leaves of them is alike.
+    /// Returns the number of neighbouring bins that count as one, because their residuals are correlated.
     fn likeness(&self, place: &Place) -> f64 {
         let (left, _) = self.left(place);
         let next: f64 = (0..left.len()).map(|k| left[k] * left[(k + 1) % left.len()]).sum();
@@ -220,7 +225,7 @@ impl Folded {
         (1.0 + share) / (1.0 - share)
     }
 
-    /// Samples of all that is compatible with the rows; with a lag that is known, of the rest. With them, N, what no branch of the family has.
+    /// Samples the parameters from the posterior distribution, with a free or a known lag. Also returns the misfit, N.
     pub(super) fn sample(&self, lag: Option<f64>) -> (Vec<Sample>, f64) {
         let (best, place) = self.best(lag, false);
         let (noise, misfit) = self.noise(best);
@@ -233,7 +238,7 @@ impl Folded {
                 return f64::NEG_INFINITY;
             }
             let fit = self.fit(place);
-            // A height of either sign is as likely before, so that its width counts.
+            // Marginalisation over the height, whose prior is uniform.
             if fit.height > 0.0 {
                 -0.5 * fit.squares / noise - 0.5 * math::ln(fit.weight)
             } else {
@@ -273,7 +278,7 @@ impl Folded {
         (samples, misfit)
     }
 
-    /// How far each coordinate goes until what is left has grown to a limit.
+    /// Returns the range of each parameter within which the sum of squares is below `limit`.
     fn widths(&self, place: &Place, limit: f64, first: usize) -> Place {
         std::array::from_fn(|k| {
             let [low, high] = BOUNDS[k];
@@ -309,11 +314,11 @@ fn branch(place: &Place) -> Branch {
     Branch { way: math::exp(place[1]), power: place[2].max(1.0), elastic: place[3].clamp(0.0, 1.0) }
 }
 
-/// Random numbers, the same for each loop.
+/// Random numbers with a fixed seed, so that results are reproducible.
 struct Random(ChaCha8Rng);
 
 impl Random {
-    /// Between 0 and 1.
+    /// Returns a number between 0 and 1.
     fn uniform(&mut self) -> f64 {
         ((self.0.next_u64() >> 12) as f64 + 0.5) / (1_u64 << 52) as f64
     }
@@ -322,7 +327,7 @@ impl Random {
         ((self.uniform() * count as f64) as usize).min(count - 1)
     }
 
-    /// Of mean 0 and deviation 1 (Box and Muller).
+    /// Returns a standard normal number (Box–Muller method).
     fn normal(&mut self) -> f64 {
         (-2.0 * math::ln(self.uniform())).sqrt() * math::cos(TAU * self.uniform())
     }

@@ -1,4 +1,4 @@
-//! Creep as a block.
+//! Block of logarithmic creep.
 
 use super::law::Creep;
 use crate::Reading;
@@ -7,10 +7,10 @@ use stickslip_drive::component::{
 };
 use stickslip_drive::{EventKind, Sample};
 
-/// y = a v + Σ gᵢ xᵢ with τᵢ ẋᵢ = v - xᵢ: [`Creep`] of a signal v, or of a signal y the v that makes it.
+/// Creep filter y = a v + Σ gᵢ xᵢ with τᵢ ẋᵢ = v - xᵢ, or its inverse from y to v; see [`Creep`].
 ///
-/// Both have the same states, so that one behind the other, started alike, they cancel but for rounding. They start as after a
-/// long rest, xᵢ = v: nothing creeps before the input moves.
+/// Filter and inverse have the same states. In series and with equal initial states they cancel except for rounding. The initial
+/// states are xᵢ = v, as after a long rest.
 #[derive(Debug)]
 pub struct CreepBlock {
     law: Creep,
@@ -19,7 +19,7 @@ pub struct CreepBlock {
     reading: Reading,
 }
 
-/// Which way the law is used.
+/// Direction of the filter.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Way {
     Forward,
@@ -27,20 +27,20 @@ enum Way {
 }
 
 impl CreepBlock {
-    /// The law on a signal.
+    /// Creates the creep filter of a signal.
     pub fn new(law: Creep, reading: Reading) -> Self {
         Self { law, way: Way::Forward, inputs: [Input::Signal(reading.signal)], reading }
     }
 
-    /// What must go into the law so that this signal comes out.
+    /// Creates the inverse filter: its output, filtered by the creep law, is the input signal.
     pub fn inverse(law: Creep, reading: Reading) -> Self {
         Self { way: Way::Inverse, ..Self::new(law, reading) }
     }
 
-    /// What goes into the law and what comes out, by what is read.
+    /// Returns input v and output y of the creep law, with their derivatives.
     fn both(&self, at: &Moment<'_, [Sample]>) -> [Sample; 2] {
         let input = at.inputs[0];
-        // Σ gᵢxᵢ and its derivatives, as far as v has to do with them: ẋᵢ = (v - xᵢ)/τᵢ, ẍᵢ = (v̇ - ẋᵢ)/τᵢ.
+        // Σ gᵢxᵢ and its derivatives follow from ẋᵢ = (v - xᵢ)/τᵢ and ẍᵢ = (v̇ - ẋᵢ)/τᵢ.
         let value = self.crept(|i| at.states[i]);
         let a = self.law.direct();
         let v = |known: f64, sum: f64| match self.way {
@@ -142,11 +142,11 @@ impl Block for CreepBlock {
         if self.way == Way::Forward { output } else { input }
     }
 
-    /// The whole of a range after a long time at its end; the inverse overshoots where it goes to the other one at once.
+    /// Returns the range of the output for any history within the range of the input. The inverse overshoots after a sudden change.
     fn range(&self, inputs: &[(f64, f64)]) -> (f64, f64) {
         let ((low, high), law) = (inputs[0], &self.law);
         let (direct, settled) = (law.direct(), law.settled());
-        // From anywhere in the range: a v + Σ gx, or (y - Σ gx)/a.
+        // v and all xᵢ are within the range: y = a v + Σ gx, or v = (y - Σ gx)/a.
         let (own, kept) = match self.way {
             Way::Forward => (direct, settled - direct),
             Way::Inverse => (direct.recip(), (1.0 - settled / direct) / settled),

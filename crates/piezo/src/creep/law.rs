@@ -1,75 +1,73 @@
-//! L(t) = L₁[1 + γ lg(t/t₀)] as a sum of exponentials.
+//! Logarithmic creep law L(t) = L₁[1 + γ lg(t/t₀)] as a sum of exponentials.
 
 use nalgebra::{DMatrix, DVector};
 
-/// Creep after a step at t = 0: L(t) = L₁[1 + γ lg(t/t₀)], by
+/// Logarithmic creep after a step at t = 0, L(t) = L₁[1 + γ lg(t/t₀)], approximated by a sum of exponentials:
 ///
 /// ```text
 /// L(t)/L₁ = 1 + γ{c₀ + Σ cᵢ[1 - exp(-t/τᵢ)]}
 /// ```
 ///
-/// with τᵢ = 10^{0.1}·t₀·10^{iD/(n-1)}, i = 0 … n-1, n = D + 2 for D decades from t₀ on. The cᵢ are the least squares of lg(t/t₀) over
-/// those decades; [`Creep::misfit`] is what they leave, 0.0086 decades for D = 5 and at most 0.01, so that the stroke is off
-/// by at most 0.01 γ L₁ (2 % per decade: 2e-4 of the stroke). Before t₀ the response begins at 1 + c₀γ (c₀ = -0.54 to -0.58) instead of falling for
-/// ever; beyond the last decade it settles within another one and stays, where the law would grow for ever. Both ends are
-/// physics, too: the logarithm is a fit, made between about 0.1 s and hours.
+/// The time constants are τᵢ = 10^{0.1}·t₀·10^{iD/(n-1)}, i = 0 … n-1, with n = D + 2 for D decades after t₀. The cᵢ are a
+/// least-squares fit of lg(t/t₀) over these decades. [`Creep::misfit`] is the largest error of the fit. This error is 0.0086 decades
+/// for D = 5 and at most 0.01 decades.
 ///
-/// In between the response to any input is that sum, linear in it: a stack that has stood at a voltage for long has crept, and
-/// creeps back when it is taken away.
+/// The response to a step starts at 1 + c₀γ with c₀ from -0.58 to -0.54. Beyond the last decade the response settles within one
+/// decade. The response to any other input is linear in the input.
 ///
-/// Source: K. Kuhnen, P. Krejčí, IEEE Transactions on Automatic Control 54 (2009) 537; the logarithm: H. Jung, D.-G. Gweon,
+/// Source: K. Kuhnen, P. Krejčí, IEEE Transactions on Automatic Control 54 (2009) 537; for the logarithm: H. Jung, D.-G. Gweon,
 /// Review of Scientific Instruments 71 (2000) 1896.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Creep {
-    /// γ c₀ + 1: what answers at once.
+    /// Immediate response to a unit step, 1 + γ c₀.
     direct: f64,
-    /// τᵢ, s.
+    /// Time constants τᵢ, s.
     times: Vec<f64>,
-    /// γ cᵢ.
+    /// Weights γ cᵢ.
     weights: Vec<f64>,
     misfit: f64,
 }
 
-/// Why a law cannot be.
+/// Reason why creep parameters are invalid.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 pub enum CreepError {
-    /// γ.
+    /// The creep per decade γ is out of range.
     #[error("expected creep above 0 and below {most} per decade, got {got}", most = Creep::STRONGEST)]
     Strength {
-        /// As given.
+        /// Value given.
         got: f64,
     },
-    /// t₀.
-    #[error("expected a time above 0 from which on it creeps, got {0} s")]
+    /// The time t₀ is not above 0 or not finite.
+    #[error("expected a time above 0 for the start of creep, got {0} s")]
     From(f64),
-    /// D.
+    /// The number of decades D is out of range.
     #[error("expected 1 to {most} decades, got {got}", most = Creep::LONGEST)]
     Decades {
-        /// As given.
+        /// Value given.
         got: usize,
     },
 }
 
-/// lg(τ₀/t₀), and by how much the last τ lies beyond the last decade: least misfit among tenths, for 5 decades.
+/// Offset of the first and last time constant from the start and end of the decades, lg(τ₀/t₀).
 const BEYOND: f64 = 0.1;
-/// Places per decade at which the logarithm is fitted.
+/// Number of fit points per decade.
 const PER_DECADE: usize = 48;
 
 impl Creep {
-    /// Usual t₀, s.
+    /// Default t₀, s.
     pub const FROM: f64 = 0.1;
-    /// Usual number of decades.
+    /// Default number of decades.
     pub const DECADES: usize = 5;
-    /// Most decades: states of a block are few.
+    /// Largest number of decades.
     pub const LONGEST: usize = 6;
-    /// Largest γ.
+    /// Upper limit of γ.
     pub const STRONGEST: f64 = 0.5;
 
-    /// With γ per decade, from t₀ on (s), over a number of decades.
+    /// Creates the law from γ per decade, t₀ in s, and the number of decades.
     ///
     /// # Errors
     ///
-    /// Where one of them is out of its range.
+    /// Fails if a parameter is out of its range.
     pub fn new(per_decade: f64, from: f64, decades: usize) -> Result<Self, CreepError> {
         if !(per_decade > 0.0 && per_decade < Self::STRONGEST) {
             return Err(CreepError::Strength { got: per_decade });
@@ -92,32 +90,32 @@ impl Creep {
         })
     }
 
-    /// What answers to a step at once, in parts of L₁.
+    /// Returns the immediate response to a step, relative to L₁.
     pub fn direct(&self) -> f64 {
         self.direct
     }
 
-    /// What answers to it in the end, in parts of L₁.
+    /// Returns the final response to a step, relative to L₁.
     pub fn settled(&self) -> f64 {
         self.direct + self.weights.iter().sum::<f64>()
     }
 
-    /// τᵢ, s.
+    /// Returns the time constants τᵢ, s.
     pub fn times(&self) -> &[f64] {
         &self.times
     }
 
-    /// Parts of L₁ that come with them.
+    /// Returns the weights γ cᵢ of the exponentials, relative to L₁.
     pub fn weights(&self) -> &[f64] {
         &self.weights
     }
 
-    /// Largest distance from the logarithm over the decades of the fit, in parts of L₁.
+    /// Returns the largest error against the logarithm within the fitted decades, relative to L₁.
     pub fn misfit(&self) -> f64 {
         self.misfit
     }
 
-    /// L(t)/L₁ at a time after a step, s.
+    /// Returns L(t)/L₁ at time t after a step, s.
     pub fn response(&self, t: f64) -> f64 {
         let crept =
             self.times.iter().zip(&self.weights).map(|(time, weight)| -weight * math::exp_m1(-t / time));
@@ -125,7 +123,7 @@ impl Creep {
     }
 }
 
-/// c₀ and the cᵢ for lg τᵢ/t₀, by least squares, and what they leave at most, decades.
+/// Fits c₀ and the cᵢ for given lg τᵢ/t₀ by least squares. Returns the coefficients and the largest error in decades.
 fn fitted(decades: usize, logs: &[f64]) -> (Vec<f64>, f64) {
     let places: Vec<f64> = (0..=decades * PER_DECADE).map(|i| i as f64 / PER_DECADE as f64).collect();
     let term = |i: usize, j: usize| match j {
@@ -134,7 +132,7 @@ fn fitted(decades: usize, logs: &[f64]) -> (Vec<f64>, f64) {
     };
     let matrix = DMatrix::from_fn(places.len(), logs.len() + 1, term);
     let wanted = DVector::from_vec(places);
-    // Well conditioned, by a third of a decade and more from one to the next: the singular values never vanish.
+    // The time constants are at least a third of a decade apart, so the matrix is well conditioned.
     let weights =
         matrix.clone().svd(true, true).solve(&wanted, 0.0).unwrap_or_else(|_| DVector::zeros(logs.len() + 1));
     let misfit = (matrix * &weights - wanted).amax();

@@ -1,8 +1,9 @@
-//! The driver on the contract of blocks.
+//! Implementation of the block contract for the driver.
 //!
-//! States: the voltage, the work of the source, what is lost, and where there is a low-pass its output and that one's rate.
-//! Without a resistance a voltage that follows is its command itself, exactly, and the state beside it goes along at the same
-//! rate; what integration leaves between the two is the memory's offset, with which the state goes on where a limit begins.
+//! The states are the voltage, the work of the source, the losses and, with a low-pass, its output and output rate. Without a
+//! resistance the voltage in the mode [`Output::Free`] equals the followed signal exactly. The voltage state is integrated at the
+//! same rate. The memory stores the difference between both as an offset, with which integration continues when a current limit
+//! begins.
 
 use super::course::{ABOVE, BELOW, FALLING, FREE, INSIDE, RISING};
 use super::stage::{At, LOST, LOW, LOW_RATE, Now, ROUNDING, VOLTAGE, WORK};
@@ -12,37 +13,38 @@ use crate::pace::Pace;
 use stickslip_drive::component::{Block, Component, Input, Passage, Powers, Refused, States};
 use stickslip_drive::{EventKind, Sample};
 
-/// A voltage that moves less than this part of its range between two events of the driver chatters.
+/// Smallest change of voltage between two events, as a fraction of the range; smaller changes count as chattering.
 const CHATTER: f64 = 1e-6;
-/// Part of its range by which the state of a free voltage may lie beside what it follows: a thousandth of what one sees.
+/// Largest difference between the voltage state and the followed signal at which they count as equal, as a fraction of the range.
 const NEAR: f64 = 1e-8;
 
-/// Least part of its range that is a voltage's scale: of less rounding leaves nothing at the tightest tolerances.
+/// Smallest error scale of a state, as a fraction of the range. A smaller scale would be below rounding at the tightest tolerances.
 const LEAST_LAG: f64 = 1e-2;
 
 impl Driver {
-    /// By how much a voltage lags through its resistance, as a part of its range. By the range itself a sine of 1 kHz at RC = 0.1 µs drew 28 %
-    /// too much at a tolerance of 1e-3, and met a limit of four times its current.
+    /// Returns the error scale of the voltage as a fraction of its range: the lag due to RC at the fastest command. Without a
+    /// resistance it is 1.
     fn lag(&self) -> f64 {
         let (down, up) = self.spec.slew();
         let fastest = (up.min(down) / self.span).min(self.quickest.recip());
         self.spec.time().map_or(1.0, |time| (time * fastest).clamp(LEAST_LAG, 1.0))
     }
 
-    /// The same of a low-pass, which lags by 2ζ/ω.
-    // A bandwidth of 98 kHz behind a command of some milliseconds told currents at 1e-3 that were off by a third of their peak.
+    /// Returns the error scale of the low-pass output as a fraction of its range, from its lag 2ζ/ω at the fastest command.
     fn lag_of_low(&self) -> f64 {
         let fastest = self.quickest.recip();
         self.spec.low.map_or(1.0, |low| (2.0 * low.ratio / self.spec.omega() * fastest).clamp(LEAST_LAG, 1.0))
     }
 
-    /// Whether the current never jumps but with its command: behind a resistance, or a low-pass that no limit follows.
+    /// Whether the current is continuous except at jumps of the command. A continuous current requires a resistance, or a low-pass
+    /// without current limits.
     fn goes_on(&self) -> bool {
         self.spec.resistance.is_some() || self.spec.low.is_some() && self.spec.current.is_none()
     }
 
-    /// How its current, as a rate of the stroke, and the power of its source change, 1/s each; how the elongation accelerates is not
-    /// known.
+    /// Returns the time derivatives of the current, as a stroke rate in m/s, and of the source power in W.
+    ///
+    /// The acceleration of the elongation is taken as 0.
     fn slopes_of(&self, followed: Sample, voltage: Sample) -> [f64; 2] {
         let flow = self.flow(voltage.acceleration, 0.0);
         let power = self.source(followed, flow)
@@ -50,8 +52,10 @@ impl Driver {
         [flow, power]
     }
 
-    /// Counts what a step has `given`, the way of the voltage and the work of the source, by what both were at its `end`, and by their
-    /// slopes there.
+    /// Adds one step to the totals of the driver.
+    ///
+    /// `given` is the charge moved in the step, as a stroke in m, and the work of the source in J. `end` contains current and source
+    /// power at the end of the step. `slopes` contains their time derivatives at the end.
     fn count(
         &self,
         kept: &mut Kept,
@@ -63,13 +67,13 @@ impl Driver {
         (kept.flow, kept.power) = (end[0], end[1]);
         kept.fastest = kept.fastest.max(end[0].abs());
         if !passage.located {
-            // In a step over a corner what is at its end tells nothing of how it began.
+            // In a step across a corner the values at its end do not determine those at its start.
             kept.way += given[0].abs();
             kept.drawn += given[1].max(0.0);
             return;
         }
-        // Where the current goes on from step to step both ends are known, else its slope is where no strain acts back. Of a step in which a
-        // stage settles neither tells how it began.
+        // A continuous current is known at both ends. Otherwise its slope at the end is used, if strain causes no charge. A step that
+        // is longer than the time constant of a stage uses linear interpolation.
         let is_known = time * self.spec.rate() < 1.0 && (self.goes_on() || self.strain.is_none());
         let paces = [0, 1].map(|i| {
             let (given, last) = (given[i], time * end[i]);
@@ -130,7 +134,8 @@ impl Component for Driver {
         match (guard, course.output, self.spec.resistance) {
             (RISING, ..) => up - wish,
             (FALLING, ..) => wish + down,
-            // What it follows comes up with it, or through a resistance wishes for less.
+            // The limit ends when the followed signal meets the voltage or, with a resistance, when the unlimited current is within
+            // the limits.
             (_, Output::Rising, None) => followed.value - voltage.value,
             (_, _, None) => voltage.value - followed.value,
             (_, Output::Rising, Some(_)) => wish - up,
@@ -152,13 +157,13 @@ impl Component for Driver {
         let followed = self.followed((course, at.located), at.inputs[0], at.states);
         let elongated = self.elongation(at.inputs).rate;
         let decided = match (guard, self.spec.resistance) {
-            // It has met what it follows, but for rounding: its rate says how it goes on.
+            // The voltage equals the followed signal except for rounding; the rate decides about the next mode.
             (FREE, None) => {
                 let met = Sample { value: voltage.value, ..followed };
                 Some(self.output(met, (at.states, voltage.value, elongated)))
             }
             (FREE, Some(_)) => Some(Output::Free),
-            // At an end of the window the rate of the command jumps.
+            // The rate of the command jumps at an end of the window.
             (INSIDE | BELOW | ABOVE, _) if before.output == Output::Free => {
                 let met = if self.spec.resistance.is_none() {
                     Sample { value: voltage.value, ..followed }
@@ -173,7 +178,7 @@ impl Component for Driver {
         (EventKind::Own(course.word(before)), course.law())
     }
 
-    /// Memory follows where the voltage has gone; of a limited voltage whose command has just jumped it stays.
+    /// Updates the totals. A limited voltage does not follow a jump of the command.
     fn commit(&self, memory: &mut Vec<f64>, passage: &Passage) -> Result<f64, Refused> {
         let Some(mut kept) = Kept::read(memory) else {
             return Err(Refused("its memory is of another kind".to_owned()));
@@ -184,7 +189,7 @@ impl Component for Driver {
         if jumps && self.spec.current.is_some() && self.spec.resistance.is_none() {
             return Ok(0.0);
         }
-        // After a jump the law is still the one before: the window cuts whatever that says.
+        // After a jump the mode is still the one before. The window is therefore applied independently of the mode.
         let located = passage.located && !jumps;
         let followed = self.followed((course, located), command, &passage.states);
         let elongation = self.elongation(&passage.inputs);
@@ -196,7 +201,7 @@ impl Component for Driver {
         if self.spec.resistance.is_none() && (course.output == Output::Free || !passage.located) {
             kept.offset = voltage.value - passage.states[VOLTAGE];
         }
-        // A start is not told how long the stack is.
+        // At the start the elongation is not known.
         let before = if kept.time > 0.0 { kept.elongation } else { elongation.value };
         let given = [
             self.flow(voltage.value - kept.last, elongation.value - before),
@@ -207,7 +212,7 @@ impl Component for Driver {
         if jumps {
             kept.way += given[0].abs();
             kept.drawn += given[1].max(0.0);
-            // The law is the one before: no more flows than may. What nothing slows has flowed in no time.
+            // The mode is still the one before, so the current is limited here. Without R and low-pass the charge flows in zero time.
             let (down, up) = self.spec.slew();
             let after = if self.goes_on() { flow.clamp(-down, up) } else { 0.0 };
             (kept.flow, kept.power) = (after, self.source(followed, after));
@@ -231,7 +236,7 @@ impl Component for Driver {
         Ok(0.0)
     }
 
-    /// Nothing of the mechanical books: its own are columns.
+    /// Returns 0: the driver's energy balance is separate from the mechanical one and is written as columns.
     fn energy(&self, _: Now<'_>, _: &At<'_>) -> f64 {
         0.0
     }
@@ -248,7 +253,7 @@ impl Block for Driver {
         &self.inputs
     }
 
-    /// At rest at its command, which the scenario has seen to be inside the window.
+    /// Starts at rest with the voltage equal to the command, which must be inside the window.
     fn start(&self, inputs: &[Sample]) -> (Vec<f64>, Vec<f64>) {
         let value = inputs.first().map_or(0.0, |command| command.value);
         let mut states = vec![value, 0.0, 0.0];
@@ -303,12 +308,12 @@ impl Block for Driver {
             };
         }
         let followed = self.followed((course, at.located), at.inputs[0], at.states);
-        // Without a resistance a free voltage has jumped with its command; where it was is what the state says.
+        // Without a resistance a free voltage jumps with its command. The state contains the voltage before the jump.
         let own = match (self.spec.resistance, self.spec.current) {
             (None, Some(_)) if at.located => at.states[VOLTAGE] + Self::offset(standing.memory),
             _ => voltage.value,
         };
-        // A free voltage is what it follows, but for what integration leaves between its state and that.
+        // Integration leaves a small difference between a free voltage and its state.
         let near = (followed.value - own).abs() <= NEAR * self.span;
         let met = match (before.output, self.spec.resistance) {
             (Output::Free, None) if near => Sample { value: own, ..followed },
@@ -318,8 +323,8 @@ impl Block for Driver {
         (course != before).then(|| (EventKind::Own(course.word(before)), course.law()))
     }
 
-    /// A jump that it passes on charges the capacitance at once, ½C(V₂² - V₁²), held as long as the stack is. Nothing of that is
-    /// lost: the source goes with it.
+    /// Adds the energy of a jump that the driver transmits: ½C(V₂² - V₁²), with the capacitance of the held stack. A jump has no
+    /// losses.
     fn jump(&self, standing: Now<'_>, at: &At<'_>, states: &mut [f64]) {
         if self.passes_jumps() {
             let course = Course::of(*standing.law);
@@ -335,7 +340,8 @@ impl Block for Driver {
         }
     }
 
-    /// A voltage that nothing slows jumps with its command.
+    /// Returns whether the voltage jumps with its command. Only a driver without resistance, low-pass and current limits transmits
+    /// jumps.
     fn passes_jumps(&self) -> bool {
         self.spec.current.is_none() && self.spec.resistance.is_none() && self.spec.low.is_none()
     }
@@ -354,7 +360,8 @@ impl Block for Driver {
         (up.max(down) / (CHATTER * self.span)).max(slow).max(self.spec.omega())
     }
 
-    /// Works only count, and without a resistance a voltage that is free is what it follows.
+    /// Returns whether the signal depends on a state. Energies do not count, nor does the voltage state in the free mode without a
+    /// resistance.
     fn depends(&self, law: usize, state: usize) -> bool {
         match state {
             VOLTAGE => self.spec.resistance.is_some() || Course::of(law).output != Output::Free,
@@ -379,7 +386,7 @@ impl Block for Driver {
         let volts = voltage.value / self.spec.gain;
         let elongation = self.elongation(at.inputs);
         let stored = self.stored(voltage.value, elongation.value);
-        // Where the command has just turned the law is still the one before: no more flows than may.
+        // After a corner of the command the mode is still the one before, so the current is limited here.
         let (down, up) = self.spec.slew();
         let current = self.current(self.flow(voltage.rate, elongation.rate).clamp(-down, up));
         row.extend([volts, current, at.states[WORK], stored, at.states[LOST]]);

@@ -1,8 +1,8 @@
-//! The laws of a driver: where its command stands to the window, and its output stage to the limits.
+//! Modes of the driver: position of the command relative to the window, and state of the output stage relative to the current limits.
 
 use super::Spec;
 
-/// Where the command is.
+/// Position of the command relative to the voltage window.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Window {
     Inside,
@@ -10,25 +10,25 @@ pub(super) enum Window {
     Above,
 }
 
-/// What the output stage does.
+/// Operation of the output stage.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Output {
-    /// Follows, at once or through its resistance.
+    /// Follows its input, directly or through the resistance.
     Free,
-    /// Charges at the largest current.
+    /// Charges at the upper current limit.
     Rising,
-    /// Discharges at the largest current.
+    /// Discharges at the lower current limit.
     Falling,
 }
 
-/// A law of the driver.
+/// Mode of the driver.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct Course {
     pub(super) window: Window,
     pub(super) output: Output,
 }
 
-/// Guards, each named for what it leads to.
+/// Indices of the event functions, each named after the mode that follows.
 pub(super) const INSIDE: usize = 0;
 pub(super) const BELOW: usize = 1;
 pub(super) const ABOVE: usize = 2;
@@ -40,22 +40,22 @@ const WINDOWS: [Window; 3] = [Window::Inside, Window::Below, Window::Above];
 const OUTPUTS: [Output; 3] = [Output::Free, Output::Rising, Output::Falling];
 
 impl Course {
-    /// All laws, in the order of their numbers.
+    /// Returns all modes in the order of their numbers.
     pub(super) fn all() -> impl Iterator<Item = Self> {
         WINDOWS.into_iter().flat_map(|window| OUTPUTS.map(|output| Self { window, output }))
     }
 
-    /// The law of a number.
+    /// Returns the mode with a number.
     pub(super) fn of(law: usize) -> Self {
         Self { window: WINDOWS[law / 3 % 3], output: OUTPUTS[law % 3] }
     }
 
-    /// Its number.
+    /// Returns the number of the mode.
     pub(super) fn law(self) -> usize {
         3 * self.window as usize + self.output as usize
     }
 
-    /// What ends it.
+    /// Returns the indices of the event functions that end the mode.
     pub(super) fn guards(self, spec: &Spec) -> Vec<usize> {
         let window = match (spec.window, self.window) {
             (None, _) => &[][..],
@@ -70,7 +70,7 @@ impl Course {
         [window, output].concat()
     }
 
-    /// What it is called that this law begins after another.
+    /// Returns the name of the event that changes the mode from `before` to this one.
     pub(super) fn word(self, before: Self) -> &'static str {
         if self.output == before.output {
             return match self.window {

@@ -1,28 +1,28 @@
-//! What a driver can do.
+//! Specification of a driver.
 
 use std::f64::consts::{PI, TAU};
 use thiserror::Error;
 
-/// What a driver can do, and what hangs on it.
+/// Specification of a driver and of the stack that it drives.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Spec {
     /// Capacitance C of the stack, F, above 0.
     pub capacitance: f64,
     /// Stroke per volt α of the stack, m/V, above 0.
     pub gain: f64,
-    /// Smallest and largest voltage, V.
+    /// Voltage window: smallest and largest voltage, V.
     pub window: Option<(f64, f64)>,
-    /// Largest currents out of the stack and into it, A, above 0.
+    /// Largest currents out of the stack and into it, A, both above 0.
     pub current: Option<(f64, f64)>,
-    /// Resistance, Ω, above 0.
+    /// Resistance of the output stage, Ω, above 0.
     pub resistance: Option<f64>,
-    /// The low-pass before the output stage.
+    /// Low-pass before the output stage.
     pub low: Option<Low>,
-    /// What it controls.
+    /// Controlled quantity: voltage or charge.
     pub control: Control,
 }
 
-/// A second-order low-pass.
+/// Second-order low-pass.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Low {
     /// Natural frequency, Hz, above 0.
@@ -31,32 +31,33 @@ pub struct Low {
     pub ratio: f64,
 }
 
-/// What a driver controls.
+/// Quantity that a driver controls.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Control {
-    /// The voltage: the stack follows with hysteresis and creep.
+    /// The driver controls the voltage. The stack follows with hysteresis and creep.
     #[default]
     Voltage,
-    /// The charge, which a stack follows nearly without: V here is charge over C.
+    /// The driver controls the charge. The stack follows with little hysteresis and creep. The voltage V then stands for charge over
+    /// C.
     Charge,
 }
 
-/// A driver that there cannot be.
+/// Reason why a driver specification is invalid.
 #[derive(Debug, Clone, Copy, PartialEq, Error)]
 pub enum SpecError {
-    /// A number that must be above zero.
+    /// A value that must be above 0 is not.
     #[error("{0} must be a finite number above 0")]
     NotPositive(&'static str),
-    /// A window from above to below.
-    #[error("the window must rise")]
+    /// The lower end of the window is not below the upper end.
+    #[error("the first end of the window must be below the second")]
     Window,
 }
 
 impl Spec {
-    /// Checks the numbers.
+    /// Checks that all values are within their ranges.
     ///
     /// # Errors
-    /// The first one that there cannot be.
+    /// Returns the first value that is out of its range.
     pub fn check(&self) -> Result<(), SpecError> {
         let (sink, source) = self.current.unwrap_or((1.0, 1.0));
         let low = self.low.unwrap_or(Low { frequency: 1.0, ratio: 1.0 });
@@ -80,36 +81,38 @@ impl Spec {
         }
     }
 
-    /// Largest rates of the stroke downwards and upwards, m/s: αI/C; infinite without a limit.
+    /// Returns the largest rates of the stroke downwards and upwards, m/s: αI/C; infinite without a limit.
     pub(crate) fn slew(&self) -> (f64, f64) {
         let of = |current: f64| self.gain * current / self.capacitance;
         self.current.map_or((f64::INFINITY, f64::INFINITY), |(sink, source)| (of(sink), of(source)))
     }
 
-    /// Window as a stroke, m.
+    /// Returns the voltage window as strokes, m.
     pub(crate) fn reach(&self) -> (f64, f64) {
         let (low, high) = self.window.unwrap_or((f64::NEG_INFINITY, f64::INFINITY));
         (self.gain * low, self.gain * high)
     }
 
-    /// RC, s.
+    /// Returns the time constant RC, s.
     pub(crate) fn time(&self) -> Option<f64> {
         self.resistance.map(|resistance| resistance * self.capacitance)
     }
 
-    /// The fastest at which what it makes swings or settles of itself, 1/s; 0 where it follows at once.
+    /// Returns the largest natural rate of the driver, 1/s: the maximum of ω and 1/RC; 0 for a driver without low-pass and
+    /// resistance.
     #[must_use]
     pub fn rate(&self) -> f64 {
         self.omega().max(self.time().map_or(0.0, f64::recip))
     }
 
-    /// ω of the low-pass, 1/s.
+    /// Returns the angular natural frequency ω of the low-pass, 1/s; 0 without a low-pass.
     pub(crate) fn omega(&self) -> f64 {
         self.low.map_or(0.0, |low| TAU * low.frequency)
     }
 
-    /// How many times the half range of what goes in may come out of the low-pass: ∫|h|dt of its impulse response, coth(πζ/2√(1-ζ²)),
-    /// which some input reaches; 1 where it does not swing.
+    /// Returns the largest possible ratio of the output range to the input range of the low-pass.
+    ///
+    /// The ratio is ∫|h|dt = coth(πζ/(2√(1-ζ²))), where h is the impulse response; 1 for ζ ≥ 1.
     pub(super) fn overshoot(&self) -> f64 {
         match self.low {
             Some(Low { ratio, .. }) if ratio < 1.0 => {

@@ -1,17 +1,17 @@
-//! What a driver's stages make of a moment: the window, the low-pass, the output stage.
+//! Signals of the driver's stages at one time: window, low-pass and output stage.
 
 use super::{Course, Driver, Output, Window};
 use crate::figures::{Last, last};
 use stickslip_drive::Sample;
 use stickslip_drive::component::{Moment, Standing};
 
-/// Rounding of a voltage against its range, and of a rate against its limit: below it nothing is decided.
+/// Relative rounding of a voltage against its range and of a rate against its limit. Smaller differences do not change the mode.
 pub(super) const ROUNDING: f64 = 1e-12;
 
 pub(super) type At<'a> = Moment<'a, [Sample]>;
 pub(super) type Now<'a> = Standing<'a, usize, Vec<f64>>;
 
-/// Places of the states.
+/// Indices of the states.
 pub(super) const VOLTAGE: usize = 0;
 pub(super) const WORK: usize = 1;
 pub(super) const LOST: usize = 2;
@@ -19,7 +19,7 @@ pub(super) const LOW: usize = 3;
 pub(super) const LOW_RATE: usize = 4;
 
 impl Driver {
-    /// What the output stage follows: the command in its window, through the low-pass.
+    /// Returns the signal that the output stage follows: the command, limited to the window and filtered by the low-pass.
     pub(super) fn followed(
         &self,
         (course, located): (Course, bool),
@@ -29,7 +29,8 @@ impl Driver {
         let (low, high) = self.spec.reach();
         let held = |value: f64| Sample { value, rate: 0.0, acceleration: 0.0 };
         let cut = match course.window {
-            // Between events nothing may show of an end of the window: a step that goes beyond one is cut there.
+            // With located events, the signal is smooth in each mode. Other steps may cross an end of the window and are limited
+            // there.
             Window::Inside if located => command,
             Window::Below if located => held(low),
             Window::Above if located => held(high),
@@ -43,13 +44,15 @@ impl Driver {
         Sample { value, rate, acceleration }
     }
 
-    /// Current, as a rate of the stroke, that the output stage wishes for without a limit, m/s, at this rate of the elongation.
+    /// Returns the current that the output stage would supply without current limits, as a stroke rate, m/s.
+    ///
+    /// `elongated` is the rate of the elongation, m/s.
     pub(super) fn wish(&self, followed: Sample, (states, elongated): (&[f64], f64)) -> f64 {
         let follows = || self.flow(followed.rate, elongated);
         self.spec.time().map_or_else(follows, |time| (followed.value - states[VOLTAGE]) / time)
     }
 
-    /// The voltage as a stroke, m, with its rate, m/s.
+    /// Returns the voltage as a stroke, m, and its rate, m/s, in a mode.
     pub(super) fn voltage(
         &self,
         course: Course,
@@ -58,7 +61,7 @@ impl Driver {
     ) -> Sample {
         let (down, up) = self.spec.slew();
         let own = states[VOLTAGE] + offset;
-        // How the elongation accelerates is what the scene is about to work out: nothing that a stack drives asks for it.
+        // The acceleration of the elongation is not known yet; bodies at the stack do not use it.
         let limited =
             |flow: f64| Sample { value: own, rate: self.charged(flow, elongated), acceleration: 0.0 };
         match (course.output, self.spec.time()) {
@@ -73,8 +76,9 @@ impl Driver {
         }
     }
 
-    /// The same by what limits it alone, whatever the law: where laws change a step late. It never goes faster than the
-    /// current allows, nor from where it was at the last step (in memory) to where that does not let it be at time t, s.
+    /// Returns the voltage for steps that do not locate events, with the current limits applied in every mode.
+    ///
+    /// The voltage at time `t` (s) cannot differ from that of the last step by more than the limits allow in the time between.
     pub(super) fn saturated(
         &self,
         followed: Sample,
@@ -117,7 +121,7 @@ impl Driver {
         memory.first().copied().unwrap_or(0.0)
     }
 
-    /// What is followed, and the voltage.
+    /// Returns the mode, the followed signal and the voltage.
     pub(super) fn now(&self, standing: Now<'_>, at: &At<'_>) -> (Course, Sample, Sample) {
         let course = Course::of(*standing.law);
         let followed = self.followed((course, at.located), at.inputs[0], at.states);
@@ -130,7 +134,7 @@ impl Driver {
         (course, followed, voltage)
     }
 
-    /// What the output stage does from here on, by where it stands and what it wishes.
+    /// Returns the mode of the output stage, from the voltage and the current without limits.
     pub(super) fn output(
         &self,
         followed: Sample,
@@ -154,12 +158,12 @@ impl Driver {
         }
     }
 
-    /// Current, A, that is a rate of the stroke.
+    /// Converts a current from a stroke rate, m/s, to A.
     pub(super) fn current(&self, flow: f64) -> f64 {
         self.spec.capacitance * flow / self.spec.gain
     }
 
-    /// Power of the source, W, at what the output stage follows and the current, both as strokes.
+    /// Returns the power of the source, W, from the followed signal and the current, both as strokes.
     pub(super) fn source(&self, followed: Sample, flow: f64) -> f64 {
         followed.value / self.spec.gain * self.current(flow)
     }

@@ -1,4 +1,4 @@
-//! The Prandtl–Ishlinskii law as a block.
+//! Block of the Prandtl–Ishlinskii model.
 
 use super::heading::{TURNED, heading};
 use super::plays::Plays;
@@ -8,11 +8,12 @@ use stickslip_drive::component::{
 };
 use stickslip_drive::{EventKind, Sample};
 
-/// y of [`Plays`] for a signal v.
+/// Prandtl–Ishlinskii hysteresis of a signal; see [`Plays`].
 ///
-/// A law of the block is a sense of the input and a number of plays taken up: 2k going up, 2k + 1 going down. In between y is a
-/// straight line in v, whose derivatives pass with its slope. It ends where the input takes up the next play, or turns. Memory
-/// is the list of pᵢ, exact from event to event; a jump of the input is its straight way in no time, and y jumps, too.
+/// A mode consists of the direction of the input and the number k of engaged plays. Its number is 2k for a rising and 2k + 1 for a
+/// falling input. In each mode the output is linear in the input. A mode ends when the input engages the next play or reverses. The
+/// memory contains the positions pᵢ of the plays, which are exact at every event. A jump of the input is treated as a monotone change
+/// in zero time.
 #[derive(Debug)]
 pub struct PlayBlock {
     plays: Plays,
@@ -20,28 +21,27 @@ pub struct PlayBlock {
     reading: Reading,
 }
 
-/// The guards: how far it is to the next play, and the input's rate.
+/// Indices of the event functions: distance to the next play, and rate of the input.
 const ENGAGES: usize = 0;
 const TURNS: usize = 1;
-/// Name of the event in which a play is taken up.
+/// Name of the event at which a play is engaged.
 const ENGAGED: &str = "play taken up";
-/// Part of the span, and of the input in units of 2⁻⁵², within which a play counts as taken up: what an input on the two sides of
-/// a corner differs by.
+/// Tolerances within which a play counts as engaged: a fraction of the span, and a multiple of the rounding of the input.
 const SLACK: f64 = 1e-13;
 const LAST_PLACES: f64 = 4.0;
 
 impl PlayBlock {
-    /// The law on a signal.
+    /// Creates the block for a signal.
     pub fn new(plays: Plays, reading: Reading) -> Self {
         Self { plays, inputs: [Input::Signal(reading.signal)], reading }
     }
 
-    /// The law.
+    /// Returns the Prandtl–Ishlinskii model.
     pub fn plays(&self) -> &Plays {
         &self.plays
     }
 
-    /// The law for an input at v that goes on in a sense.
+    /// Returns the mode for an input at v that moves in a direction `sense`.
     fn law_at(&self, memory: &[f64], (v, sense): (f64, f64)) -> usize {
         let slack = SLACK * self.reading.span + LAST_PLACES * f64::EPSILON * v.abs();
         Self::law(self.plays.taken_up(memory, (v, sense), slack), sense)
@@ -52,7 +52,7 @@ impl PlayBlock {
     }
 }
 
-/// How many plays a law has taken up, and its sense.
+/// Returns the number of engaged plays and the direction of a mode.
 fn split(law: usize) -> (usize, f64) {
     (law / 2, if law.is_multiple_of(2) { 1.0 } else { -1.0 })
 }
@@ -90,7 +90,7 @@ impl Component for PlayBlock {
     ) -> (EventKind, usize) {
         let ((taken_up, sense), v) = (split(*standing.law), at.inputs[0].value);
         if guard == ENGAGES {
-            // Steps that locate nothing may have passed several.
+            // A step that does not locate events may have engaged several plays.
             let next = (taken_up + 1).min(self.plays.count());
             let reached = self.law_at(standing.memory, (v, sense));
             return (EventKind::Own(ENGAGED), reached.max(Self::law(next, sense)));
@@ -98,7 +98,7 @@ impl Component for PlayBlock {
         (EventKind::Own(TURNED), self.law_at(standing.memory, (v, -sense)))
     }
 
-    /// Between two events the input does not turn.
+    /// Moves the plays to the input at the end of the step. Within a step the input does not reverse.
     fn commit(&self, memory: &mut Vec<f64>, passage: &Passage) -> Result<f64, Refused> {
         self.plays.drag(memory, passage.inputs[0].value);
         Ok(0.0)
@@ -146,7 +146,7 @@ impl Block for PlayBlock {
         self.plays.range(inputs[0])
     }
 
-    /// Where the input stands its sense stays: the output stands on whatever line leads through it.
+    /// Returns the mode after a corner or jump. An input at rest keeps its direction.
     fn turn(
         &self,
         standing: Standing<'_, usize, Vec<f64>>,
@@ -172,7 +172,7 @@ impl Block for PlayBlock {
         self.reading.turns
     }
 
-    /// Each play may be taken up on one way, thresholds as close together as they like.
+    /// Returns the number of plays plus one: after a reversal each play may be engaged.
     fn events_per_turn(&self) -> u32 {
         u32::try_from(1 + self.plays.count()).unwrap_or(u32::MAX)
     }

@@ -1,13 +1,13 @@
-//! The law of Bouc and Wen.
+//! Bouc–Wen model of hysteresis.
 
-/// y = v - z with z' = A v' - β|v'||z|ⁿ⁻¹z - γ v'|z|ⁿ: the stroke v that is asked for, less what z keeps back.
+/// Bouc–Wen hysteresis y = v - z with z' = A v' - β|v'||z|ⁿ⁻¹z - γ v'|z|ⁿ, where v is the input stroke.
 ///
-/// Given by numbers with a meaning: `slope` A is the part of a small motion that is kept back, `limit` z_m = (A/(β + γ))^{1/n}
-/// the most that ever is, `share` β/(β + γ), and n. With ζ = z/z_m the law is dζ/dv = (A/z_m)(1 - |ζ|ⁿ) where z grows and
-/// (A/z_m)(1 + (2 share - 1)|ζ|ⁿ) where it goes back. For n = 1 both are exponentials of v, whatever the time taken.
+/// The parameters are `slope` A, `limit` z_m = (A/(β + γ))^{1/n}, `share` β/(β + γ), and `exponent` n. A is the fraction of a small
+/// motion by which the output lags. z_m is the largest lag. With ζ = z/z_m the equation is dζ/dv = (A/z_m)(1 - |ζ|ⁿ) while |z| grows.
+/// While |z| decreases it is dζ/dv = (A/z_m)(1 + (2 share - 1)|ζ|ⁿ). For n = 1 both solutions are exponentials of v.
 ///
-/// Source: R. Bouc (1967); Y.-K. Wen, Journal of the Engineering Mechanics Division 102 (1976) 249; T. S. Low and W. Guo, Journal
-/// of Microelectromechanical Systems 4 (1995) 230, for piezo actuators.
+/// Source: R. Bouc (1967); Y.-K. Wen, Journal of the Engineering Mechanics Division 102 (1976) 249; T. S. Low and W. Guo, Journal of
+/// Microelectromechanical Systems 4 (1995) 230, for piezo actuators.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct BoucWen {
     slope: f64,
@@ -16,46 +16,48 @@ pub struct BoucWen {
     exponent: f64,
 }
 
-/// Why a law cannot be.
+/// Reason why Bouc–Wen parameters are invalid.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 pub enum BoucWenError {
-    /// z would not be bounded by z_m.
+    /// The share is out of range, so z would not be bounded by z_m.
     #[error("expected a share from 0.5 to 1, got {0}")]
     Share(f64),
-    /// Nothing is kept back, or the output turns before its input.
+    /// The slope is out of range: there would be no hysteresis, or the output would not follow the direction of the input.
     #[error("expected a slope above 0 and, with this share, below {most}, got {got}")]
     Slope {
-        /// 1/(2 share).
+        /// Upper limit 1/(2 share).
         most: f64,
-        /// As given.
+        /// Value given.
         got: f64,
     },
-    /// z_m.
+    /// The limit z_m is not above 0 or not finite.
     #[error("expected a limit above 0, got {0}")]
     Limit(f64),
-    /// n.
+    /// The exponent n is out of range.
     #[error("expected an exponent from 1 to {most}, got {got}", most = BoucWen::SHARPEST)]
     Exponent {
-        /// As given.
+        /// Value given.
         got: f64,
     },
 }
 
-/// Longest step of a jump, in units of z_m/A: with it the fourth order leaves about 1e-12 of z_m.
+/// Longest integration step in v, in units of z_m/A. The fourth-order method then has an error of about 1e-12 z_m.
 const STRIDE: f64 = 1.0 / 256.0;
-/// Steps to where z comes through 0; each about squares what is missed, at first less than a stride.
+/// Number of Newton steps that locate the zero crossing of z.
 const NEWTON: u32 = 4;
-/// Beyond so many units nothing of an old z is left.
+/// Change of v in units of z_m/A after which the initial z has no influence.
 const FORGOTTEN: f64 = 64.0;
 
 impl BoucWen {
-    /// Largest exponent: a law with a sharper knee has none that a step could follow.
+    /// Largest exponent n.
     pub const SHARPEST: f64 = 16.0;
 
+    /// Creates the model.
+    ///
     /// # Errors
     ///
-    /// Where a parameter is out of its range: share in [½, 1] (z stays within z_m), 0 < slope < 1/(2 share) (y goes the way of v),
-    /// limit above 0, exponent in [1, 16].
+    /// Fails if a parameter is out of its range: `share` in [½, 1], 0 < `slope` < 1/(2 share), `limit` above 0, `exponent` in [1,
+    /// 16].
     pub fn new(slope: f64, limit: f64, share: f64, exponent: f64) -> Result<Self, BoucWenError> {
         if !(0.5..=1.0).contains(&share) {
             return Err(BoucWenError::Share(share));
@@ -73,26 +75,27 @@ impl BoucWen {
         Ok(Self { slope, limit, share, exponent })
     }
 
-    /// z_m, in the unit of the input.
+    /// Returns the limit z_m, in the unit of the input.
     pub fn limit(&self) -> f64 {
         self.limit
     }
 
-    /// A.
+    /// Returns the slope A.
     pub fn slope(&self) -> f64 {
         self.slope
     }
 
-    /// n A/z_m, in 1 over the unit of the input: how fast z settles along the way of v as it comes to ±z_m.
+    /// Returns n A/z_m, the rate per unit of the input at which z approaches ±z_m.
     pub fn settling(&self) -> f64 {
         self.exponent * self.slope / self.limit
     }
 
-    /// dz/dv and its own derivative by z, on the branch on which v goes in a sense and z has a sign (`side`); it goes on
-    /// smoothly beyond z = 0.
+    /// Returns dz/dv and its derivative with respect to z on one branch.
+    ///
+    /// `sense` is the direction of v and `side` the sign of z. The branch continues smoothly beyond z = 0.
     pub fn gradient(&self, z: f64, sense: f64, side: f64) -> (f64, f64) {
         let (n, size) = (self.exponent, side * z / self.limit);
-        // Beyond 0 a whole power goes on as a polynomial, another one stays 0.
+        // Beyond z = 0, a power with a whole exponent continues as a polynomial; any other power is 0.
         let (power, slope) = if n.fract() == 0.0 {
             (size.powi(n as i32), n * size.powi(n as i32 - 1))
         } else {
@@ -102,15 +105,15 @@ impl BoucWen {
         (self.slope * (1.0 - held * power), -self.slope * held * slope * side / self.limit)
     }
 
-    /// z after v has gone straight on by `way`.
+    /// Returns z after a monotone change of v by `way`.
     ///
-    /// n = 1 by its exponentials, others by steps of the classical Runge–Kutta method.
+    /// For n = 1 the solution is exact. For other n the classical Runge–Kutta method integrates the equation.
     pub fn along(&self, z: f64, way: f64) -> f64 {
         if way == 0.0 {
             return z;
         }
         let (sense, left) = (way.signum(), way.abs() * self.slope / self.limit);
-        // Mirrored: v rises.
+        // A falling v is mirrored, so that v rises.
         let (mut x, mut left) = (sense * z / self.limit, left.min(FORGOTTEN));
         if self.exponent == 1.0 {
             return sense * self.limit * self.along_exponentials(x, left);
@@ -121,7 +124,7 @@ impl BoucWen {
             let (mut h, s) = (left.min(STRIDE), side(x));
             let mut next = runge_kutta(x, h, |x| rate(x, s));
             if s < 0.0 && next > 0.0 {
-                // To zero first: there the branch changes. Newton's steps, of a slope near 1.
+                // The branch changes at z = 0, which Newton's method locates.
                 for _ in 0..NEWTON {
                     h -= next / rate(next, s);
                     next = runge_kutta(x, h, |x| rate(x, s));
@@ -133,13 +136,13 @@ impl BoucWen {
         sense * self.limit * x
     }
 
-    /// The same for n = 1 in units of z_m, v rising by `left` of its own.
+    /// Returns the solution for n = 1, in units of z_m. `left` is the rise of v in units of z_m/A.
     fn along_exponentials(&self, x: f64, left: f64) -> f64 {
         let q = 2.0 * self.share - 1.0;
         if x >= 0.0 {
             return 1.0 - (1.0 - x) * math::exp(-left);
         }
-        // Going back: x' = 1 - qx up to 0.
+        // While |z| decreases, x' = 1 - qx up to x = 0.
         let to_zero = if q > 0.0 { math::ln_1p(-q * x) / q } else { -x };
         if left > to_zero {
             return 1.0 - math::exp(to_zero - left);
@@ -148,7 +151,7 @@ impl BoucWen {
     }
 }
 
-/// A step of length h of x' = f(x).
+/// Performs one Runge–Kutta step of length h for x' = f(x).
 fn runge_kutta(x: f64, h: f64, f: impl Fn(f64) -> f64) -> f64 {
     let a = f(x);
     let b = f(x + 0.5 * h * a);

@@ -1,4 +1,4 @@
-//! The law of Bouc and Wen as a block.
+//! Block of the Bouc–Wen model.
 
 use super::bouc_wen::BoucWen;
 use super::heading::{TURNED, heading};
@@ -8,11 +8,11 @@ use stickslip_drive::component::{
 };
 use stickslip_drive::{EventKind, Sample};
 
-/// y = v - z of [`BoucWen`] for a signal v, with z as its state.
+/// Bouc–Wen hysteresis y = v - z of a signal v, with z as the state; see [`BoucWen`].
 ///
-/// A law of the block is the sense of the input and the sign of z: 0 and 1 with z ≥ 0, 2 and 3 with z < 0, the odd ones going
-/// down. It ends where the input turns, and where z, going back, comes through 0. Memory is the input as it was committed last:
-/// from there a jump goes straight on.
+/// A mode is the direction of the input and the sign of z. Modes 0 and 1 have z ≥ 0, modes 2 and 3 have z < 0. In modes 1 and 3 the
+/// input falls. A mode ends when the input reverses, or when a decreasing |z| crosses 0. The memory contains the input at the last
+/// commit, from which a jump is integrated.
 #[derive(Debug)]
 pub struct BoucWenBlock {
     law: BoucWen,
@@ -20,26 +20,26 @@ pub struct BoucWenBlock {
     reading: Reading,
 }
 
-/// The guards: the input's rate, and z.
+/// Indices of the event functions: rate of the input, and z.
 const TURNS: usize = 0;
 const CROSSES: usize = 1;
-/// Part of z_m that counts as 0 where laws are chosen afresh.
+/// Fraction of z_m below which z counts as 0 when a mode is selected.
 const AROUND_ZERO: f64 = 1e-9;
 
 impl BoucWenBlock {
-    /// The law on a signal.
+    /// Creates the block for a signal.
     pub fn new(law: BoucWen, reading: Reading) -> Self {
         Self { law, inputs: [Input::Signal(reading.signal)], reading }
     }
 
-    /// dz/dv and its derivative by z.
+    /// Returns dz/dv and its derivative with respect to z, in a mode.
     fn gradient(&self, law: usize, at: &Moment<'_, [Sample]>) -> (f64, f64) {
         let (sense, side) = split(law);
         self.law.gradient(at.states[0], sense, side)
     }
 }
 
-/// The sense of the input in a law, and the sign of z.
+/// Returns the direction of the input and the sign of z, in a mode.
 fn split(law: usize) -> (f64, f64) {
     (if law.is_multiple_of(2) { 1.0 } else { -1.0 }, if law < 2 { 1.0 } else { -1.0 })
 }
@@ -60,7 +60,7 @@ impl Component for BoucWenBlock {
         States { scales: vec![self.law.limit()], integrals: 0 }
     }
 
-    /// Growing, z does not come through 0.
+    /// Returns the event functions of a mode. While |z| grows, z cannot cross 0.
     fn guards(&self, law: &usize) -> &[usize] {
         let (sense, side) = split(*law);
         if sense == side { &[TURNS] } else { &[TURNS, CROSSES] }
@@ -130,7 +130,7 @@ impl Block for BoucWenBlock {
         Sample {
             value: input.value - at.states[0],
             rate: passed * input.rate,
-            // d/dt of the gradient: bend ż, ż = gradient v̇.
+            // Time derivative of the gradient: bend·ż with ż = gradient·v̇.
             acceleration: passed * input.acceleration - bend * gradient * input.rate.powi(2),
         }
     }
@@ -147,7 +147,7 @@ impl Block for BoucWenBlock {
     ) -> Option<(EventKind, usize)> {
         let (old, z) = (split(*standing.law).0, at.states[0]);
         let sense = heading(&at.inputs[0], self.reading.swings).unwrap_or(old);
-        // About 0 it will have the sign of the way: there both branches are one but for a power of z.
+        // Near 0, z will have the sign of the motion. Both branches are equal there except for a power of z.
         let side = if z.abs() <= AROUND_ZERO * self.law.limit() { sense } else { z.signum() };
         let law = joined(sense, side);
         (law != *standing.law).then_some((EventKind::Own(TURNED), law))
@@ -169,13 +169,14 @@ impl Block for BoucWenBlock {
         self.reading.turns
     }
 
-    /// Near its end z settles at n (A/z_m)|v̇|: with the fastest that the input may go, as a sine of its span between its turns.
+    /// Returns the eigenvalue of z near its limit, n (A/z_m)|v̇|. The largest |v̇| is estimated from the span and the shortest time
+    /// between reversals.
     fn eigenvalues(&self, _: &[Sample]) -> Vec<(f64, f64)> {
         let fastest = 0.25 * self.reading.span * self.reading.turns;
         vec![(-self.law.settling() * fastest, 0.0)]
     }
 
-    /// The turn, and z coming back through 0.
+    /// Returns 2: the reversal of the input and the zero crossing of z.
     fn events_per_turn(&self) -> u32 {
         2
     }

@@ -1,14 +1,16 @@
-//! Which way an input goes.
+//! Direction of an input.
 
 use stickslip_drive::Sample;
 
-/// Name of the event in which an input turns.
+/// Name of the event at which an input reverses.
 pub(super) const TURNED: &str = "input turns";
-/// How far ahead an input is looked at whose rate may be rounding, in units of 1/rate.
-// At a reversal found to 1e-13 of a step its rate has the sign of a last bit; a billionth of a period later it has its own.
+/// Time of extrapolation of the input's rate, in units of 1/rate.
+// At a reversal located to 1e-13 of a step the sign of the rate is determined by rounding.
 const AHEAD: f64 = 1e-9;
 
-/// The sense in which an input goes on, 1 or -1; none where it stands. `rate` is the fastest at which it swings, 1/s.
+/// Returns the direction of the input's motion, 1 or -1; `None` for an input at rest.
+///
+/// `rate` is the largest angular frequency of the input, 1/s.
 pub(super) fn heading(input: &Sample, rate: f64) -> Option<f64> {
     let soon = input.rate + input.acceleration * (AHEAD / rate);
     (soon != 0.0).then(|| soon.signum())

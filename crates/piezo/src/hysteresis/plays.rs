@@ -1,78 +1,81 @@
-//! The Prandtl–Ishlinskii law: a sum of play operators.
+//! Prandtl–Ishlinskii model of hysteresis: a weighted sum of play operators.
 
-/// y = w₀ v + Σ wᵢ pᵢ, where pᵢ is dragged by the input v as by a pin in a slot of half width rᵢ: |v - pᵢ| ≤ rᵢ always, and pᵢ
-/// moves only when it must.
+/// Prandtl–Ishlinskii hysteresis y = w₀ v + Σ wᵢ pᵢ with play operators pᵢ of the input v.
 ///
-/// Between two reversals the input takes up one play after the other, in the order of their thresholds, and y is a straight
-/// line in v with the slope w₀ + Σ wᵢ over those taken up. The state is the list of pᵢ. Started from the untouched state
-/// pᵢ = 0, y follows the initial curve φ(v) = w₀ v + Σ wᵢ max(v - rᵢ, 0); from a reversal at v₁ on, it goes by 2φ(|v - v₁|/2)
-/// (Masing). Equal minor loops are equal wherever they lie (congruency), and a loop that is left is forgotten (wiping out).
+/// Each play satisfies |v - pᵢ| ≤ rᵢ, where rᵢ is its threshold. A play moves only when the input forces it to; the play is then
+/// engaged. Between two reversals the input engages one play after the other, in the order of their thresholds. The slope of y is
+/// w₀ + Σ wᵢ over the engaged plays.
 ///
-/// Thresholds have the unit of the input, weights that of the output over it.
+/// Properties:
 ///
-/// Source: A. Visintin, *Differential Models of Hysteresis* (1994), chapter III; K. Kuhnen, European Journal of Control 9 (2003)
-/// 407, for piezo stacks and the inverse.
+/// * Initial curve from pᵢ = 0: φ(v) = w₀ v + Σ wᵢ max(v - rᵢ, 0).
+/// * Masing's rule: from a reversal at v₁, y changes by 2φ(|v - v₁|/2).
+/// * Congruency: minor loops of equal input range have equal shape.
+/// * Wiping-out: a closed minor loop is erased from the memory.
+///
+/// Thresholds have the unit of the input. Weights have the unit of the output over that of the input.
+///
+/// Source: A. Visintin, *Differential Models of Hysteresis* (1994), chapter III; K. Kuhnen, European Journal of Control 9 (2003) 407,
+/// for piezo stacks and the inverse.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Plays {
-    /// r, ascending, all above 0.
+    /// Thresholds rᵢ, ascending and above 0.
     thresholds: Vec<f64>,
     weights: Vec<f64>,
-    /// Slope with the first i plays taken up: w₀ + w₁ + … + wᵢ.
+    /// Slopes with the first i plays engaged: w₀ + w₁ + … + wᵢ.
     slopes: Vec<f64>,
-    /// w₁r₁ + … + wᵢrᵢ.
+    /// Sums w₁r₁ + … + wᵢrᵢ.
     backs: Vec<f64>,
 }
 
-/// Why a law cannot be.
+/// Reason why parameters of the Prandtl–Ishlinskii model are invalid.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum PlaysError {
-    /// As many thresholds as weights.
+    /// The numbers of thresholds and weights differ.
     #[error("expected a weight for each of {thresholds} thresholds, got {weights}")]
     Lengths {
-        /// Of them.
+        /// Number of thresholds.
         thresholds: usize,
-        /// Of those.
+        /// Number of weights.
         weights: usize,
     },
-    /// Thresholds ascend from above 0.
-    #[error("expected thresholds that ascend from above 0, got {value} at place {place}")]
+    /// The thresholds do not ascend from above 0.
+    #[error("expected ascending thresholds above 0, got {value} at index {place}")]
     Threshold {
-        /// Counted from 0.
+        /// Index of the threshold, from 0.
         place: usize,
-        /// As given.
+        /// Value of the threshold.
         value: f64,
     },
-    /// A slope with some plays taken up is not above 0.
-    #[error(
-        "expected weights whose sums, one after the other, stay above 0, got {slope} with the first {taken_up} plays"
-    )]
+    /// The slope with some number of engaged plays is not above 0.
+    #[error("expected weights whose partial sums are above 0, got {slope} for the first {taken_up} plays")]
     Slope {
-        /// How many plays are taken up.
+        /// Number of engaged plays.
         taken_up: usize,
-        /// w₀ + w₁ + …
+        /// Slope w₀ + w₁ + …
         slope: f64,
     },
-    /// A loop that no rule makes.
-    #[error("expected a loop wider than 0 and narrower than half of the stroke, got {0} of it")]
+    /// The width of the loop is not between 0 and half of the stroke.
+    #[error("expected a relative width of the loop above 0 and below 0.5, got {0}")]
     Width(f64),
-    /// Operators out of range.
+    /// The number of operators is out of range.
     #[error("expected 1 to {most} operators, got {0}", most = Plays::MOST)]
     Count(usize),
-    /// A stroke that is none.
+    /// The stroke is not above 0 or not finite.
     #[error("expected a stroke above 0, got {0}")]
     Stroke(f64),
 }
 
 impl Plays {
-    /// Most operators: each is an event on each way.
+    /// Largest number of play operators.
     pub const MOST: usize = 64;
 
-    /// With the weight w₀ of the input itself, and (rᵢ, wᵢ).
+    /// Creates the model from the weight w₀ of the input and the pairs (rᵢ, wᵢ).
     ///
     /// # Errors
     ///
-    /// Where there are more than [`Plays::MOST`] thresholds or these do not ascend from above 0, or where the slope is not above
-    /// 0 with any number of plays taken up: the law would not be monotone, and have no inverse.
+    /// Fails if there are more than [`Plays::MOST`] thresholds or they do not ascend from above 0. Fails also if the slope is not
+    /// above 0 for some number of engaged plays, because the model would have no inverse.
     pub fn new(direct: f64, thresholds: Vec<f64>, weights: Vec<f64>) -> Result<Self, PlaysError> {
         if thresholds.len() != weights.len() {
             return Err(PlaysError::Lengths { thresholds: thresholds.len(), weights: weights.len() });
@@ -98,23 +101,26 @@ impl Plays {
         }
     }
 
-    /// From one number: `width` is the greatest width of the loop, between two ends a nominal `stroke` S apart, over that stroke,
-    /// which the law keeps: y goes up and down by S where v does.
+    /// Creates the model from the width of its loop.
     ///
-    /// n plays of equal weight w lie in the middles of n equal parts of (0, R), R = S/2: a constant density, by which the width
-    /// of a smaller loop shrinks with the square of its amplitude (Rayleigh). A loop between ends X apart is 2φ(X/2) - 4φ(X/4)
-    /// wide in its middle, where it is widest. From 2φ(R) = S and 1 - 2φ(R/2)/φ(R) = width, with a = Σ(1 - rᵢ/R) = n/2 and
-    /// b = Σ max(½ - rᵢ/R, 0),
+    /// `width` is the greatest width of the loop whose input range is the nominal `stroke` S, relative to S. The model keeps the
+    /// stroke: y changes by S if v changes by S.
+    ///
+    /// The `count` n plays have equal weights w and thresholds in the middles of n equal parts of (0, R), R = S/2. The width of a
+    /// smaller loop is about proportional to the square of its amplitude (Rayleigh's law). A loop of input range X has the width
+    /// 2φ(X/2) - 4φ(X/4) in its middle, where it is widest. The conditions are 2φ(R) = S and 1 - 2φ(R/2)/φ(R) = width. With a = Σ(1 -
+    /// rᵢ/R) = n/2 and b = Σ max(½ - rᵢ/R, 0) they give
     ///
     /// ```text
     /// w = width/(a - 2b),  w₀ = 1 - w a;   n even: b = n/8, w = 4 width/n, w₀ = 1 - 2 width
     /// ```
     ///
-    /// Beyond the nominal stroke all plays are taken up, and the slope stays at w₀ + nw.
+    /// Beyond the nominal stroke all plays are engaged, and the slope is w₀ + nw.
     ///
     /// # Errors
     ///
-    /// Where the width is not above 0 and w₀ above 0 (just below ½), or the stroke or the count cannot be.
+    /// Fails if the width is not above 0 or not below about ½, where w₀ becomes 0. Fails also if the stroke or the count is out of
+    /// range.
     pub fn of_loop(width: f64, stroke: f64, count: usize) -> Result<Self, PlaysError> {
         if !(1..=Self::MOST).contains(&count) {
             return Err(PlaysError::Count(count));
@@ -134,9 +140,9 @@ impl Plays {
         Self::new(direct, (0..count).map(|i| 0.5 * stroke * place(i)).collect(), vec![weight; count])
     }
 
-    /// The exact inverse, which is of the same kind: thresholds φ(rᵢ), slopes 1/(w₀ + … + wᵢ).
+    /// Returns the exact inverse, a model of the same kind with thresholds φ(rᵢ) and slopes 1/(w₀ + … + wᵢ).
     ///
-    /// Led through the inverse and then through the law, every input comes out as it went in, if both start alike.
+    /// Inverse and model in series return the input, if both start from the same state.
     #[must_use]
     pub fn inverse(&self) -> Self {
         let thresholds: Vec<f64> = self.thresholds.iter().map(|r| self.initial(*r)).collect();
@@ -149,72 +155,73 @@ impl Plays {
         Self { thresholds, weights, slopes, backs }
     }
 
-    /// Number of plays.
+    /// Returns the number of plays.
     pub fn count(&self) -> usize {
         self.thresholds.len()
     }
 
-    /// rᵢ.
+    /// Returns the thresholds rᵢ.
     pub fn thresholds(&self) -> &[f64] {
         &self.thresholds
     }
 
-    /// wᵢ.
+    /// Returns the weights wᵢ.
     pub fn weights(&self) -> &[f64] {
         &self.weights
     }
 
-    /// w₀.
+    /// Returns the weight w₀ of the input.
     pub fn direct(&self) -> f64 {
         self.slopes[0]
     }
 
-    /// φ(v) for v ≥ 0.
+    /// Returns the initial curve φ(v) for v ≥ 0.
     pub fn initial(&self, v: f64) -> f64 {
         let taken_up = self.thresholds.partition_point(|r| *r < v);
         self.slopes[taken_up] * v - self.backs[taken_up]
     }
 
-    /// Area of the loop between two ends of the input that lie `stroke` X apart: Σ 2wᵢrᵢ(X - 2rᵢ) over the plays that it takes
-    /// up; unit of the output times that of the input.
+    /// Returns the area of the loop with the input range `stroke` X: Σ 2wᵢrᵢ(X - 2rᵢ) over the plays with 2rᵢ < X.
+    ///
+    /// The unit is that of the output times that of the input.
     pub fn area(&self, stroke: f64) -> f64 {
         let taken_up = self.thresholds.iter().zip(&self.weights).filter(|(r, _)| 2.0 * **r < stroke);
         taken_up.map(|(r, w)| 2.0 * w * r * (stroke - 2.0 * r)).sum()
     }
 
-    /// Greatest width of that loop, in the unit of the output: 2φ(X/2) - 4φ(X/4), in its middle.
+    /// Returns the greatest width of the loop with the input range `stroke` X: 2φ(X/2) - 4φ(X/4), in the unit of the output.
     pub fn width(&self, stroke: f64) -> f64 {
         2.0 * self.initial(0.5 * stroke) - 4.0 * self.initial(0.25 * stroke)
     }
 
-    /// Stroke of the output between two such ends: 2φ(X/2).
+    /// Returns the output range of the loop with the input range `stroke` X: 2φ(X/2).
     pub fn stroke(&self, stroke: f64) -> f64 {
         2.0 * self.initial(0.5 * stroke)
     }
 
-    /// The pᵢ after the input has gone straight from 0 to v.
+    /// Returns the positions pᵢ after a monotone change of the input from 0 to v.
     pub fn start(&self, v: f64) -> Vec<f64> {
         let mut places = vec![0.0; self.count()];
         self.drag(&mut places, v);
         places
     }
 
-    /// Drags the pᵢ to where the input, on a way without a turn, has come.
+    /// Moves the positions pᵢ after a monotone change of the input to v.
     pub fn drag(&self, places: &mut [f64], v: f64) {
         for (place, r) in places.iter_mut().zip(&self.thresholds) {
             *place = place.clamp(v - r, v + r);
         }
     }
 
-    /// How many plays an input at v has taken up that goes on in a sense, 1 or -1.
+    /// Returns the number of plays that are engaged by an input at v moving in direction `sense`, 1 or -1.
     ///
-    /// pᵢ and pᵢ₊₁ never differ by more than their thresholds: those taken up are the first so many. Within `slack` of its end a
-    /// play counts as taken up.
+    /// Neighbouring plays differ by at most the difference of their thresholds, so the engaged plays are the first ones. A play
+    /// within `slack` of its end counts as engaged.
     pub fn taken_up(&self, places: &[f64], (v, sense): (f64, f64), slack: f64) -> usize {
         self.thresholds.iter().zip(places).take_while(|(r, p)| sense * (v - *p) >= *r - slack).count()
     }
 
-    /// How far the input at v still goes in a sense before it has taken up play `i`; ∞ where there is none.
+    /// Returns the distance from v to the value that engages play `i` in direction `sense`; ∞ if there is no such play.
     pub fn left(&self, places: &[f64], (v, sense): (f64, f64), i: usize) -> f64 {
         match (self.thresholds.get(i), places.get(i)) {
             (Some(r), Some(p)) => r - sense * (v - p),
@@ -222,16 +229,18 @@ impl Plays {
         }
     }
 
-    /// Output and slope at v with the first `taken_up` plays dragged in a sense and the others where they are.
+    /// Returns output and slope at v, with the first `taken_up` plays engaged in direction `sense` and the others at rest.
     pub fn output(&self, places: &[f64], (v, sense): (f64, f64), taken_up: usize) -> (f64, f64) {
         let slope = self.slopes[taken_up];
         let held: f64 = self.weights[taken_up..].iter().zip(&places[taken_up..]).map(|(w, p)| w * p).sum();
         (slope * v - sense * self.backs[taken_up] + held, slope)
     }
 
-    /// Smallest and largest output for inputs in a range that holds 0, from the start on. The end that is farther from 0 is reached
-    /// on the initial curve, whatever was before; the other one so, or from there back by 2φ(½(high - low)), which leads
-    /// further where weights are negative, as those of an inverse.
+    /// Returns the smallest and largest output for inputs within a range that contains 0.
+    ///
+    /// The end of the range with the larger magnitude is reached on the initial curve. The other end is reached on the initial curve
+    /// or from the first end by a change of 2φ(½(high - low)). For negative weights, as of an inverse, the latter may exceed the
+    /// former.
     pub fn range(&self, (low, high): (f64, f64)) -> (f64, f64) {
         let (down, up) = (-self.initial((-low).max(0.0)), self.initial(high.max(0.0)));
         let way = self.stroke(high - low);

@@ -1,4 +1,4 @@
-//! Blocks of the piezo side in runs, against evaluations of their laws that share no code with them.
+//! Tests of the piezo blocks in simulations, against independent evaluations of their laws.
 
 mod bouc_wen;
 mod creep;

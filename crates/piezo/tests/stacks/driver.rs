@@ -1,5 +1,4 @@
-//! The driver against closed forms: what its voltage does after steps and ramps, when it enters and leaves its limits, and whether its
-//! books close.
+//! Tests of the driver against closed forms: step and ramp responses, events at its limits, and energy balance.
 
 mod books;
 mod limits;

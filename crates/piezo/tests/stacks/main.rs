@@ -1,6 +1,6 @@
-//! Piezo stacks in runs: the blocks of hysteresis and creep, and the driver before them.
+//! Tests of piezo stacks in simulations: hysteresis, creep and driver.
 //!
-//! One binary, linked once.
+//! All tests are one binary, which is linked once.
 
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 

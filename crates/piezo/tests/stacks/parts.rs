@@ -1,4 +1,4 @@
-//! A foot that follows the last of a chain of blocks and carries a slider, and its rows.
+//! Common model of the tests: a foot follows the last of a chain of blocks and carries a slider.
 
 use stickslip_contact::{Interface, Material, Pair, Profile};
 use stickslip_drive::component::SharedBlock;
@@ -13,18 +13,18 @@ pub(crate) fn named<T>(name: &str, part: T) -> Named<T> {
     Named { name: name.to_owned(), part }
 }
 
-/// A periodic waveform of a shape.
+/// Periodic waveform of a shape.
 pub(crate) fn every(shape: Shape) -> Waveform {
     Waveform::new(shape, Timing::every(PERIOD)).unwrap()
 }
 
-/// A table of (ms, units), straight in between; two values at one time are a jump.
+/// Linear table of (ms, units). Two values at the same time are a jump.
 pub(crate) fn table(points: &[(f64, f64)], unit: f64) -> Waveform {
     let points = points.iter().map(|(t, v)| (1e-3 * t, unit * v)).collect();
     Waveform::new(Shape::Table { points }, Timing::every(1.0)).unwrap()
 }
 
-/// The foot follows the last signal.
+/// Model in which the foot follows the last signal.
 pub(crate) fn scene(wave: Waveform, blocks: Vec<Named<SharedBlock>>) -> Scene {
     let steel = Material::new(210e9, 0.3).unwrap();
     let pair = Pair::new(steel, steel);

@@ -1,26 +1,26 @@
-//! Where the bodies of a scene stand.
+//! Positions of the bodies of a model in the drawing.
 
 use super::outline::{Draft, Rect};
 use crate::thin::Point;
 
-/// Reference points, outlines and contact points, px, y up.
+/// Positions of bodies and contacts, px, y up.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub(super) struct Arrangement {
     pub(super) references: Vec<Point>,
     pub(super) outlines: Vec<Rect>,
     pub(super) contacts: Vec<Point>,
-    /// The group of bodies that hang together which a body belongs to.
+    /// Index of the group of connected bodies for each body.
     pub(super) groups: Vec<usize>,
 }
 
-/// Between bodies that hang together by a spring, and between those that do not.
+/// Distance between bodies connected by a spring, and between groups of bodies.
 pub(super) const LINK: f64 = 150.0;
 const APART: f64 = 150.0;
-/// Between a body that had to give way and the one it gave way to.
+/// Distance between a body and the one that it would overlap.
 const RIGHT: f64 = 60.0;
 
-/// Arranges a scene: bodies that touch so that their contact points meet, bodies on a spring or stack a little apart,
-/// groups that do not hang together side by side, all with their lowest contact at the height of the ground.
+/// Arranges the bodies. Touching bodies have common contact points. Bodies connected by a spring or stack are a fixed
+/// distance apart. Groups of connected bodies stand side by side, with their lowest contact at ground level.
 pub(super) fn arrange(draft: &Draft<'_, '_>) -> Arrangement {
     let count = draft.scene.bodies.len();
     let mut plan = Plan { draft, places: vec![None; count] };
@@ -50,7 +50,7 @@ pub(super) fn arrange(draft: &Draft<'_, '_>) -> Arrangement {
     finished(draft, references, groups)
 }
 
-/// Outlines and contact points of bodies in their places.
+/// Outlines and contact points of bodies at their positions.
 fn finished(draft: &Draft<'_, '_>, references: Vec<Point>, groups: Vec<usize>) -> Arrangement {
     let of = |place: usize| {
         let sides = draft.scene.contacts[place].between;
@@ -60,7 +60,7 @@ fn finished(draft: &Draft<'_, '_>, references: Vec<Point>, groups: Vec<usize>) -
             let (given_x, given_z) = draft.is_given(body);
             let own = draft.contact_point(body, place, side);
             let own = (own.0 + references[body].0, own.1 + references[body].1);
-            // The second side where neither knows better.
+            // If both or neither body prescribes the coordinate, the second side counts.
             let weight = |given: bool| if given { 2 } else { 1 };
             if weight(given_x) >= rank.0 {
                 (at.0, rank.0) = (own.0, weight(given_x));
@@ -83,7 +83,7 @@ fn finished(draft: &Draft<'_, '_>, references: Vec<Point>, groups: Vec<usize>) -
     Arrangement { references, outlines, contacts, groups }
 }
 
-/// Bodies that hang together by contacts and links, not by the ground.
+/// Groups of bodies that are connected by contacts and links, not by the ground.
 fn members(draft: &Draft<'_, '_>) -> Vec<Vec<usize>> {
     let mut group: Vec<usize> = (0..draft.scene.bodies.len()).collect();
     let contacts = draft.scene.contacts.iter().map(|contact| contact.between);
@@ -97,7 +97,7 @@ fn members(draft: &Draft<'_, '_>) -> Vec<Vec<usize>> {
     (0..group.len()).map(of).filter(|members| !members.is_empty()).collect()
 }
 
-/// Bodies on their way to their places.
+/// Positions during the arrangement; `None` for bodies not placed yet.
 struct Plan<'d, 's, 'a> {
     draft: &'d Draft<'s, 'a>,
     places: Vec<Option<Point>>,
@@ -114,7 +114,7 @@ impl Plan<'_, '_, '_> {
         self.draft.outline(body, &own)
     }
 
-    /// The placed and the new one of two bodies, with their sides.
+    /// Of two bodies of which one is placed: the placed and the new one, each with its side.
     fn pair(&self, sides: [Option<usize>; 2]) -> Option<[(usize, usize); 2]> {
         let [a, b] = [sides[0]?, sides[1]?];
         match (self.places[a].is_some(), self.places[b].is_some()) {
@@ -124,7 +124,7 @@ impl Plan<'_, '_, '_> {
         }
     }
 
-    /// The next body that touches one with a place, and its own.
+    /// Next body that touches a placed one, and its position.
     fn next_touching(&self) -> Option<(usize, Point)> {
         let scene = self.draft.scene;
         let sides = |place: usize| scene.contacts[place].between.map(|side| side.body);
@@ -133,7 +133,7 @@ impl Plan<'_, '_, '_> {
         let (x, z) = self.places[old]?;
         let point = |body: usize, side: usize| self.draft.contact_point(body, place, side);
         let z = z + point(old, below).1 - point(new, above).1;
-        // All contacts of the two are centred on each other.
+        // All contacts of the two bodies are centred on each other.
         let shared: Vec<usize> =
             (0..scene.contacts.len()).filter(|&other| sides(other) == sides(place)).collect();
         let given = (self.draft.is_given(old).0, self.draft.is_given(new).0);
@@ -151,7 +151,7 @@ impl Plan<'_, '_, '_> {
         Some((new, (x + way, z)))
     }
 
-    /// The next body on a spring or stack of one with a place, and its own.
+    /// Next body linked to a placed one, and its position.
     fn next_linked(&self) -> Option<(usize, Point)> {
         let (unit, scene) = (self.draft.unit, self.draft.scene);
         let (link, [(old, from), (new, to)]) = scene
@@ -163,7 +163,7 @@ impl Plan<'_, '_, '_> {
         let [start, end] = [from, to].map(|side| self.draft.px(link.between[side].at));
         let (x, z) = (at.0 + start.0 - end.0, at.1 + start.1 - end.1);
         let gap = LINK * unit;
-        // The second side lies further along the axis.
+        // The second side is further along the axis.
         if link.is_upright {
             let z = if to == 1 { outline.top + gap - own.bottom } else { outline.bottom - gap - own.top };
             return Some((new, (x + self.way_out(new, (x, z), None), z)));
@@ -178,14 +178,14 @@ impl Plan<'_, '_, '_> {
         Some((new, (x, z)))
     }
 
-    /// Outlines of the bodies with places, but one, at the height of a rectangle.
+    /// Outlines of the placed bodies except `but` that overlap a rectangle in height.
     fn others(&self, at: Rect, but: Option<usize>) -> impl Iterator<Item = Rect> + '_ {
         let placed = self.places.iter().enumerate().filter(move |(body, _)| Some(*body) != but);
         let placed = placed.filter_map(|(body, place)| Some(self.outline(body).moved((*place)?)));
         placed.filter(move |other| other.bottom < at.top && other.top > at.bottom)
     }
 
-    /// How far to the right a body has to go to be clear of others than the one it touches.
+    /// Shift to the right that avoids overlap with bodies other than the one it touches.
     fn way_out(&self, body: usize, at: Point, but: Option<usize>) -> f64 {
         let own = self.outline(body).moved(at);
         let in_the_way = |other: &Rect| other.left < own.right && other.right > own.left;
@@ -196,7 +196,7 @@ impl Plan<'_, '_, '_> {
         end + RIGHT * self.draft.unit - own.left
     }
 
-    /// Height of a body on the ground that others of its group stand on.
+    /// Height of a body on the ground, if another body of its group is on the ground.
     fn level(&self, body: usize) -> Option<f64> {
         let on_ground = |(place, side): &(usize, usize)| {
             *side == 1 && self.draft.scene.contacts[*place].between[0].body.is_none()
@@ -211,7 +211,8 @@ impl Plan<'_, '_, '_> {
         Some(ground - own)
     }
 
-    /// The lowest contact of a group with the ground, or else any, or else its first body.
+    /// Ground level of a group: its lowest contact with the ground, otherwise its lowest contact, otherwise its first
+    /// body.
     fn floor(&self, members: &[usize]) -> f64 {
         let (mut ground, mut any) = (f64::MAX, f64::MAX);
         for &body in members {

@@ -1,4 +1,4 @@
-//! What is fastened to bodies: springs, stacks and forces.
+//! Drawing of links and loads: springs, stacks, forces and moments.
 
 use super::arrange::{Arrangement, LINK};
 use super::draw::DIGITS;
@@ -10,16 +10,16 @@ use crate::scale::quantity;
 use crate::theme::{Ink, Style};
 use crate::thin::Point;
 
-/// Length of an arrow of a force, radius of one of a moment.
+/// Length of a force arrow, and radius of a moment arrow.
 const FORCE_ARROW: f64 = 85.0;
 const MOMENT: f64 = 62.0;
-/// Between two things that are fastened to one face, and between a spring and the arrow of its preload.
+/// Distance between two symbols on one face, and between a spring and the arrow of its preload.
 const BETWEEN: f64 = 48.0;
 const BESIDE: f64 = 36.0;
-/// A link between bodies nearer to each other than this goes around them.
+/// Minimum gap between bodies for a straight link; otherwise the link goes around them.
 const NEAR: f64 = 40.0;
 
-/// A face of an outline.
+/// Face of a body's outline.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Face {
     Left,
@@ -28,17 +28,17 @@ enum Face {
     Top,
 }
 
-/// Fastens things to bodies in their places.
+/// Attaches links and loads to placed bodies.
 pub(super) struct Attacher<'d, 's, 'a> {
     draft: &'d Draft<'s, 'a>,
     plan: &'d Arrangement,
     sheet: &'d mut Sheet,
-    /// What is taken of the faces: body, face, place along it.
+    /// Occupied positions on faces: body, face, position along it.
     taken: Vec<(usize, Face, f64)>,
 }
 
 impl Face {
-    /// The face at the end of the x or z axis, or at its beginning.
+    /// Face in the positive or negative direction of the x or z axis.
     fn of(is_upright: bool, is_end: bool) -> Self {
         match (is_upright, is_end) {
             (false, false) => Self::Left,
@@ -48,7 +48,7 @@ impl Face {
         }
     }
 
-    /// The point of a face beside a place along it, and so far off it.
+    /// Point at a position along the face and a distance `off` it.
     fn point(self, rect: Rect, along: f64, off: f64) -> Point {
         let (x, y) = (along.max(rect.left).min(rect.right), along.max(rect.bottom).min(rect.top));
         match self {
@@ -59,12 +59,12 @@ impl Face {
         }
     }
 
-    /// The place of a point along it.
+    /// Coordinate of a point along the face.
     fn along(self, (x, y): Point) -> f64 {
         if matches!(self, Self::Left | Self::Right) { y } else { x }
     }
 
-    /// Whether it faces the end of its axis.
+    /// Whether the face is in the positive direction of its axis.
     fn is_end(self) -> bool {
         matches!(self, Self::Right | Self::Top)
     }
@@ -75,7 +75,7 @@ impl<'d, 's, 'a> Attacher<'d, 's, 'a> {
         Self { draft, plan, sheet, taken: Vec::new() }
     }
 
-    /// A spring, damper or stack with its preload.
+    /// Draws a spring, damper or stack with its preload.
     pub(super) fn link(&mut self, link: &SceneLink<'_>) {
         let [first, second] = link.between.map(|side| side.body);
         match (first, second) {
@@ -86,7 +86,7 @@ impl<'d, 's, 'a> Attacher<'d, 's, 'a> {
         }
     }
 
-    /// What presses a contact, if that is not the motion of its bodies or fixed.
+    /// Draws a normal force, or an indentation or radius that follows a waveform.
     pub(super) fn press(&mut self, contact: &SceneContact<'_>, at: Point) {
         let (amount, symbol, unit) = match contact.press {
             Press::Force(force) => (force, "F", "N"),
@@ -107,7 +107,7 @@ impl<'d, 's, 'a> Attacher<'d, 's, 'a> {
         self.force(body, at, face, Push::of(amount, true), &words);
     }
 
-    /// Forces and moment of a load.
+    /// Draws forces and moment of a load.
     pub(super) fn load(&mut self, load: &SceneLoad<'_>) {
         let (x, y) = self.draft.px(load.at);
         let (from, unit) = (self.plan.references[load.body], self.draft.unit);
@@ -117,7 +117,8 @@ impl<'d, 's, 'a> Attacher<'d, 's, 'a> {
                 continue;
             }
             let is_forward = !matches!(force, Amount::Constant(value) if value < 0.0);
-            // Upright ones on top; the others pull where nothing else is fastened.
+            // Vertical forces are drawn on top; horizontal ones pull at a face without other symbols, if there is
+            // one.
             let mut face = Face::of(is_upright, is_forward || is_upright);
             let other = Face::of(is_upright, !is_forward);
             if !is_upright && !self.is_free(load.body, face, at) && self.is_free(load.body, other, at) {
@@ -137,7 +138,7 @@ impl<'d, 's, 'a> Attacher<'d, 's, 'a> {
         }
     }
 
-    /// An arrow on a face, tied to the point where the force acts: it may be moved along its line of action.
+    /// Draws an arrow on a face, with a line to the point of application. The arrow may be shifted.
     fn force(&mut self, body: usize, at: Point, face: Face, push: Push, words: &str) {
         let (rect, unit) = (self.plan.outlines[body], self.draft.unit);
         let along = self.take(body, face, face.along(at));
@@ -151,12 +152,12 @@ impl<'d, 's, 'a> Attacher<'d, 's, 'a> {
         self.sheet.note(&[words.to_owned()], about, None);
     }
 
-    /// A link to the ground, in a wall of its own.
+    /// Draws a link to the ground, with a wall symbol.
     fn grounded(&mut self, link: &SceneLink<'_>, body: usize, side: usize) {
         let (rect, unit) = (self.plan.outlines[body], self.draft.unit);
         let at = self.point(link, body, side);
         let touches = |wanted: usize| self.draft.contacts_of(body).any(|(_, side)| side == wanted);
-        // The ground lies on the side that the order says, but not where the body rests on something.
+        // The order of the ends gives the side of the ground, except where the body rests on something.
         let mut is_end = side == 0;
         if link.is_upright && touches(usize::from(!is_end)) && !touches(usize::from(is_end)) {
             is_end = !is_end;
@@ -175,7 +176,7 @@ impl<'d, 's, 'a> Attacher<'d, 's, 'a> {
         self.preload(body, (face, along), preload);
     }
 
-    /// A link between two bodies: straight where there is room, else around their ends.
+    /// Draws a link between two bodies: straight if there is room, otherwise around their ends.
     fn between(&mut self, link: &SceneLink<'_>, [a, b]: [usize; 2]) {
         let unit = self.draft.unit;
         let [from, to] = [self.plan.outlines[a], self.plan.outlines[b]];
@@ -202,7 +203,7 @@ impl<'d, 's, 'a> Attacher<'d, 's, 'a> {
         self.preload(b, (face_b, along[1]), link.preload);
     }
 
-    /// The symbol of a link, and the way on from its end.
+    /// Draws the symbol of a link, and the line `onwards` from its end.
     fn symbol(&mut self, link: &SceneLink<'_>, (from, to): (Point, Point), onwards: &[Point]) {
         let unit = self.draft.unit;
         let (lines, words): (Lines, String) = match link.kind {
@@ -222,7 +223,7 @@ impl<'d, 's, 'a> Attacher<'d, 's, 'a> {
         self.sheet.note(&[link.name.to_owned(), words], about, None);
     }
 
-    /// The arrow of a preload on a body, beside its spring on a face.
+    /// Draws the arrow of a preload next to its spring.
     fn preload(&mut self, body: usize, (face, along): (Face, f64), force: f64) {
         if force == 0.0 {
             return;
@@ -243,7 +244,7 @@ impl<'d, 's, 'a> Attacher<'d, 's, 'a> {
         (from.0 + x, from.1 + y)
     }
 
-    /// From a point inside a body to a face; bodies that say nothing of their points have no such lines of action.
+    /// Draws the line from a point of a body to a face; only for bodies with given points.
     fn tie(&mut self, body: usize, at: Point, face: Face) {
         if self.draft.is_given(body) == (false, false) {
             return;
@@ -260,7 +261,7 @@ impl<'d, 's, 'a> Attacher<'d, 's, 'a> {
         taken.all(|taken| (taken.2 - face.along(at)).abs() >= BETWEEN * self.draft.unit * (1.0 - 1e-9))
     }
 
-    /// Takes the free place along a face nearest to one.
+    /// Occupies the free position along a face that is nearest to `along`.
     fn take(&mut self, body: usize, face: Face, along: f64) -> f64 {
         let step = BETWEEN * self.draft.unit;
         let aside = (0..64).flat_map(|k| [f64::from(k) * step, -f64::from(k) * step]);
@@ -271,7 +272,7 @@ impl<'d, 's, 'a> Attacher<'d, 's, 'a> {
     }
 }
 
-/// How a force is drawn.
+/// Direction and style of a force arrow.
 #[derive(Debug, Clone, Copy)]
 struct Push {
     is_push: bool,
@@ -280,7 +281,7 @@ struct Push {
 }
 
 impl Push {
-    /// One that varies has no direction of its own.
+    /// Constant forces have one arrowhead, forces that follow a waveform two.
     fn of(amount: Amount<'_>, is_push: bool) -> Self {
         match amount {
             Amount::Constant(_) => Self { is_push, is_double: false, style: FORCE },
@@ -289,7 +290,7 @@ impl Push {
     }
 }
 
-/// A quantity without its sign, which an arrow shows, or the waveform it follows.
+/// Text of a quantity: its magnitude, or the waveform it follows. An arrow shows the sign.
 fn said(symbol: &str, amount: Amount<'_>, unit: &str) -> String {
     match amount {
         Amount::Constant(value) => quantity(value.abs(), unit, DIGITS),

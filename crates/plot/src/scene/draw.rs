@@ -1,4 +1,4 @@
-//! Bodies, contacts and ground on the sheet.
+//! Drawing of bodies, contacts and ground.
 
 use super::arrange::Arrangement;
 use super::attach::Attacher;
@@ -10,20 +10,20 @@ use crate::scale::quantity;
 use crate::theme::Ink;
 use crate::thin::Point;
 
-/// Half the length of the arrows of free coordinates, and their circle's radius.
+/// Half length of the arrows of free translations, and radius of that of rotation.
 const MOVES: f64 = 46.0;
 const TURNS: f64 = 42.0;
 /// Radius of the mark of a reference point.
 const REFERENCE: f64 = 7.0;
-/// Length of the arrow of gravity, and its distance from the rest.
+/// Length of the gravity arrow, and its distance from the drawing.
 const GRAVITY: f64 = 100.0;
 const ASIDE: f64 = 70.0;
-/// The ground reaches this far beyond the bodies on it.
+/// Length by which the ground extends beyond the bodies on it.
 const GROUND: f64 = 30.0;
-/// Significant digits of a quantity.
+/// Significant digits of quantities.
 pub(super) const DIGITS: usize = 4;
 
-/// Draws a scene in its arrangement.
+/// Draws a model in its arrangement.
 pub(super) fn sheet(draft: &Draft<'_, '_>, plan: &Arrangement) -> Sheet {
     let mut sheet = Sheet::default();
     ground(draft, plan, &mut sheet);
@@ -44,17 +44,17 @@ pub(super) fn sheet(draft: &Draft<'_, '_>, plan: &Arrangement) -> Sheet {
     sheet
 }
 
-/// What a coordinate or a whole body may do, as a colour of lines and of areas.
+/// Line colour, area colour and legend entry for a mobility; `None` if fixed.
 fn inks(mobility: Mobility<'_>) -> Option<(Ink, Ink, &'static str)> {
     match mobility {
         Mobility::Fixed => None,
-        Mobility::Free => Some((Ink::Palette(0), Ink::Pale(0), "free")),
-        Mobility::Balanced => Some((Ink::Palette(0), Ink::Pale(0), "balanced")),
-        Mobility::Follows(_) => Some((Ink::Palette(1), Ink::Pale(1), "follows a waveform")),
+        Mobility::Free => Some((Ink::Palette(0), Ink::Pale(0), "free along ↔")),
+        Mobility::Balanced => Some((Ink::Palette(0), Ink::Pale(0), "balanced along ↔")),
+        Mobility::Follows(_) => Some((Ink::Palette(1), Ink::Pale(1), "follows a waveform along ↔")),
     }
 }
 
-/// A body's area with its feet; its place among the shapes.
+/// Draws the area of a body with its feet. Returns the index of the shape.
 fn outline(draft: &Draft<'_, '_>, plan: &Arrangement, body: usize, sheet: &mut Sheet) -> usize {
     let SceneBody { x, z, pitch, .. } = draft.scene.bodies[body];
     let free = [x, z, pitch].into_iter().find(|it| matches!(it, Mobility::Free | Mobility::Balanced));
@@ -79,7 +79,7 @@ fn outline(draft: &Draft<'_, '_>, plan: &Arrangement, body: usize, sheet: &mut S
     on
 }
 
-/// The profile of a contact on the body it belongs to, and what joins it to the face.
+/// Draws the profile of a contact on the body it belongs to, up to the face of the body.
 fn foot(
     draft: &Draft<'_, '_>,
     at: Point,
@@ -106,7 +106,7 @@ fn foot(
     sheet.draw(vec![half], OUTLINE);
 }
 
-/// The reference point and arrows for what a body may do.
+/// Draws the reference point, and arrows of the coordinates that are not fixed.
 fn motion(body: &SceneBody<'_>, at: Point, unit: f64, sheet: &mut Sheet) {
     let way = MOVES * unit;
     let (left, right) = ((at.0 - way, at.1), (at.0 + way, at.1));
@@ -140,7 +140,7 @@ fn words(body: &SceneBody<'_>) -> Vec<String> {
     std::iter::once(body.name.to_owned()).chain(mass).chain(follows).collect()
 }
 
-/// Name and number of a contact, and its depth where that is prescribed once and for all.
+/// Name and number of a contact, and its indentation or radius if constant.
 fn contact_words(contact: &SceneContact<'_>) -> Vec<String> {
     let name = match contact.count {
         1 => contact.name.to_owned(),
@@ -154,7 +154,7 @@ fn contact_words(contact: &SceneContact<'_>) -> Vec<String> {
     vec![name, fixed]
 }
 
-/// The ground under, or over, the contacts with it.
+/// Draws the ground below or above its contacts.
 fn ground(draft: &Draft<'_, '_>, plan: &Arrangement, sheet: &mut Sheet) {
     let mut strips: Vec<(usize, usize, f64, Rect)> = Vec::new();
     for (contact, at) in draft.scene.contacts.iter().zip(&plan.contacts) {
@@ -174,7 +174,7 @@ fn ground(draft: &Draft<'_, '_>, plan: &Arrangement, sheet: &mut Sheet) {
     for (_, side, level, rect) in strips {
         let beyond = GROUND * draft.unit;
         let (left, right) = ((rect.left - beyond, level), (rect.right + beyond, level));
-        // Hatches lie on the left of the way.
+        // Hatches are left of the direction of the line.
         let (from, to) = if side == 0 { (right, left) } else { (left, right) };
         let mut lines = hatched(from, to, draft.unit);
         let surface = vec![lines.remove(0)];
@@ -183,12 +183,12 @@ fn ground(draft: &Draft<'_, '_>, plan: &Arrangement, sheet: &mut Sheet) {
     }
 }
 
-/// Gravity, left of everything.
+/// Draws gravity, left of the drawing.
 fn gravity(draft: &Draft<'_, '_>, sheet: &mut Sheet) {
     let (Some(gravity), Some(bounds)) = (draft.scene.gravity, sheet.bounds()) else { return };
     let (half, aside) = (GRAVITY * draft.unit / 2.0, ASIDE * draft.unit);
     let (sin, cos) = math::sin_cos(gravity.incline);
-    // Where the drawing has room: beside it, also of one that is turned upright.
+    // Above the drawing if it is turned upright.
     let middle = if gravity.is_upright() {
         (bounds.right - half, bounds.top + aside + half)
     } else {

@@ -1,4 +1,4 @@
-//! Scale and frame of a scene.
+//! Scale and frame of the drawing of a model.
 
 use super::Scene;
 use super::arrange::arrange;
@@ -10,40 +10,39 @@ use crate::panel::{Axis, Panel};
 use crate::thin::Point;
 use crate::{Arrangement, Label};
 
-/// Width of the frame, px of a figure of the default width, and least height.
+/// Width and minimum height of the frame, px of a figure of the default width.
 const WIDTH: f64 = 1400.0;
 const LEAST_HEIGHT: f64 = 360.0;
-/// Most of width and height that is drawn on; the rest is for names.
+/// Maximum width and height of the drawing; the rest is for names.
 const DRAWN: Point = (1100.0, 740.0);
-/// The same of a slide that is drawn upright, along x and z.
+/// The same for an upright slide, along x and z, and the margin for names.
 const DRAWN_UPRIGHT: Point = (860.0, 1100.0);
 const NAMES: f64 = 75.0;
-/// Title, legend and axis above and below the frame.
+/// Height of title, legend and axis outside the frame.
 const AROUND: f64 = 255.0;
-/// Largest distance of a point from its body's reference point along x and z, and largest radius of a profile where no
-/// points set the scale.
+/// Maximum distance of a point from its body's reference point along x and z. Without such points, maximum radius of
+/// a profile.
 const REACH: Point = (420.0, 230.0);
 const PROFILE: f64 = 70.0;
-/// A scene this many times longer than high, or higher than long, is a sliver; it is drawn so that it is about this many
-/// times longer, unless that takes more than the last number.
+/// A drawing with a larger ratio of its sides is stretched to about the second ratio, at most by the third factor.
 const SLIVER: f64 = 12.0;
 const STOUT: f64 = 4.0;
 const MOST_STRETCH: f64 = 1e3;
-/// Largest distance that is drawn, m.
+/// Maximum distance that is drawn, m.
 const FARTHEST: f64 = 1e9;
-/// By how much symbols shrink at a time, and their least size.
+/// Factor by which symbols shrink at a time, and their minimum size.
 const SHRINK: f64 = 0.85;
 const LEAST_UNIT: f64 = 0.01;
-/// Points this much nearer to each other than they could be are as good as one: symbols have to shrink first.
+/// Minimum scale relative to the largest; symbols shrink before the scale becomes smaller.
 const SMALLEST: f64 = 0.2;
-/// How often the range of scales is halved.
+/// Number of bisections of the scale.
 const HALVINGS: usize = 16;
 
-/// The picture of a scene.
+/// Draws a model with the largest scale that fits the frame.
 pub(super) fn figure(title: &str, scene: &Scene<'_>) -> Figure<'static> {
     let reach = reach(scene);
     if reach.0.max(reach.1) > FARTHEST {
-        return Figure::without_data(title, "points too far apart to be drawn");
+        return Figure::without_data(title, "the points are too far apart to be drawn");
     }
     let stretch = stretch(reach);
     let is_upright = scene.gravity.is_some_and(|gravity| gravity.is_upright());
@@ -68,14 +67,17 @@ pub(super) fn figure(title: &str, scene: &Scene<'_>) -> Figure<'static> {
     if fits(high, unit) {
         low = high;
     }
-    // Without points nothing but symbols has a size, and the profiles keep theirs beside them.
+    // Without points only symbols have a size, and profiles keep their scale.
     for _ in 0..if has_points { HALVINGS } else { 0 } {
         let middle = f64::midpoint(low, high);
         if fits(middle, unit) { low = middle } else { high = middle }
     }
     let (scale, sheet) = scaled(low, unit);
-    let names =
-        if is_upright { ["z off the slide", "x up the slide"] } else { ["x along the slide", "height z"] };
+    let names = if is_upright {
+        ["z normal to the slide", "x up the slide"]
+    } else {
+        ["x along the slide", "height z"]
+    };
     let turned = |(x, z): Point| if is_upright { (z, x) } else { (x, z) };
     let sheet = if is_upright { sheet.upright() } else { sheet };
     framed((title, names), sheet, turned(scale), (turned(stretch), most.is_some()))
@@ -98,20 +100,20 @@ fn reach(scene: &Scene<'_>) -> Point {
     points.fold((0.0, 0.0), |(x, z): Point, at| (x.max(at.0.abs()), z.max(at.1.abs())))
 }
 
-/// By how much x and z are drawn larger than they are beside each other.
+/// Factors by which x and z are stretched.
 fn stretch((x, z): Point) -> Point {
     let factor =
         |ratio: f64| if ratio > SLIVER { round_down((ratio / STOUT).min(MOST_STRETCH)) } else { 1.0 };
     if x > 0.0 && z > 0.0 { (factor(z / x), factor(x / z)) } else { (1.0, 1.0) }
 }
 
-/// The next of 1, 2, 5, 10, 20 and so on below a number.
+/// Largest number of the series 1, 2, 5, 10, 20, … that is not above a number.
 fn round_down(number: f64) -> f64 {
     let decade = math::powf(10.0, math::log10(number).floor());
     [5.0, 2.0].into_iter().map(|digit| digit * decade).find(|round| *round <= number).unwrap_or(decade)
 }
 
-/// Largest scale, px per metre; none where nothing has a length.
+/// Largest scale, px per metre; `None` without lengths.
 fn most(scene: &Scene<'_>, reach: Point, stretch: Point) -> Option<f64> {
     let limit = |px: f64, length: f64| (length > 0.0).then(|| px / length);
     let points = [limit(REACH.0, reach.0 * stretch.0), limit(REACH.1, reach.1 * stretch.1)];
@@ -120,7 +122,7 @@ fn most(scene: &Scene<'_>, reach: Point, stretch: Point) -> Option<f64> {
     points.into_iter().flatten().reduce(f64::min).or(profile).filter(|scale| scale.is_finite())
 }
 
-/// The drawing in its frame.
+/// Puts the drawing into a frame.
 fn framed(
     (title, names): (&str, [&str; 2]),
     sheet: Sheet,
@@ -129,7 +131,7 @@ fn framed(
 ) -> Figure<'static> {
     let bounds = bounds(&sheet);
     let (middle, centre) = bounds.centre();
-    // More than the width holds what no symbols are small enough for.
+    // A drawing that is still too wide determines the width.
     let width = (bounds.right - bounds.left + 2.0 * NAMES).max(WIDTH);
     let height = (bounds.top - bounds.bottom + 2.0 * NAMES).max(LEAST_HEIGHT).max(width / SLIVER);
     let axis = |name: &str, stretch: f64, (centre, length, scale): (f64, f64, f64)| {

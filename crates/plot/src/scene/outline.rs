@@ -1,19 +1,19 @@
-//! Shapes of bodies and contacts around a reference point, in px of the drawing, y up.
+//! Outlines of bodies and shapes of contacts, in px of the drawing, y up.
 
 use super::{Fixture, Scene};
 use crate::thin::Point;
 
-/// A scene and the scale it is drawn at.
+/// Model with the scale of its drawing.
 #[derive(Clone, Copy)]
 pub(super) struct Draft<'s, 'a> {
     pub(super) scene: &'s Scene<'a>,
     /// Px per metre along x and z.
     pub(super) scale: Point,
-    /// Size of symbols, 1 where there is room for them.
+    /// Scale of symbols, at most 1.
     pub(super) unit: f64,
 }
 
-/// A rectangle.
+/// Rectangle, y up.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Rect {
     pub(super) left: f64,
@@ -22,39 +22,39 @@ pub(super) struct Rect {
     pub(super) top: f64,
 }
 
-/// What a contact looks like: half of it, from its lowest point outwards.
+/// Shape of a contact: half of it, from its lowest point outwards.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Tip {
-    /// Which side of the contact it belongs to.
+    /// Side of the contact that has the shape.
     pub(super) side: usize,
     /// Distances from the axis and heights.
     pub(super) half: Vec<Point>,
-    /// Whether this is the profile, to scale.
+    /// Whether it is the profile to scale, not a marker.
     pub(super) is_true: bool,
 }
 
-/// Half a body without points along the slide, where there are few of them and where there are many; how far others
-/// reach beyond their points.
+/// Half width of a body without points along the slide, for up to `FEW` bodies and for more; margin of other bodies
+/// around their points.
 const HALF_WIDTH: f64 = 205.0;
 const NARROW: f64 = 100.0;
 const FEW: usize = 4;
 const RIM: f64 = 45.0;
-/// Height of a body without points normal to the slide, and least height of one.
+/// Height of a body without points normal to the slide, and minimum height of other bodies.
 pub(super) const HEIGHT: f64 = 110.0;
-/// From one contact to the next on a body that says nothing of where they are, and between bodies on different ones.
+/// Distance of contacts on a body without given points, and of bodies on such contacts.
 const SLOT: f64 = 260.0;
 const GAP: f64 = 50.0;
-/// Least height of a foot: a name fits beside it.
+/// Minimum height of a foot, which leaves room for a name.
 const LEG: f64 = 64.0;
-/// The marker of a contact whose profile cannot be shown: radius and height.
+/// Marker of a contact whose profile cannot be drawn: radius and height.
 const MARKER: Point = (11.0, 15.0);
-/// Least and largest radius and least height of a profile that is shown.
+/// Minimum radius, maximum radius and minimum height of a profile in the drawing.
 const PROFILE: (f64, f64, f64) = (7.0, 90.0, 4.0);
-/// How far a ball may differ from its profile where that is a fifth as wide.
+/// Relative tolerance of the curvature for a body that is drawn as a ball.
 const ROUND: f64 = 0.03;
 
 impl Rect {
-    /// The rectangle of a point.
+    /// Rectangle of zero size at a point.
     pub(super) fn of((x, y): Point) -> Self {
         Self { left: x, right: x, bottom: y, top: y }
     }
@@ -92,7 +92,7 @@ impl Tip {
         self.half.last().map_or(0.0, |end| end.1)
     }
 
-    /// What lies below a height.
+    /// Part of the shape below a height.
     pub(super) fn below(&self, height: f64) -> Vec<Point> {
         let mut points = Vec::new();
         for &(r, h) in &self.half {
@@ -113,7 +113,7 @@ impl Draft<'_, '_> {
         (self.scale.0 * x, self.scale.1 * z)
     }
 
-    /// Contacts of a body: their place and the body's side, 0: the body lies below.
+    /// Contacts of a body: index of the contact and side of the body, 0 if the body is below.
     pub(super) fn contacts_of(&self, body: usize) -> impl Iterator<Item = (usize, usize)> + '_ {
         let of = move |side: usize| move |fixture: &Fixture| (fixture.body == Some(body)).then_some(side);
         self.scene.contacts.iter().enumerate().flat_map(move |(place, contact)| {
@@ -122,7 +122,7 @@ impl Draft<'_, '_> {
         })
     }
 
-    /// Points of a body that are no contacts; its reference point first.
+    /// Points of a body other than contacts, its reference point first.
     pub(super) fn inner_points(&self, body: usize) -> impl Iterator<Item = Point> + '_ {
         let ends = self.scene.links.iter().flat_map(|link| link.between);
         let links = ends.filter(move |fixture| fixture.body == Some(body)).map(|fixture| fixture.at);
@@ -130,7 +130,7 @@ impl Draft<'_, '_> {
         std::iter::once((0.0, 0.0)).chain(links).chain(loads).map(|at| self.px(at))
     }
 
-    /// Whether the points of a body say where they are along x and along z.
+    /// Whether a body has points away from its reference point along x and along z.
     pub(super) fn is_given(&self, body: usize) -> (bool, bool) {
         let contacts =
             self.contacts_of(body).map(|(place, side)| self.scene.contacts[place].between[side].at);
@@ -141,8 +141,8 @@ impl Draft<'_, '_> {
         given
     }
 
-    /// The shape of a contact: its profile where that can be seen, a marker elsewhere. It belongs to the side that says
-    /// where its point is, or else to the body of fewer contacts: a foot.
+    /// Shape of a contact: its profile if visible, otherwise a marker. It belongs to the side with a given point, or
+    /// to the body with fewer contacts.
     pub(super) fn tip(&self, contact: usize) -> Tip {
         let contact = &self.scene.contacts[contact];
         let rank = |fixture: &Fixture| match fixture.body {
@@ -161,7 +161,8 @@ impl Draft<'_, '_> {
         Tip { side, half, is_true: false }
     }
 
-    /// Radius in m of a body that is a ball on its only contact: its profile curves around its reference point.
+    /// Radius in m of a ball: a body with one contact whose profile is curved around the reference point. `None` for
+    /// other bodies.
     pub(super) fn ball(&self, body: usize) -> Option<f64> {
         let mut contacts = self.contacts_of(body);
         let (Some((place, side)), None) = (contacts.next(), contacts.next()) else { return None };
@@ -175,18 +176,18 @@ impl Draft<'_, '_> {
         (x == 0.0 && others.at == (0.0, 0.0) && is_round && holds_all).then_some(radius)
     }
 
-    /// Height of a foot, from its contact to the face of its body.
+    /// Height of a foot, from its contact to the face of the body.
     fn foot(&self, tip: &Tip) -> f64 {
         tip.height().max(LEG * self.unit)
     }
 
-    /// Half the width of a body without points along the slide.
+    /// Half width of a body without points along the slide.
     fn half_width(&self) -> f64 {
         self.unit * if self.scene.bodies.len() > FEW { NARROW } else { HALF_WIDTH }
     }
 
-    /// A contact point from a body's reference point. Where the body does not say, contacts stand side by side on its
-    /// upper or lower face.
+    /// Contact point relative to the body's reference point. Without given points, contacts are placed side by side
+    /// on the upper or lower face.
     pub(super) fn contact_point(&self, body: usize, place: usize, side: usize) -> Point {
         let (given_x, given_z) = self.is_given(body);
         let (x, z) = self.px(self.scene.contacts[place].between[side].at);
@@ -210,8 +211,8 @@ impl Draft<'_, '_> {
         (at - (slots.len().max(1) - 1) as f64 / 2.0) * step
     }
 
-    /// The outline of a body around its reference point, with its contacts at the points given: symmetrical about the
-    /// reference point as far as they allow, contacts on its faces.
+    /// Outline of a body around its reference point with its contacts on its faces. It is symmetric about the
+    /// reference point as far as the contacts allow.
     pub(super) fn outline(&self, body: usize, contacts: &[(usize, usize, Point)]) -> Rect {
         if let Some(radius) = self.ball(body) {
             let (x, y) = self.px((radius, radius));

@@ -1,4 +1,4 @@
-//! What a scene is drawn with: lines, shapes and notes in px of the drawing, y up.
+//! Drawing of a model: lines, shapes and notes in px, y up.
 
 use super::outline::Rect;
 use super::symbols::Lines;
@@ -7,7 +7,7 @@ use crate::panel::{Note, Series, Shape};
 use crate::theme::{Dash, Ink, Style};
 use crate::thin::Point;
 
-/// A drawing that grows.
+/// Drawing under construction.
 #[derive(Debug, Default)]
 pub(super) struct Sheet {
     shapes: Vec<(Label, Vec<Point>, Ink)>,
@@ -15,20 +15,20 @@ pub(super) struct Sheet {
     notes: Vec<(Vec<Label>, Rect, Option<usize>)>,
 }
 
-/// Looks of lines.
+/// Line styles.
 pub(super) const OUTLINE: Style = line(Ink::Foreground, 0.7);
 pub(super) const FINE: Style = line(Ink::Foreground, 0.4);
 pub(super) const FORCE: Style = line(Ink::Palette(2), 0.9);
 pub(super) const FOLLOWS: Style = line(Ink::Palette(1), 0.9);
 pub(super) const TIE: Style = Style { ink: Some(Ink::Muted), dash: Some(Dash::Dashed), width: 0.45 };
 
-/// A solid line.
+/// Solid line style.
 pub(super) const fn line(ink: Ink, width: f64) -> Style {
     Style { ink: Some(ink), dash: Some(Dash::Solid), width }
 }
 
 impl Sheet {
-    /// Adds a filled polygon; its place, for notes that may lie on it.
+    /// Adds a filled polygon and returns its index, for notes that may cover it.
     pub(super) fn fill(&mut self, label: &str, corners: Vec<Point>, ink: Ink) -> usize {
         self.shapes.push((Label::plain(label), corners, ink));
         self.shapes.len() - 1
@@ -38,7 +38,7 @@ impl Sheet {
         self.lines.extend(lines.into_iter().map(|line| (line, style)));
     }
 
-    /// Adds the lines of a note about a rectangle, empty ones left out.
+    /// Adds a note about a rectangle; empty lines are left out.
     pub(super) fn note(&mut self, lines: &[String], about: Rect, on: Option<usize>) {
         let lines: Vec<Label> =
             lines.iter().map(|line| Label::plain(line)).filter(|line| !line.is_empty()).collect();
@@ -47,14 +47,14 @@ impl Sheet {
         }
     }
 
-    /// The rectangle around everything but the notes.
+    /// Bounding box of shapes and lines.
     pub(super) fn bounds(&self) -> Option<Rect> {
         let lines = self.lines.iter().flat_map(|(line, _)| line);
         let points = self.shapes.iter().flat_map(|(_, corners, _)| corners).chain(lines);
         points.map(|&point| Rect::of(point)).reduce(Rect::union)
     }
 
-    /// The same with both directions exchanged: what went to the right goes up, what went up to the right.
+    /// Exchanges the directions x and y.
     pub(super) fn upright(mut self) -> Self {
         let turned = |(x, y): Point| (y, x);
         let shapes = self.shapes.iter_mut().flat_map(|(_, corners, _)| corners);
@@ -67,7 +67,7 @@ impl Sheet {
         self
     }
 
-    /// Shapes, lines and notes in metres, `scale` px each.
+    /// Converts shapes, lines and notes to metres; `scale` is in px per metre.
     pub(super) fn unrolled(self, scale: Point) -> (Vec<Shape>, Vec<Series<'static>>, Vec<Note>) {
         let metres = move |(x, y): Point| (x / scale.0, y / scale.1);
         let shape = |(label, corners, ink): (Label, Vec<Point>, Ink)| Shape {
@@ -93,7 +93,7 @@ impl Sheet {
     }
 }
 
-/// The rectangle around lines.
+/// Bounding box of lines.
 pub(super) fn around(lines: &Lines) -> Rect {
     let points = lines.iter().flatten().map(|&point| Rect::of(point));
     points.reduce(Rect::union).unwrap_or(Rect::of((0.0, 0.0)))

@@ -1,11 +1,11 @@
-//! Symbols of mechanics as lines, in px of the drawing, y up.
+//! Mechanical symbols as polylines, in px of the drawing, y up.
 
 use crate::thin::Point;
 
-/// Lines of a symbol.
+/// Polylines of a symbol.
 pub(crate) type Lines = Vec<Vec<Point>>;
 
-/// A straight way with places along and across it (to the left).
+/// Local coordinate system along a line: along it, and across it to the left.
 struct Way {
     from: Point,
     ahead: Point,
@@ -30,21 +30,21 @@ impl Way {
     }
 }
 
-/// Share of the way that a lead takes at either end of a symbol.
+/// Length of the leads at both ends of a symbol, relative to its length.
 const LEAD: f64 = 0.16;
-/// Turns of a spring and half its width.
+/// Number of turns of a spring, and half its width.
 const TURNS: usize = 5;
 const COIL: f64 = 15.0;
-/// Half the width of a stack, and its plates.
+/// Half width of a piezo stack, and its number of plates.
 const STACK: f64 = 20.0;
 const PLATES: usize = 7;
-/// Length and half width of an arrow's head.
+/// Length and half width of an arrowhead.
 const HEAD: Point = (15.0, 7.5);
-/// Half the width of a wall, depth and distance of its hatches.
+/// Half width of a wall; depth and distance of hatches.
 const WALL: f64 = 42.0;
 pub(super) const HATCH: f64 = 15.0;
 
-/// A spring, a damper, or both side by side.
+/// Spring, damper, or both in parallel.
 pub(super) fn spring(from: Point, to: Point, (is_stiff, is_damped): (bool, bool), unit: f64) -> Lines {
     let way = Way::new(from, to);
     let (start, end) = (LEAD * way.length, (1.0 - LEAD) * way.length);
@@ -74,7 +74,7 @@ pub(super) fn spring(from: Point, to: Point, (is_stiff, is_damped): (bool, bool)
     lines
 }
 
-/// A cup and a piston in it.
+/// Dashpot: a cup with a piston.
 fn damper(way: &Way, (start, end): Point, aside: f64, half: f64) -> Lines {
     let along = |share: f64| start + share * (end - start);
     let (back, rim, piston) = (along(0.3), along(0.8), along(0.55));
@@ -87,7 +87,7 @@ fn damper(way: &Way, (start, end): Point, aside: f64, half: f64) -> Lines {
     ]
 }
 
-/// A piezo stack.
+/// Piezo stack.
 pub(super) fn stack(from: Point, to: Point, unit: f64) -> Lines {
     let way = Way::new(from, to);
     let (start, end) = (LEAD * way.length, (1.0 - LEAD) * way.length);
@@ -105,7 +105,7 @@ pub(super) fn stack(from: Point, to: Point, unit: f64) -> Lines {
     lines
 }
 
-/// The arrow of a piezo stack that follows a waveform, beside it.
+/// Arrow next to a piezo stack that follows a waveform.
 pub(super) fn stroke(from: Point, to: Point, unit: f64) -> Lines {
     let way = Way::new(from, to);
     let beside = -(STACK + HEAD.0) * unit;
@@ -113,7 +113,7 @@ pub(super) fn stroke(from: Point, to: Point, unit: f64) -> Lines {
     arrow(ends[0], ends[1], true, unit)
 }
 
-/// An arrow; with a head at either end, if need be.
+/// Arrow with one arrowhead or, if `is_double`, two.
 pub(crate) fn arrow(from: Point, to: Point, is_double: bool, unit: f64) -> Lines {
     let mut lines = vec![vec![from, to], head(from, to, unit)];
     if is_double {
@@ -128,11 +128,11 @@ fn head(from: Point, to: Point, unit: f64) -> Vec<Point> {
     way.line(&[(back, half), (way.length, 0.0), (back, -half)])
 }
 
-/// An arrow along a circle from one angle to another, rad, counter-clockwise from the x axis.
+/// Arrow along an arc between two angles, rad, counter-clockwise from the x axis.
 pub(super) fn turn(centre: Point, radius: f64, (from, to): (f64, f64), is_double: bool, unit: f64) -> Lines {
     let on = |angle: f64| (centre.0 + radius * math::cos(angle), centre.1 + radius * math::sin(angle));
     let arc = (0..=32).map(|k| on(from + (to - from) * f64::from(k) / 32.0));
-    // A head's axis is a chord: along the tangent it would stand off the arc.
+    // The axis of an arrowhead is a chord, so that it lies on the arc.
     let back = HEAD.0 * unit / radius * (to - from).signum();
     let mut lines = vec![arc.collect(), head(on(to - back), on(to), unit)];
     if is_double {
@@ -141,13 +141,13 @@ pub(super) fn turn(centre: Point, radius: f64, (from, to): (f64, f64), is_double
     lines
 }
 
-/// A wall at the end of a lead that comes from a point.
+/// Wall at the end of a line from a point.
 pub(super) fn wall(from: Point, at: Point, unit: f64) -> Lines {
     let way = Way::new(from, at);
     hatched(way.at((way.length, WALL * unit)), way.at((way.length, -WALL * unit)), unit)
 }
 
-/// A line with the hatches of what does not move, on its left.
+/// Hatched line of a fixed surface, with hatches on its left.
 pub(crate) fn hatched(from: Point, to: Point, unit: f64) -> Lines {
     let way = Way::new(from, to);
     let step = HATCH * unit;
@@ -160,7 +160,7 @@ pub(crate) fn hatched(from: Point, to: Point, unit: f64) -> Lines {
     lines
 }
 
-/// A circle in so many corners.
+/// Ellipse with 96 corners.
 pub(super) fn ellipse((x, y): Point, (wide, high): Point) -> Vec<Point> {
     let corner = |k: u32| {
         let angle = std::f64::consts::TAU * f64::from(k) / 96.0;

@@ -1,4 +1,4 @@
-//! Pictures of contacts, with what may come of a history: tips, open contacts, nothing at all.
+//! Figures of contacts, including unbounded pressure, open contacts and missing data.
 
 use stickslip_plot::{
     AnchorMoment, FieldsMoment, FieldsZone, Figure, FrictionWork, HysteresisLoop, ProfilePair,
@@ -6,7 +6,7 @@ use stickslip_plot::{
     friction_figure, marked_loop_figure, profile_figure, substitute_figure,
 };
 
-/// The texts of a figure, drawn in both themes and as pixels, too.
+/// Texts of a figure, which is drawn in both themes and formats.
 fn texts(mut figure: Figure<'_>) -> String {
     draw_png(&figure).unwrap();
     figure.theme = Theme::dark();
@@ -21,7 +21,7 @@ const ZONES: [FieldsZone; 2] = [
 #[test]
 fn tips_are_gaps_and_rings_are_named_once() {
     let r: Vec<f64> = (0..40).map(|k| 0.03e-6 * f64::from(k)).collect();
-    // A cone: p ~ artanh, without bound at its tip.
+    // Like a cone: pressure unbounded at the tip.
     let pressure: Vec<f64> = r.iter().map(|r| (1.0 - r / 1e-6).max(0.0) * 1e9 / r).collect();
     assert!(pressure[0].is_infinite());
     let moment = |heading| FieldsMoment {
@@ -35,7 +35,7 @@ fn tips_are_gaps_and_rings_are_named_once() {
         zones: &ZONES,
     };
     let drawn = texts(fields_figure("cone", &[moment("first"), moment("second")]));
-    for (word, times) in [("slips −", 1), ("earlier slip frozen in", 1), ("first", 2), ("second", 2)] {
+    for (word, times) in [("slips −", 1), ("locked-in earlier slip", 1), ("first", 2), ("second", 2)] {
         assert_eq!(drawn.matches(word).count(), times, "{word}");
     }
 }
@@ -66,7 +66,7 @@ fn springs_show_their_widths_and_forces() {
         assert!(drawn.contains(word), "{word}");
     }
     assert!(!drawn.contains("slips −") && !drawn.contains("\nsticks\n"));
-    // In gross slip nothing is left of 2c; of an open contact neither.
+    // In gross slip there is no width 2c; open contacts have no width 2a either.
     let open = SubstituteMoment { radii: (0.0, 0.0), d: -1e-9, forces: (0.0, 0.0), ..moment };
     let drawn = texts(substitute_figure("springs", &[open]));
     assert!(!drawn.contains("2c") && !drawn.contains("2a"));
@@ -75,12 +75,12 @@ fn springs_show_their_widths_and_forces() {
 #[test]
 fn what_is_not_there_is_said() {
     assert!(texts(fields_figure("f", &[])).contains("no fields"));
-    assert!(texts(substitute_figure("s", &[])).contains("nothing ever touches"));
-    assert!(texts(anchors_figure("a", &[])).contains("nothing to remember"));
+    assert!(texts(substitute_figure("s", &[])).contains("the contact is always open"));
+    assert!(texts(anchors_figure("a", &[])).contains("no memory"));
     let springs = FrictionWork { axis: ("time t", "s"), moments: &[], r: &[], work: &[], marks: &[] };
-    assert!(texts(friction_figure("w", &springs)).contains("no map of friction work"));
+    assert!(texts(friction_figure("w", &springs)).contains("no friction work per area"));
     let work = FrictionWork { moments: &[0.0], r: &[0.0, 1e-6], work: &[0.0, 0.0], ..springs };
-    assert!(texts(friction_figure("w", &work)).contains("nothing has slipped"));
+    assert!(texts(friction_figure("w", &work)).contains("no slip"));
     let pair = ProfilePair { x: &[], f: None, g: &[], d: 0.0, a: 0.0 };
     assert!(texts(profile_figure("p", &pair)).contains("no data"));
 }

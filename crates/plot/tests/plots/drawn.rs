@@ -1,25 +1,24 @@
-//! Drawing, keeping and reading back figures for the tests. Every picture is written to the build's folder for
-//! temporary files, to be looked at.
+//! Draws, saves and parses figures for the tests. Every picture is saved in Cargo's folder for temporary test files.
 
 use std::path::Path;
 use stickslip_plot::{Colour, Figure, Theme, draw_png, draw_svg};
 use ttf_parser::Face;
 
-/// A picture.
+/// Decoded picture.
 pub(crate) struct Picture {
     pub(crate) width: usize,
     pub(crate) height: usize,
     pub(crate) rgb: Vec<u8>,
 }
 
-/// A text of a drawing and the rectangle it fills, px: left, top, right, bottom.
+/// Text of a drawing with its rectangle, px: left, top, right, bottom.
 #[derive(Debug, Clone)]
 pub(crate) struct Text {
     pub(crate) text: String,
     pub(crate) area: [f64; 4],
 }
 
-/// Draws both outputs, keeps them, checks what every figure must fulfil.
+/// Draws and saves both formats, and checks what every figure must fulfil.
 pub(crate) fn draw(name: &str, figure: &Figure<'_>) -> Vec<u8> {
     let bytes = draw_png(figure).unwrap();
     let drawing = draw_svg(figure).unwrap();
@@ -33,8 +32,8 @@ pub(crate) fn draw(name: &str, figure: &Figure<'_>) -> Vec<u8> {
     bytes
 }
 
-/// Draws a figure light and dark, small, plain and double, and checks that all texts are whole, lie inside the picture and clear
-/// of each other. Two of the six, unless the variable `SPECIMENS` is set: drawing all takes minutes.
+/// Draws a figure in several themes and sizes, and checks that texts are complete and do not overlap. With the
+/// variable `SPECIMENS` all six combinations are drawn, otherwise two.
 pub(crate) fn draw_everywhere(name: &str, figure: &Figure<'_>) {
     let (light, dark) = (("light", Theme::light()), ("dark", Theme::dark()));
     let mut looks = vec![(&dark, 1), (&light, 2)];
@@ -50,7 +49,7 @@ pub(crate) fn draw_everywhere(name: &str, figure: &Figure<'_>) {
     assert_texts_apart(&Figure { size: (2 * figure.size.0, 2 * figure.size.1), ..figure.clone() });
 }
 
-/// All texts are whole and lie inside the picture, none over another.
+/// Checks that texts are complete, inside the picture and do not overlap.
 pub(crate) fn assert_texts_apart(figure: &Figure<'_>) {
     let texts = texts(&draw_svg(figure).unwrap());
     let (width, height) = (f64::from(figure.size.0), f64::from(figure.size.1));
@@ -67,7 +66,7 @@ pub(crate) fn assert_texts_apart(figure: &Figure<'_>) {
     }
 }
 
-/// The texts of a drawing, measured by the font's own advances; heights are those of capitals.
+/// Texts of a drawing, measured with the font's advances; heights are those of capital letters.
 pub(crate) fn texts(drawing: &str) -> Vec<Text> {
     let face = Face::parse(dejavu::sans::regular(), 0).unwrap();
     let scale = 1.0 / 8.0;
@@ -76,7 +75,7 @@ pub(crate) fn texts(drawing: &str) -> Vec<Text> {
         let text = rest.split_once("\n</text>").unwrap().0;
         let text = text.replace("&lt;", "<").replace("&gt;", ">").replace("&amp;", "&").replace("&#39;", "'");
         let number = |key: &str| value(head, key).parse::<f64>().unwrap();
-        // Plotters names sizes 1.24 times smaller in the file than it is told.
+        // The font size in the file is the em; plotters divides its size by 1.24.
         let em = number("font-size") * scale;
         let glyph = |c| face.glyph_index(c).and_then(|id| face.glyph_hor_advance(id)).unwrap_or(0);
         let width =
@@ -97,7 +96,7 @@ pub(crate) fn texts(drawing: &str) -> Vec<Text> {
     drawing.split("<text ").skip(1).map(measure).collect()
 }
 
-/// The value of an attribute.
+/// Value of an attribute.
 pub(crate) fn value<'t>(tag: &'t str, key: &str) -> &'t str {
     tag.split_once(&format!("{key}=\"")).unwrap().1.split_once('"').unwrap().0
 }
@@ -114,7 +113,7 @@ pub(crate) fn polygons(drawing: &str, colour: &str) -> Vec<Vec<(f64, f64)>> {
     tags.map(|tag| points(value(tag, "points"))).collect()
 }
 
-/// The rectangles of a colour: left, top, width, height, px.
+/// Rectangles of a colour: left, top, width, height, px.
 pub(crate) fn rectangles(drawing: &str, colour: &str) -> Vec<[f64; 4]> {
     let tags =
         drawing.split("<rect ").skip(1).filter(|tag| tag.starts_with("x=") && value(tag, "fill") == colour);
@@ -129,14 +128,14 @@ fn points(list: &str) -> Vec<(f64, f64)> {
         .collect()
 }
 
-/// A colour as plotters writes it.
+/// Colour in the notation of plotters.
 pub(crate) fn hex(Colour(r, g, b): Colour) -> String {
     format!("#{r:02X}{g:02X}{b:02X}")
 }
 
 pub(crate) fn decode(bytes: &[u8]) -> Picture {
     let mut decoder = png::Decoder::new(std::io::Cursor::new(bytes));
-    // Palettes become colours.
+    // Palette indices are expanded to colours.
     decoder.set_transformations(png::Transformations::EXPAND);
     let mut reader = decoder.read_info().unwrap();
     let mut rgb = vec![0; reader.output_buffer_size()];
@@ -156,7 +155,7 @@ impl Picture {
     }
 }
 
-/// Nothing is cut: the outermost pixels all have the background's colour.
+/// Checks that the outermost pixels all have the background colour.
 pub(crate) fn assert_clear_border(picture: &Picture) {
     let (w, h) = (picture.width, picture.height);
     let corner = picture.pixel(0, 0);

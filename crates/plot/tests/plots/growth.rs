@@ -1,4 +1,4 @@
-//! Pictures of growth: what is in proportion lies on its line, what is not does not.
+//! Figures of cost over size: proportional costs lie on the dashed line, others do not.
 
 use crate::drawn::{draw_everywhere, hex, polylines, texts};
 use stickslip_plot::{GrowthCurve, Theme, draw_svg, growth_figure};
@@ -27,7 +27,7 @@ fn what_is_in_proportion_lies_on_its_line() {
     let measured: Vec<_> =
         polylines(&drawing, &hex(theme.palette[0])).into_iter().filter(|line| line.len() == 5).collect();
     assert_eq!(measured.len(), 3);
-    // Straight in the logarithms, all of them.
+    // Power laws are straight lines.
     for line in &measured {
         let slopes: Vec<f64> =
             line.windows(2).map(|pair| (pair[1].1 - pair[0].1) / (pair[1].0 - pair[0].0)).collect();
@@ -35,7 +35,7 @@ fn what_is_in_proportion_lies_on_its_line() {
     }
     let rise = |line: &[(f64, f64)]| line[0].1 - line[4].1;
     assert!(rise(&measured[1]).abs() < 1.0 && rise(&measured[0]) > 100.0 && rise(&measured[2]) > 100.0);
-    // The dashes in grey begin where the curve does: in proportion, it lies on them; what costs the same per size is level.
+    // The dashed line starts at the first point; for costs per size it is horizontal.
     let dashes = polylines(&drawing, &hex(theme.muted));
     let near = |(x, y): (f64, f64)| dashes.iter().flatten().any(|p| (p.0 - x).hypot(p.1 - y) < 12.0);
     let on_line = |line: &[(f64, f64)]| line.iter().filter(|&&point| near(point)).count();

@@ -1,6 +1,6 @@
-//! Figures as they are drawn: what they show is read back, counted and measured.
+//! Drawn figures, whose contents are parsed, counted and measured.
 //!
-//! One binary, linked once. `drawn` draws figures and reads them back; every other module is a subject.
+//! All modules are in one test binary. `drawn` draws and parses figures; each other module tests one subject.
 
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 

@@ -1,5 +1,5 @@
-//! The pictures of a drive, from closed forms and small mechanical models whose states are known. They are drawn light
-//! and dark, small, plain and double; what they show is counted and measured.
+//! Figures of a drive from closed forms and small mechanical models. They are drawn in both themes and at several
+//! sizes; their contents are counted and measured.
 
 use crate::drawn::{Picture, decode, draw_everywhere, hex, polygons, polylines, rectangles, texts, value};
 use data_encoding::BASE64;
@@ -10,14 +10,14 @@ use stickslip_plot::{
     events_figure, loop_figure, memory_figure, phase_figure, state_figure,
 };
 
-/// The handbook's row of springs: n springs over ±1.2 a under a paraboloid, d and u given, heights in units of d₀.
+/// Row of springs as in the handbook: n springs over ±1.2 a under a paraboloid, heights in units of d₀.
 struct Row {
     time: Vec<f64>,
     x: Vec<f64>,
     conditions: Vec<SpringCondition>,
 }
 
-/// u = 0.7 sin 2πt and d = 1 + m sin 4πt in units of u_c and d₀ over some cycles.
+/// Simulates u = 0.7 sin 2πt and d = 1 + m sin 4πt in units of u_c and d₀.
 fn row(springs: usize, moments: usize, cycles: f64, m: f64) -> Row {
     let x: Vec<f64> = (0..springs).map(|i| ((i as f64 + 0.5) / springs as f64 * 2.0 - 1.0) * 1.2).collect();
     let mut stretch = vec![0.0; springs];
@@ -59,7 +59,7 @@ fn states_of_springs() {
     draw_everywhere("state-two", &state_figure("Two contacts", &two));
 }
 
-/// A hundred contacts have no room below each other: columns of as many as have, and the title says so.
+/// Too many contacts for one column: they are arranged in columns, and the title gives the number shown.
 #[test]
 fn states_of_a_hundred_contacts_are_those_that_have_room() {
     let few = row(48, 400, 2.0, 0.3);
@@ -80,7 +80,7 @@ fn states_of_a_hundred_contacts_are_those_that_have_room() {
     }
 }
 
-/// Pixels of the shades of the light theme: open, stick, slip +, slip -.
+/// Number of pixels of each shade of the light theme: open, stick, slip +, slip -.
 fn shaded(picture: &Picture) -> [f64; 4] {
     Theme::light().shades.map(|Colour(r, g, b)| picture.count([r, g, b]) as f64)
 }
@@ -89,7 +89,7 @@ fn shaded(picture: &Picture) -> [f64; 4] {
 fn the_picture_shows_every_state_in_its_share() {
     let row = row(48, 400, 2.0, 0.3);
     let figure = state_figure("", &[row.map("ball")]);
-    // The first and the last moment have half a column.
+    // The first and the last time have half a column.
     let mut shares = [0.0; 4];
     for (i, condition) in row.conditions.iter().enumerate() {
         let is_outer = !(48..399 * 48).contains(&i);
@@ -104,7 +104,7 @@ fn the_picture_shows_every_state_in_its_share() {
         let counts = shaded(&picture);
         let sum: f64 = counts.iter().sum();
         for (count, share) in counts.iter().zip(shares) {
-            // Pixels on the border of two states are neither's.
+            // Pixels on the border of two states have mixed colours.
             assert!((count / sum - share).abs() < 0.01, "{counts:?} for {shares:?}");
         }
     }
@@ -134,13 +134,13 @@ fn energies() {
     };
     let figure = energy_figure("Where the energy went", &book);
     draw_everywhere("energy", &figure);
-    // The book closes: the areas reach up, or down, to the line of the input.
+    // The areas end at the curve of the input.
     let drawing = draw_svg(&figure).unwrap();
     let [_, friction, stored, damping] = Theme::light().shades.map(hex);
     let fills = drawing.split("<polygon ").skip(1).map(|tag| value(tag, "fill"));
     let used =
         fills.into_iter().find(|fill| ![&friction, &stored, &damping].map(|it| it.as_str()).contains(fill));
-    // Less is stored at times than at the start: what of it is lost has a colour of its own, below the line of losses.
+    // Released energy has its own colour, below the curve of the losses.
     let used = polygons(&drawing, used.unwrap());
     let stored: Vec<_> = polygons(&drawing, &stored).into_iter().chain(used).collect();
     let line = polylines(&drawing, &hex(Theme::light().foreground))
@@ -155,7 +155,7 @@ fn energies() {
 
 #[test]
 fn phases() {
-    // A limit cycle approached from inside, and a drive that walks on.
+    // Approach to a limit cycle from inside, and a drive that travels.
     let cycle = |i: usize| {
         let angle = i as f64 * 0.02;
         let radius = 1e-6 * (1.0 - (-angle / 30.0).exp());
@@ -169,7 +169,7 @@ fn phases() {
     ];
     let figure = phase_figure("Running into a limit cycle", &paths);
     draw_everywhere("phase", &figure);
-    // In full colour the last cycle only: as wide as the whole, and far shorter.
+    // Only the last cycle has the full colour: it is as wide as the whole, with far fewer points.
     let drawing = draw_svg(&figure).unwrap();
     let last: Vec<_> = polylines(&drawing, &hex(Theme::light().palette[0])).concat();
     let all = figure.panels[0].series.iter().map(|series| series.xs.len()).sum::<usize>();
@@ -221,7 +221,7 @@ fn memories() {
         let moments: Vec<_> = (0..count).map(|n| moment(n, 0.0)).collect();
         draw_everywhere(&format!("memory-{count}"), &memory_figure("Memory of a contact", &moments));
     }
-    // A drive: the same curves, carried along.
+    // A drive: the same curves, shifted with its displacement.
     let carried: Vec<Vec<f64>> =
         (0..4).map(|n| curves[n].1.iter().map(|p| p + 1e-6 * n as f64).collect()).collect();
     let moments: Vec<_> = (0..4).map(|n| MemoryMoment { p: &carried[n], ..moment(n, 1e-6) }).collect();
@@ -239,7 +239,7 @@ fn memory_stays_in_its_wedge() {
     let [wedge] = wedges.as_slice() else { panic!("{} wedges", wedges.len()) };
     let lines = polylines(&drawing, &hex(Theme::light().palette[0]));
     let curve = lines.iter().max_by_key(|line| line.len()).unwrap();
-    // Upper edge, apex, lower edge back: a triangle whose apex is the end of the curve.
+    // The wedge is a triangle whose apex is the end of the curve.
     let apex = wedge.iter().copied().fold((0.0, 0.0), |a, b| if b.0 > a.0 { b } else { a });
     let (left, top, bottom) = wedge
         .iter()
@@ -260,7 +260,7 @@ fn events() {
     let every = |period: f64, start: f64| -> Vec<f64> {
         (0..).map(|i| start + period * f64::from(i)).take_while(|t| *t <= 0.1).collect()
     };
-    // Bursts whose density falls, up to 10⁵ events in all.
+    // Bursts of decreasing density, 90 000 events in all.
     let bursts = (0..90_000).map(|i| f64::from(i % 9) * 11e-3 + 5e-3 * (f64::from(i) / 90_000.0).powi(2));
     let track = |source, kind, times| EventTrack { source, kind, times };
     let tracks = [
@@ -279,8 +279,8 @@ fn events() {
     draw_everywhere("events-many", &events_figure("Long names", (0.0, 0.1), &many));
 }
 
-/// The marks of the drive's corners, every 5 ms from 0 to 100 ms, from one side of the frame to the other; a crowd of
-/// events is drawn with few strokes.
+/// The corners of the drive, every 5 ms from 0 to 100 ms, are marked from end to end of the frame. Dense events need
+/// few strokes.
 fn assert_ticks_at_their_times(figure: &Figure<'_>) {
     let drawing = draw_svg(figure).unwrap();
     assert!(drawing.matches('<').count() < 1500 && drawing.len() < 200_000, "{} bytes", drawing.len());
@@ -291,7 +291,7 @@ fn assert_ticks_at_their_times(figure: &Figure<'_>) {
     for (i, corner) in corners.iter().enumerate() {
         assert!((middle(corner) - (start + (end - start) * i as f64 / 20.0)).abs() < 0.2, "{corner:?}");
     }
-    // 7 693 reversals at one rate: one block from side to side; ninety thousand in nine bursts.
+    // Reversals at a constant rate are one block over the full width; the bursts are nine blocks.
     let blocks = polygons(&drawing, &hex(Theme::light().palette[0]));
     let [block] = blocks.as_slice() else { panic!("{} blocks", blocks.len()) };
     let width = block.iter().map(|p| p.0).fold(0.0, f64::max) - block[0].0;
@@ -362,10 +362,7 @@ fn where_there_is_nothing_the_picture_says_so() {
     let figures = [
         (loop_figure("", &[]), "no contacts"),
         (state_figure("", &[]), "no springs recorded"),
-        (
-            memory_figure("", &[]),
-            "no memory recorded: the run did not come to any of the moments that were asked for",
-        ),
+        (memory_figure("", &[]), "no memory recorded: the run did not reach any of the requested times"),
         (phase_figure("", &[]), "nothing moves"),
         (events_figure("", (0.0, 1.0), &[]), "no events"),
         (compare_figure("", ("a", "b"), &[]), "no channels to compare"),
@@ -381,7 +378,7 @@ fn any_values() -> impl Strategy<Value = Vec<f64>> {
     proptest::collection::vec(value, 0..30)
 }
 
-/// Draws, or is refused for a reason.
+/// Drawing succeeds or returns an error, equally for both formats.
 fn assert_no_panic(figure: &Figure<'_>) {
     let small = Figure { size: (figure.size.0 / 4, figure.size.1 / 4), ..figure.clone() };
     assert_eq!(draw_png(&small).is_ok(), draw_svg(&small).is_ok());

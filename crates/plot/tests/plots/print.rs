@@ -1,4 +1,4 @@
-//! Figures in the width of a column of print, and figures over each other.
+//! Figures in the width of a printed column, and overlays.
 
 use crate::drawn::texts;
 use stickslip_plot::{
@@ -14,7 +14,7 @@ fn memories<'a>(times: &'a [String], (h, p): (&'a [f64], &'a [f64])) -> Figure<'
     memory_figure("Memory", &times[1..].iter().map(moment).chain([other]).collect::<Vec<_>>())
 }
 
-/// As many panels side by side as leave each its letters: at 60 mm headings were cut before the time that tells panels apart.
+/// The number of columns decreases until headings are complete.
 #[test]
 fn narrow_figures_have_fewer_columns_and_whole_headings() {
     let times: Vec<String> = (0..6).map(|k| format!("{}.125 ms", 91 + k)).collect();
@@ -33,7 +33,7 @@ fn narrow_figures_have_fewer_columns_and_whole_headings() {
     assert_eq!([60.0, 85.0, 160.0].map(columns), [1, 2, 3]);
 }
 
-/// Names of lanes shrank to half of the letters of axes, which keep their size.
+/// Lane names keep nearly the size of the axis numbers.
 #[test]
 fn a_figure_grows_for_the_names_of_its_lanes() {
     let kinds = ["gross slip", "gross slip ends", "reversal", "loop closed", "current in limits"];
@@ -49,11 +49,11 @@ fn a_figure_grows_for_the_names_of_its_lanes() {
             / size(&|text| text.len() == 3 && text.parse::<f64>().is_ok()).unwrap()
     };
     let [wide, narrow] = [share(&figure), share(&figure.printed(85.0))];
-    // Without more height than was there they were 0.4 of it.
+    // At the original height the ratio was 0.4.
     assert!(narrow > 0.89 * wide, "{wide} {narrow}");
 }
 
-/// A panel with a curve of a unit.
+/// Panel with one curve.
 fn panel(unit: &str) -> Panel<'static> {
     Panel {
         x: Axis::new(Label::plain("u"), unit),
@@ -63,7 +63,7 @@ fn panel(unit: &str) -> Panel<'static> {
     }
 }
 
-/// Five names along a line, which a frame of half the height has no room for.
+/// Five names along a line, which need more than half the height.
 #[test]
 fn a_figure_grows_for_the_names_in_its_frames_and_says_which_are_left_out() {
     let name = |k: usize| Note {
@@ -81,7 +81,7 @@ fn a_figure_grows_for_the_names_in_its_frames_and_says_which_are_left_out() {
     assert_eq!(named(&figure), 5);
     let printed = figure.clone().printed(85.0);
     assert_eq!(named(&printed), 5);
-    // Without more height they are not all there, and it is said how many.
+    // At a lower height some are left out, and their number is given.
     let low = Figure { size: (printed.size.0, printed.size.0 * 34 / 100), ..printed };
     let said = texts(&draw_svg(&low).unwrap());
     let left_out = 5 - named(&low);
@@ -105,11 +105,11 @@ fn what_figures_have_in_common_is_laid_over_each_other() {
     assert_eq!(over(&["m"], &["m", ""]), Some(1));
     assert_eq!(over(&["m", "s"], &["m", ""]), Some(1));
     assert_eq!(over(&["s"], &["m", ""]), None);
-    // Whatever stands between.
+    // A panel that only one figure has is left out.
     assert_eq!(over(&["m", "s", ""], &["m", ""]), Some(2));
 }
 
-/// The place of a body enlarged beside its whole was drawn over by what another result had in that place, the way of a contact.
+/// Panels are matched by their quantities, not by their index.
 #[test]
 fn panels_are_laid_over_those_that_show_the_same() {
     let of = |name: &str, shows: &[(&str, bool)]| {

@@ -1,5 +1,5 @@
-//! Pictures of scenes: true to scale, every text whole and clear of texts and lines. They are drawn light and dark,
-//! small, plain and double.
+//! Drawings of models: true to scale, no text cut or overlapping texts and lines. They are drawn in both themes and
+//! at several sizes.
 
 use crate::drawn::{Text, assert_texts_apart, draw_everywhere, texts, value};
 use proptest::prelude::*;
@@ -15,7 +15,7 @@ fn body<'a>(name: &'a str, moves: [Mobility<'a>; 3]) -> SceneBody<'a> {
     SceneBody { name, mass, x: moves[0], z: moves[1], pitch: moves[2] }
 }
 
-/// The third slides along x alone.
+/// `FREE` moves in all coordinates, `DRIVEN` follows a waveform along x, `SLIDER` is free along x only.
 const FREE: [Mobility<'static>; 3] = [Mobility::Free; 3];
 const DRIVEN: [Mobility<'static>; 3] = [Mobility::Follows("drive"), Mobility::Fixed, Mobility::Fixed];
 const SLIDER: [Mobility<'static>; 3] = [Mobility::Free, Mobility::Fixed, Mobility::Fixed];
@@ -26,7 +26,7 @@ fn at(body: usize, x: f64, z: f64) -> Fixture {
 
 const GROUND: Fixture = Fixture { body: None, at: (0.0, 0.0) };
 
-/// r²/2R up to r = R.
+/// Paraboloid r²/2R up to r = R.
 fn paraboloid(radius: f64) -> Vec<(f64, f64)> {
     (0..=24).map(|k| radius * f64::from(k) / 24.0).map(|r| (r, r * r / (2.0 * radius))).collect()
 }
@@ -44,7 +44,7 @@ fn load<'a>(body: usize, at: (f64, f64), forces: [Amount<'a>; 3]) -> SceneLoad<'
     SceneLoad { body, at, x: forces[0], z: forces[1], pitch: forces[2] }
 }
 
-/// A stage on balls, with everything there is.
+/// Stage on balls, with all kinds of links and loads.
 fn stage(reach: f64, height: f64) -> Scene<'static> {
     Scene {
         bodies: vec![body("foot", DRIVEN), body("stage", FREE), body("counter-mass", SLIDER)],
@@ -78,7 +78,7 @@ fn stage(reach: f64, height: f64) -> Scene<'static> {
     }
 }
 
-/// Bodies whose points say nothing.
+/// Bodies without given points.
 fn plain() -> Scene<'static> {
     let force = |newtons: f64| Press::Force(Amount::Constant(newtons));
     let between = [at(0, 0.0, 0.0), at(1, 0.0, 0.0)];
@@ -90,7 +90,7 @@ fn plain() -> Scene<'static> {
     }
 }
 
-/// A rod on two feet, with one above it and a spring between the first two.
+/// Rod on two feet, with a lid above it and a spring between the feet.
 fn walker() -> Scene<'static> {
     let foot = [Mobility::Follows("stride"), Mobility::Follows("lift"), Mobility::Fixed];
     let point = |body: usize| at(body, 0.0, 0.0);
@@ -117,7 +117,7 @@ fn walker() -> Scene<'static> {
     }
 }
 
-/// Figures of many kinds, by name.
+/// Figures of several models, by name.
 fn specimens() -> Vec<(&'static str, Figure<'static>)> {
     let ball = Scene {
         bodies: vec![body("ball", FREE)],
@@ -147,7 +147,7 @@ fn specimens() -> Vec<(&'static str, Figure<'static>)> {
     ]
 }
 
-/// Lines of a drawing, but those of frame and axes, px.
+/// Polylines of a drawing, px.
 fn lines(drawing: &str) -> Vec<Vec<(f64, f64)>> {
     let number = |text: &str| text.parse::<f64>().unwrap() / 8.0;
     let point = |pair: &str| pair.split_once(',').map(|(x, y)| (number(x), number(y))).unwrap();
@@ -155,7 +155,7 @@ fn lines(drawing: &str) -> Vec<Vec<(f64, f64)>> {
     tags.map(|tag| value(tag, "points").split_whitespace().map(point).collect()).collect()
 }
 
-/// Whether a stretch meets the inside of a rectangle: it is cut to it by Liang and Barsky's way.
+/// Whether a line segment intersects the inside of a rectangle (clipping by Liang and Barsky).
 fn meets([(x, y), (to_x, to_y)]: [(f64, f64); 2], [left, top, right, bottom]: [f64; 4]) -> bool {
     let (mut from, mut to) = (0.0_f64, 1.0_f64);
     for (way, start, low, high) in [(to_x - x, x, left, right), (to_y - y, y, top, bottom)] {
@@ -188,7 +188,7 @@ fn texts_are_whole_and_cover_neither_texts_nor_lines() {
     }
 }
 
-/// Px per unit of an axis and px of its zero, from the numbers beside it.
+/// Px per unit of an axis and px of its zero, from its numbers.
 fn axis(texts: &[Text], is_number_of: impl Fn(&Text) -> bool, middle: impl Fn(&Text) -> f64) -> (f64, f64) {
     let numbers = texts.iter().filter(|text| is_number_of(text));
     let numbers: Vec<(f64, f64)> = numbers
@@ -224,13 +224,13 @@ fn points_and_profiles_are_to_scale() {
     let figure = layout_figure("", &stage(12e-3, 6e-3));
     let drawing = draw_svg(&figure).unwrap();
     let ([(px_x, x_0), (px_z, z_0)], _) = axes(&drawing);
-    // Pixels are whole where numbers stand.
+    // Positions of numbers are rounded to whole pixels.
     assert!((px_x / -px_z - 1.0).abs() < 0.01, "{px_x} {px_z}");
     let mm = |(x, y): (f64, f64)| ((x - x_0) / px_x, (y - z_0) / px_z);
     let contacts: Vec<(f64, f64)> = discs(&drawing, &figure.theme, 1.1).into_iter().map(mm).collect();
     let near = |a: (f64, f64), b: (f64, f64)| (a.0 - b.0).abs() < 0.08 && (a.1 - b.1).abs() < 0.08;
     assert!(near(contacts[0], (12.0, 0.0)) && near(contacts[1], (-12.0, 0.0)), "{contacts:?}");
-    // Loads attack 6 mm and more above the contacts, where the stage has its reference point.
+    // The reference point of the stage is 6 mm above the contacts; loads act there and higher.
     let points: Vec<(f64, f64)> = discs(&drawing, &figure.theme, 0.9).into_iter().map(mm).collect();
     for wanted in [(0.0, 6.0), (7.2, 7.2), (0.0, 9.0), (-6.0, 6.0)] {
         assert!(points.iter().any(|point| near(*point, wanted)), "{wanted:?} of {points:?}");
@@ -289,8 +289,8 @@ fn a_picture_says_what_it_shows() {
         "2 mN m",
         "g = 9.81 m/s²",
         "incline 28.65°",
-        "free",
-        "follows a waveform",
+        "free along ↔",
+        "follows a waveform along ↔",
         "2 N",
     ] {
         assert!(said.iter().any(|said| said == text), "{text} in {said:?}");
@@ -320,7 +320,7 @@ fn a_crowd_is_drawn_as_far_as_it_goes() {
     }
 }
 
-/// A body that is reached a millimetre off and one that is reached a nanometre off: the drawing is wider than any frame is long.
+/// Points at 1 mm and at 1 nm: the drawing is wider than the maximum frame.
 #[test]
 fn a_drawing_that_is_far_too_wide_is_framed() {
     let scene = Scene {
@@ -353,7 +353,7 @@ prop_compose! {
 proptest! {
     #![proptest_config(ProptestConfig { cases: 48, ..ProptestConfig::default() })]
 
-    /// Scenes that no sense can be made of are drawn still, their texts apart.
+    /// Even arbitrary models are drawn without overlapping texts.
     #[test]
     fn any_scene_is_drawn(
         between in proptest::collection::vec([any_fixture(4), any_fixture(4)], 0..8),

@@ -1,4 +1,4 @@
-//! Whole figures: closed-form loops, a staircase, and what a user may throw at them.
+//! Complete figures: closed-form loops, a staircase motion, and unusual input of users.
 
 use crate::drawn::{assert_clear_border, decode, draw};
 use proptest::prelude::*;
@@ -28,8 +28,8 @@ fn sphere_loop(ratio: f64, u_c: f64, limit: f64) -> (Vec<f64>, Vec<f64>) {
     points.into_iter().unzip()
 }
 
-/// A sawtooth foot (slow rise, flyback of 2 %) and a slider that follows its rise after a backlash of 0.3 strokes,
-/// stays behind in the flyback and rings.
+/// Sawtooth foot (slow rise, flyback of 2 %) and a slider that follows the rise after a backlash of 0.3 strokes. The
+/// slider stays behind in the flyback and rings.
 fn staircase(count: usize, backlash: f64) -> (Vec<f64>, Vec<f64>, Vec<f64>) {
     let (stroke, period) = (1e-6, 1e-3);
     let n = 500;
@@ -203,7 +203,7 @@ fn a_rocking_slider_on_a_foot_that_lifts() {
 fn a_million_points() {
     let n = 1_000_000;
     let t: Vec<f64> = (0..n).map(|i| f64::from(i) * 1e-6).collect();
-    // A beat, noise of a linear congruence, and one spike.
+    // Modulated oscillation, pseudo-random noise, and one spike.
     let mut seed = 1_u32;
     let mut noise = || {
         seed = seed.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
@@ -216,7 +216,7 @@ fn a_million_points() {
         Trajectory { time: &t, sliders: vec![Track { name: "slider", values: &x }], ..Trajectory::default() };
     let figure = trajectory_figure("One million points", &trajectory);
     let picture = decode(&draw("million", &figure));
-    // The spike reaches the top of the frame, far above the rest: blue where nothing else is.
+    // The spike reaches the top of the frame, where nothing else is blue.
     let blue = |p: &[u8]| p[2] > 150 && p[0] < 100;
     let upper = &picture.rgb[..picture.width * picture.height];
     assert!(upper.chunks_exact(3).filter(|p| blue(p)).count() > 100);

@@ -1,4 +1,4 @@
-//! A part enlarged beside or below the whole.
+//! Enlarged time range next to or below the whole.
 
 use crate::drawn::{draw_everywhere, polylines, rectangles, texts};
 use stickslip_plot::{
@@ -6,7 +6,7 @@ use stickslip_plot::{
     enlarged_beside, events_figure, trajectory_figure,
 };
 
-/// Times from one to another, ms, and a slider that rings upon its way, µm.
+/// Times in a range, ms, and a slider that drifts and oscillates, µm.
 fn motion((from, to): (f64, f64)) -> (Vec<f64>, Vec<f64>) {
     let time: Vec<f64> = (0..=2000).map(|k| from + (to - from) * f64::from(k) / 2000.0).collect();
     let x = time.iter().map(|t| 1e-6 * (t + (60.0 * t).sin())).collect();
@@ -32,7 +32,7 @@ fn one_period_beside_the_whole() {
         enlarged_beside(figure("Forty periods", &whole), figure("", &part), (38e-3, 40e-3), "period 40");
     draw_everywhere("zoom", &both);
     let drawing = draw_svg(&both).unwrap();
-    // Frames are black: x of the two columns, and the shade is their last twentieth on the left.
+    // Frames are black. The shaded range is the last twentieth of the left frames.
     let frames: Vec<_> = polylines(&drawing, "#1A1A1A").into_iter().filter(|line| line.len() == 5).collect();
     assert_eq!(frames.len(), 4);
     let ends = |frame: usize| (frames[frame][0].0, frames[frame][1].0);
@@ -44,18 +44,18 @@ fn one_period_beside_the_whole() {
         let from = right - (right - left) / 20.0;
         assert!((x - from).abs() < 1.0 && (x + width - right).abs() < 1.0, "{shades:?} {from} {right}");
     }
-    // Sixty swings a millisecond: 20 turns in the part's two, and the curve fills its frame from end to end.
+    // 60 rad/ms: 20 turning points in the 2 ms of the part. The curve fills its frame from end to end.
     let curves: Vec<_> = polylines(&drawing, "#0072B2").into_iter().filter(|line| line.len() > 2).collect();
     assert_eq!(curves.len(), 4);
     let (first, last) = (curves[1][0].0, curves[1].last().unwrap().0);
     assert!((first - ends(1).0).abs() < 1.0 && (last - ends(1).1).abs() < 1.0, "{first} {last}");
-    // Names stand once for all panels, and the times of both columns.
+    // Names appear once for all panels, time labels once per column.
     let count = |word: &str| texts(&drawing).iter().filter(|text| text.text == word).count();
     assert_eq!((count("slider"), count("period 40"), count("±u"), count("time t (ms)")), (1, 1, 1, 2));
     assert_eq!(count("38.5"), 1, "{:?}", texts(&drawing));
 }
 
-/// What is used up of a store within the part, and not over the whole, was an area without a name.
+/// Released energy occurs in the part only, so its legend entry is there.
 #[test]
 fn what_is_in_the_part_alone_is_named_there() {
     let time = [0.0, 1.0, 2.0];
@@ -73,7 +73,7 @@ fn what_is_in_the_part_alone_is_named_there() {
     let both = enlarged_beside(whole, part, (time[1], time[2]), "the last second");
     let drawing = draw_svg(&both).unwrap();
     let count = |word: &str| texts(&drawing).iter().filter(|text| text.text == word).count();
-    assert_eq!((count("friction"), count("lost of what was stored at the start")), (1, 1));
+    assert_eq!((count("friction"), count("released")), (1, 1));
 }
 
 #[test]

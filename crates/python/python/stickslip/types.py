@@ -1170,7 +1170,7 @@ Damping = Quantity
 class Actuator(TypedDict):
     """Piezo stack: a spring and a damper with a free stroke s. The stack acts on the second body with the force
     k(s-e) + c(ṡ-ė). The elongation e is x(second) - x(first) at the ends of the stack, or z(second) -
-    z(first). Data-sheet values are enough to describe a stack: see docs/piezo.md."""
+    z(first). Data-sheet values are enough to describe a stack: see docs/how/data_sheet.md."""
 
     between: list[str]
     """Names of the first and the second body; the fixed `ground` counts as a body."""
@@ -1295,7 +1295,7 @@ Control = Literal["voltage", "charge"]
 Hysteresis = Union["LoopKind", "PlaysKind", "BoucWenKind"]
 """Rate-independent hysteresis of the free stroke: the input v is the stroke without hysteresis, m; the output is
 the actual stroke, m. The hysteresis has no effect on the voltage or on the energy balance: see
-docs/piezo_material.md."""
+docs/how/hysteresis.md."""
 
 
 class Loop(TypedDict):
@@ -1586,10 +1586,11 @@ class FieldsOutput(TypedDict):
     """Moments of the output, s, ascending, within the run; give either this or `every`."""
 
 Plot = Union["PlotName", "OwnPlot"]
-"""A picture by name, or channels over a channel: `xy-1.png`, `xy-2.png` and so on, in their order."""
+"""A plot by its name, or channels over another channel. These plots are written to `xy-1.png`, `xy-2.png` and so
+on."""
 
 PlotName = Literal["layout", "loop", "trajectory", "energy", "phase", "events", "state", "memory", "fields", "substitute", "friction", "waveform", "drive"]
-"""A picture a scenario asks for."""
+"""Name of a predefined plot."""
 
 _OwnPlot = TypedDict("_OwnPlot", {"from": "Time"}, total=False)
 

@@ -79,12 +79,12 @@ fn the_first_client_has_the_inputs_until_it_has_been_silent() {
     intake.offer(A, &packet(100, &[0.1, 0.1]));
     intake.offer(B, &packet(1, &[0.2, 0.2]));
     intake.settle().unwrap();
-    // One stale frame is not yet the patience, two are.
+    // The patience is two stale frames.
     intake.settle().unwrap();
     intake.offer(B, &packet(2, &[0.2, 0.2]));
     intake.settle().unwrap();
     assert_eq!((intake.values()[0], intake.received().other_client, intake.owner()), (0.1, 2, Some(A)));
-    // The first good packet takes over whatever its number; then the other one is the stranger.
+    // The first accepted packet takes over, whatever its number. Then the other client is refused.
     intake.offer(B, &packet(3, &[0.3, 0.3]));
     intake.offer(A, &packet(101, &[0.1, 0.1]));
     intake.settle().unwrap();
@@ -119,7 +119,7 @@ fn silence_holds_goes_back_or_ends() {
         assert_eq!(third.is_err(), silence == Silence::Stop);
         let expected = if silence == Silence::Initial { [0.25, 0.5] } else { [0.9, 0.9] };
         assert_eq!((intake.values(), intake.received().silences), (&expected[..], 1));
-        // The next good packet ends the silence.
+        // The next accepted packet ends the silence.
         intake.offer(A, &packet(2, &[0.3, 0.4]));
         intake.settle().unwrap();
         assert_eq!(intake.values(), [0.3, 0.4]);

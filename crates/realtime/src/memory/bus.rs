@@ -1,35 +1,35 @@
-//! Mappings whose file another process may make shorter.
+//! Handling of SIGBUS for mappings whose file another process may truncate.
 //!
-//! Where such memory is touched the system sends the thread SIGBUS, which ends the process unless it is taken. Here the lost mapping is
-//! replaced by zeros, and the instruction comes again. A look at the file's length before each touch would leave a moment between the
-//! two, and reading and writing the file instead of mapping it has no compare-exchange, by which clients and loop share a record.
+//! An access to a missing page causes SIGBUS, which ends the process unless it is handled. This handler replaces the lost mapping by zeros,
+//! and the instruction is repeated. Checking the file length before each access would leave a race condition. File reads and writes in
+//! place of the mapping have no compare-exchange, which clients and loop need.
 
 use rustix::mm::{MapFlags, ProtFlags, mmap_anonymous};
 use std::io;
 use std::sync::OnceLock;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-/// Mappings that a process may have at once: a loop has one.
+/// Maximum number of mappings of a process. A loop has one.
 const MOST: usize = 32;
 
-/// Where mappings lie, for whoever handles the signal: it may take no lock.
+/// Address ranges of the mappings. They are atomics, because a signal handler must not take a lock.
 static PLACES: [Place; MOST] =
     [const { Place { start: AtomicUsize::new(0), end: AtomicUsize::new(0) } }; MOST];
 
-/// Who handled the signal before, or nothing where it cannot be handled.
+/// Previous handler of the signal. `None` if the signal cannot be handled.
 static FORMER: OnceLock<Option<libc::sigaction>> = OnceLock::new();
 
-/// Where a mapping lies; nobody's where its start is 0.
+/// Address range of a mapping. It is unused if its start is 0.
 struct Place {
     start: AtomicUsize,
     end: AtomicUsize,
 }
 
-/// Keeps a mapping from ending the process, until it is dropped: before the mapping goes.
+/// Protects a mapping from SIGBUS. It must be dropped before the mapping.
 pub(super) struct Guard(&'static Place);
 
 impl Guard {
-    /// Of a mapping that begins at this address and has so many bytes.
+    /// Protects the mapping with this start address and size.
     pub(super) fn over(start: usize, bytes: usize) -> io::Result<Self> {
         if FORMER.get_or_init(take_signal).is_none() {
             return Err(io::Error::other("SIGBUS cannot be handled"));
@@ -50,11 +50,11 @@ impl Drop for Guard {
     }
 }
 
-/// From now on the signal is handled here; who had it before.
+/// Installs the signal handler and returns the previous one.
 fn take_signal() -> Option<libc::sigaction> {
     #[allow(unsafe_code, reason = "rustix has no sigaction")]
-    // SAFETY: both actions are plain data, whole and on this stack, for which zeros are values. The handler has the signature that
-    // SA_SIGINFO asks for, takes no lock and allocates nothing.
+    // SAFETY: both actions are plain data on this stack, for which zero is a valid value. The handler has the signature that SA_SIGINFO
+    // requires, takes no lock and allocates nothing.
     unsafe {
         let mut action: libc::sigaction = std::mem::zeroed();
         let mut former: libc::sigaction = std::mem::zeroed();
@@ -65,11 +65,12 @@ fn take_signal() -> Option<libc::sigaction> {
     }
 }
 
-/// Puts zeros in the place of the mapping that was touched. Where it is none of these, the signal is given back to who had it before, and
-/// comes again.
+/// Signal handler that replaces the accessed mapping by zeros.
+///
+/// If the address belongs to no mapping, the previous handler is restored and the signal is raised again.
 extern "C" fn replace(_: libc::c_int, info: *mut libc::siginfo_t, _: *mut libc::c_void) {
     #[allow(unsafe_code, reason = "the address is in what the system hands over")]
-    // SAFETY: the system hands a whole siginfo_t to a handler of SA_SIGINFO, that of SIGBUS with an address.
+    // SAFETY: the system passes a complete siginfo_t to a handler with SA_SIGINFO. For SIGBUS it contains the address.
     let at = unsafe { (*info).si_addr() } as usize;
     for place in &PLACES {
         let (start, end) = (place.start.load(Ordering::Acquire), place.end.load(Ordering::Acquire));
@@ -77,8 +78,8 @@ extern "C" fn replace(_: libc::c_int, info: *mut libc::siginfo_t, _: *mut libc::
             let access = ProtFlags::READ | ProtFlags::WRITE;
             let flags = MapFlags::PRIVATE | MapFlags::FIXED;
             #[allow(unsafe_code, reason = "memory at the place of a mapping that is lost")]
-            // SAFETY: what lies there is a mapping of `Mapping`, which lives as long as its guard has the place: it is replaced whole,
-            // by memory of the same access.
+            // SAFETY: the address range is a mapping of `Mapping`, which lives as long as its guard. It is replaced completely by memory
+            // with the same access rights.
             let made = unsafe { mmap_anonymous(start as *mut _, end - start, access, flags) };
             if made.is_ok() {
                 return;
@@ -86,7 +87,7 @@ extern "C" fn replace(_: libc::c_int, info: *mut libc::siginfo_t, _: *mut libc::
         }
     }
     #[allow(unsafe_code, reason = "rustix has no sigaction")]
-    // SAFETY: `former` is what the system gave out, or its own default.
+    // SAFETY: `former` is the action that the system returned. Otherwise the default action is restored.
     unsafe {
         match FORMER.get() {
             Some(Some(former)) => drop(libc::sigaction(libc::SIGBUS, former, std::ptr::null_mut())),

@@ -7,35 +7,35 @@ use stickslip_drive::scene::Axis;
 use stickslip_drive::{Generator, Interpolation, Model, Scene, Shape};
 use thiserror::Error;
 
-/// Something of a drive that is fed from outside.
+/// An input of a drive.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Input {
     /// Name of the waveform.
     pub name: String,
-    /// Value before any came, in the unit of what follows.
+    /// Initial value, in the unit of the quantity that follows the waveform.
     pub initial: f64,
-    /// Which values it takes.
+    /// Allowed values.
     pub takes: Takes,
-    /// How a value gets into the run.
+    /// Use of the value in the run.
     pub(crate) feed: Feed,
 }
 
-/// Which values an input takes.
+/// Allowed values of an input.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Takes {
-    /// From the smallest to the largest.
+    /// From the smallest to the largest value.
     Range(f64, f64),
     /// +1 or −1.
     Sign,
-    /// A number of steps: 0, 1, 2, … up to 2⁵³, or −1 for no end.
+    /// A number of cycles: 0, 1, 2, … up to 2⁵³, or −1 for no limit.
     Count,
 }
 
-/// Largest count: up to here every whole number is a double.
+/// Largest count. All integers up to it are exact in double precision.
 const MOST_STEPS: f64 = 9_007_199_254_740_992.0;
 
 impl Takes {
-    /// Whether a value is among them; what is not a number never is.
+    /// Returns whether a value is allowed. NaN never is.
     #[inline]
     pub fn has(self, value: f64) -> bool {
         match self {
@@ -51,27 +51,26 @@ impl fmt::Display for Takes {
         match self {
             Self::Range(low, high) => write!(f, "{low:e} to {high:e}"),
             Self::Sign => f.write_str("1 or -1"),
-            Self::Count => f.write_str("0, 1, 2, … or, for no end, -1"),
+            Self::Count => f.write_str("0, 1, 2, … or -1 for no limit"),
         }
     }
 }
 
-/// How a value gets into the run; places are those of the scene's waveforms.
+/// Use of an input value in the run. The indices are those of the waveforms in the model.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Feed {
-    /// It is there from the start of the frame on.
+    /// Applies from the start of the frame.
     Hold(usize),
-    /// It is reached at the end of the frame, straight.
+    /// Is reached at the end of the frame, by linear interpolation.
     Lead(usize),
-    /// It is part of what the cycles of a generator are that begin from now on.
+    /// Is a part of the command for the cycles of a generator that start later.
     Command(usize, Part),
-    /// It does not: it is written down beside the others.
+    /// Is recorded only.
     Note,
 }
 
 impl Input {
-    /// A value that feeds nothing, such as what a controller aims at: it comes with the others, and is recorded and drawn beside
-    /// them.
+    /// Creates an input that has no effect, such as the setpoint of a controller. It is recorded and drawn with the others.
     pub fn note(name: &str) -> Self {
         Self {
             name: name.to_owned(),
@@ -81,63 +80,62 @@ impl Input {
         }
     }
 
-    /// Whether a value is reached straight at the end of the frame; any other is there from its start on.
+    /// Returns whether the value is reached at the end of a frame by linear interpolation. Other values apply from its start.
     pub fn is_led(&self) -> bool {
         matches!(self.feed, Feed::Lead(_))
     }
 }
 
-/// Something of a drive that is told.
+/// An output of a drive.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Output {
     /// Name of the channel, with its unit.
     pub name: String,
-    /// Where it is read.
+    /// Source of the value.
     pub(crate) reading: Reading,
 }
 
-/// Where a value is read: a row of all channels looks into every contact, which takes longer than a frame may.
+/// Source of an output value. Bodies are read directly, because a row of all channels evaluates every contact.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Reading {
-    /// Off the clock of the run.
+    /// Simulated time.
     Time,
-    /// A coordinate of a body, or its rate.
+    /// Coordinate of a body, or its velocity.
     Coordinate {
-        /// Place of the body in the scene.
+        /// Index of the body in the model.
         body: usize,
-        /// Which coordinate.
+        /// Coordinate.
         axis: Axis,
-        /// Whether its rate.
+        /// Whether the velocity is read.
         is_rate: bool,
     },
-    /// At a place of a row.
+    /// Index in a row of all channels.
     Row(usize),
 }
 
-/// Why channels cannot be had.
+/// Error for inputs or outputs.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 pub enum ChannelError {
-    /// No such channel.
-    #[error("there is no channel \"{}\"; there are {known}", .name.escape_debug())]
+    /// The channel does not exist.
+    #[error("there is no channel \"{}\"; channels: {known}", .name.escape_debug())]
     Unknown {
-        /// The name.
+        /// The unknown name.
         name: String,
-        /// Those that there are.
+        /// Names of all channels.
         known: String,
     },
-    /// Twice the same.
-    #[error("channel \"{0}\" is asked for twice")]
+    /// A channel is named twice.
+    #[error("channel \"{0}\" is named twice")]
     Twice(String),
-    /// More than a packet holds.
-    #[error("{0} {1} are too many: a packet holds {MOST_VALUES}")]
+    /// There are more values than a packet can hold.
+    #[error("{0} {1} are too many: a packet has at most {MOST_VALUES}")]
     TooMany(usize, &'static str),
 }
 
-/// All inputs of a scene, in its order: a value of each waveform that is fed, four of each generator. What nothing follows feeds
-/// nothing.
+/// Returns all inputs of a model: one value per input waveform, four per generator. Values that nothing follows have no effect.
 ///
 /// # Errors
-/// More than a packet holds.
+/// There are more values than a packet can hold.
 pub fn inputs(scene: &Scene) -> Result<Vec<Input>, ChannelError> {
     let mut inputs = Vec::new();
     for (place, waveform) in scene.waveforms.iter().enumerate() {
@@ -159,7 +157,7 @@ pub fn inputs(scene: &Scene) -> Result<Vec<Input>, ChannelError> {
     if inputs.len() > MOST_VALUES { Err(ChannelError::TooMany(inputs.len(), "inputs")) } else { Ok(inputs) }
 }
 
-/// What is commanded of the generator at a place of the scene.
+/// Returns the command inputs of a generator.
 fn commands(name: &str, place: usize, generator: &Generator) -> impl Iterator<Item = Input> {
     let ((least, most), (slowest, fastest)) = (generator.strokes, generator.frequencies);
     let takes = [Takes::Range(least, most), Takes::Range(slowest, fastest), Takes::Sign, Takes::Count];
@@ -172,11 +170,12 @@ fn commands(name: &str, place: usize, generator: &Generator) -> impl Iterator<It
     })
 }
 
-/// Channels by their names; by default time, and places and velocities of the bodies. Forces are told where they are asked for:
-/// contacts may wait for their next event, and leading a copy of each up to now takes longer than many a frame.
+/// Returns the outputs with the given names. By default they are the time and the positions and velocities of the bodies.
+///
+/// Forces are not included by default. They require an evaluation of the contacts, which may take longer than a frame.
 ///
 /// # Errors
-/// A name that is none or comes twice, or more than a packet holds.
+/// A name is unknown or occurs twice, or there are more values than a packet can hold.
 pub fn outputs(model: &Model, names: Option<&[String]>) -> Result<Vec<Output>, ChannelError> {
     let channels = model.channels();
     let mut chosen: Vec<Output> = Vec::new();
@@ -206,7 +205,7 @@ pub fn outputs(model: &Model, names: Option<&[String]>) -> Result<Vec<Output>, C
     Ok(chosen)
 }
 
-/// The channel at a place of a row.
+/// Returns the output for an index in a row of all channels.
 fn output(model: &Model, name: String, place: usize) -> Output {
     let axes =
         [(Axis::X, "x_m", "vx_m_s"), (Axis::Z, "z_m", "vz_m_s"), (Axis::Pitch, "pitch_rad", "vpitch_rad_s")];
@@ -240,7 +239,7 @@ mod tests {
         }
     }
 
-    /// Whatever way a value is read, it is that of the row.
+    /// A coordinate that is read directly has the value of the row.
     #[test]
     fn a_coordinate_is_read_as_in_a_row() {
         for example in ["p1", "three_ball_stage", "piezo_stack", "walking_drive"] {

@@ -1,32 +1,32 @@
-//! Generators whose cycles are commanded from outside, by four values in each frame.
+//! Generators whose cycles are commanded by four input values per frame.
 
 use super::PlantError;
 use stickslip_drive::{Command, Heading, Run, Steps};
 
-/// One of the values that make a command.
+/// One of the four values of a command.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Part {
-    /// Peak to peak, in the unit of what follows.
+    /// Stroke, peak to peak, in the unit of the driven quantity.
     Stroke,
-    /// Hz.
+    /// Frequency, Hz.
     Frequency,
-    /// +1 is forward, −1 backward.
+    /// Direction: +1 forward, −1 backward.
     Heading,
-    /// Cycles still to begin; −1 is without end.
+    /// Number of cycles still to start; −1 for no limit.
     Steps,
 }
 
 impl Part {
-    /// All, in the order of a packet.
+    /// All values in the order of a packet.
     pub(crate) const ALL: [Self; 4] = [Self::Stroke, Self::Frequency, Self::Heading, Self::Steps];
 
-    /// What comes behind the generator's name.
+    /// Returns the suffix of the input name after the name of the generator.
     pub(crate) fn name(self) -> &'static str {
         ["stroke", "frequency", "heading", "steps"][self as usize]
     }
 }
 
-/// The values of a command, in the order of [`Part`].
+/// Returns the values of a command in the order of [`Part`].
 pub(crate) fn values(command: &Command) -> [f64; Part::ALL.len()] {
     let heading = match command.heading {
         Heading::Forward => 1.0,
@@ -39,47 +39,46 @@ pub(crate) fn values(command: &Command) -> [f64; Part::ALL.len()] {
     [command.stroke, command.frequency, heading, steps]
 }
 
-/// A generator, and what it was last told.
+/// A generator with its last command.
 ///
-/// A controller tells all four values in every frame. A command is made of them where one has changed; and a number of steps counts
-/// from the frame on in which it is another one than in the frame before. Taken anew in every frame it would never run out;
-/// refused was to count up and up (all steps ever to begin), which needs the number that have begun before one can say two more.
+/// A controller sends all four values in every frame. A new command is given only if a value has changed. The number of cycles counts from
+/// the frame in which it changes, because otherwise it would never be used up.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Commanded {
-    /// Place of its waveform in the scene.
+    /// Index of the waveform in the model.
     place: usize,
-    /// What it was last told.
+    /// Values of the last command.
     told: [f64; Part::ALL.len()],
-    /// What it is told now.
+    /// Values received in this frame.
     tells: [f64; Part::ALL.len()],
 }
 
 impl Commanded {
-    /// A generator by the place of its waveform in the scene, whose command is not known yet.
+    /// Creates a generator with an unknown last command. `place` is the waveform index in the model.
     pub(crate) fn new(place: usize) -> Self {
         Self { place, told: [f64::NAN; Part::ALL.len()], tells: [f64::NAN; Part::ALL.len()] }
     }
 
-    /// Whether it is the waveform at this place.
+    /// Returns whether the generator has the waveform with this index.
     pub(crate) fn is_at(&self, place: usize) -> bool {
         self.place == place
     }
 
-    /// Hears one value.
+    /// Sets one received value.
     #[inline]
     pub(crate) fn hear(&mut self, part: Part, value: f64) {
         self.tells[part as usize] = value;
     }
 
-    /// Takes what it has heard as told before.
+    /// Stores the received values as the last command without giving it.
     pub(crate) fn know(&mut self) {
         self.told = self.tells;
     }
 
-    /// Commands what it has heard, where that is something else than before.
+    /// Gives the received command to the run if it differs from the last one.
     ///
     /// # Errors
-    /// A command that the run does not take.
+    /// The run rejects the command.
     #[inline]
     pub(crate) fn command(&mut self, run: &mut Run<'_>) -> Result<(), PlantError> {
         if self.told == self.tells {

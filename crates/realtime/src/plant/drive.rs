@@ -1,4 +1,4 @@
-//! A drive as a plant.
+//! A simulated drive as a plant.
 
 use super::channels::{Feed, Reading};
 use super::commanded::Commanded;
@@ -6,29 +6,30 @@ use super::{Input, Output, Plant, PlantError, Work, between, done};
 use stickslip_drive::{Limits, Model, Plan, Run, RunError, State};
 use stickslip_drive::{Unrecorded, Watcher};
 
-/// A drive: a run that goes on from one multiple of the frame to the next.
+/// A drive: a run that is advanced from one multiple of the frame length to the next.
 pub struct Drive<'m> {
     run: Run<'m>,
     /// Length of a frame, s.
     period: f64,
-    /// Frames since t = 0.
+    /// Number of frames since t = 0.
     frame: u64,
     feeds: Vec<Feed>,
     generators: Vec<Commanded>,
     readings: Vec<Reading>,
-    /// All channels, where any of them is told that lies nowhere else.
+    /// Row of all channels. It is filled only if an output needs it.
     row: Vec<f64>,
     model: &'m Model,
-    /// Who may end it within a frame.
+    /// Watcher that may end the run within a frame.
     observer: &'m (dyn Watcher + Sync),
 }
 
 impl<'m> Drive<'m> {
-    /// A drive at the start of frame `frame`, whose state lies there; frame k goes from k·T to (k+1)·T, multiplied and not
-    /// summed. Of the plan its stepper counts: a run in real time has no other end than its frames, and no rows.
+    /// Creates a drive at the start of frame `frame`, where its state must be.
+    ///
+    /// Frame k extends from k·T to (k+1)·T; times are multiplied, not summed. Only the integrator of the plan is used.
     ///
     /// # Errors
-    /// A stepper that cannot be held, or a fixed step too long for the scene.
+    /// The integrator cannot run in frames, or its fixed time step is too long for the model.
     pub fn new(
         model: &'m Model,
         plan: &Plan,
@@ -38,7 +39,7 @@ impl<'m> Drive<'m> {
     ) -> Result<Self, RunError> {
         let plan = Self::plan(plan);
         let run = if frame == 0 { Run::new(model, &plan, state)? } else { Run::resume(model, &plan, state)? };
-        // What nothing follows is no input of the model.
+        // An input that nothing follows has no effect on the model.
         let is_spared = |place: &usize| model.spared().waveforms.contains(place);
         let feed = |input: &Input| match input.feed {
             Feed::Hold(place) | Feed::Lead(place) | Feed::Command(place, _) if is_spared(&place) => {
@@ -71,15 +72,16 @@ impl<'m> Drive<'m> {
         Ok(drive.after(&initial))
     }
 
-    /// The same, ended within a frame that takes long as soon as an observer wants it.
+    /// Returns the drive with a watcher that may end a long frame.
     #[must_use]
     pub fn heeding(self, observer: &'m (dyn Watcher + Sync)) -> Self {
         Self { observer, ..self }
     }
 
-    /// The same after a frame of these inputs: what generators were told then is not commanded anew. Before the first frame these
-    /// are the initial values; a drive that is taken up later has to be told, for its state knows the steps that are left and not how
-    /// many were asked for.
+    /// Returns the drive after a frame with these inputs, so that unchanged commands are not given again.
+    ///
+    /// Before the first frame, the inputs are the initial values. A resumed drive needs this call, because its state contains the remaining
+    /// cycles but not the commanded number.
     #[must_use]
     pub fn after(mut self, inputs: &[f64]) -> Self {
         self.hear(inputs);
@@ -87,7 +89,7 @@ impl<'m> Drive<'m> {
         self
     }
 
-    /// Lets generators hear their values.
+    /// Passes the input values to the generators.
     #[inline]
     fn hear(&mut self, inputs: &[f64]) {
         for (feed, value) in self.feeds.iter().zip(inputs) {
@@ -98,18 +100,18 @@ impl<'m> Drive<'m> {
         }
     }
 
-    /// The plan that a run in real time has: no rows, no guards by counts or by the clock.
+    /// Returns the plan of a real-time run: without rows and without limits on counts or wall time.
     fn plan(plan: &Plan) -> Plan {
         let limits = Limits { steps: u64::MAX, events: u64::MAX, wall: None };
         Plan { every: None, until_steady: None, limits, ..*plan }
     }
 
-    /// Where it stands.
+    /// Returns the current state.
     pub fn state(&self) -> &State {
         self.run.state()
     }
 
-    /// The values told where it stands.
+    /// Writes the output values of the current state.
     pub fn tell(&mut self, outputs: &mut [f64]) {
         if self.readings.iter().any(|reading| matches!(reading, Reading::Row(_))) {
             self.run.row(&mut self.row);
@@ -120,7 +122,7 @@ impl<'m> Drive<'m> {
                 Reading::Time => state.time(),
                 Reading::Row(place) => self.row[place],
                 Reading::Coordinate { body, axis, is_rate } => {
-                    // The channel is there, so the coordinate is.
+                    // The channel exists, therefore the coordinate does.
                     let (value, rate) = state.coordinate(self.model, body, axis).unwrap_or_default();
                     if is_rate { rate } else { value }
                 }

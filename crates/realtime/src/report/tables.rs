@@ -1,12 +1,13 @@
-//! Tables of a loop.
+//! CSV tables of a real-time loop.
 
 use crate::pace::Timing;
 use crate::plant::WORK;
 use std::collections::BTreeMap;
 use std::fmt::Write;
 
-/// Counts by bins of 1 µs, those that are not empty: execution and latency of the loop and of the empty one. The last line,
-/// from 20 ms on, has all that is longer.
+/// Returns a table of the non-empty histogram bins of 1 µs: execution time and latency of the loop and of the empty loop.
+///
+/// The last row, from 20 ms on, contains all longer durations.
 pub fn histogram_csv(timing: &Timing, floor: &Timing) -> String {
     let all = [&timing.execution, &timing.latency, &floor.execution, &floor.latency];
     let mut bins: BTreeMap<u64, [u64; 4]> = BTreeMap::new();
@@ -27,7 +28,7 @@ pub fn histogram_csv(timing: &Timing, floor: &Timing) -> String {
     text
 }
 
-/// The worst frames, by execution time and by latency, with what happened in them.
+/// Returns a table of the worst frames by execution time and by latency, with their work.
 pub fn frames_csv(timing: &Timing, period: f64) -> String {
     let mut text = format!("worst_by,frame,time_s,latency_us,execution_us,{}\n", WORK.join(","));
     for (by, worst) in [("execution", &timing.slowest), ("latency", &timing.latest)] {

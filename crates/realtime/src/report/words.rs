@@ -1,14 +1,14 @@
-//! A report in words.
+//! Report of a real-time loop as text.
 
 use super::{Report, Times};
 use crate::plant::WORK;
 use crate::worst::Slow;
 
-/// What nobody can promise here.
-pub const PROMISE: &str = "measured in this run, not a bound: without a real-time kernel (PREEMPT_RT), a reserved processor and locked \
-memory the operating system may delay the loop by milliseconds at any time";
+/// Note on the limits of the timing guarantees.
+pub const PROMISE: &str = "measured in this run, not guaranteed: without a real-time kernel (PREEMPT_RT), a \
+reserved processor and locked memory, the operating system may delay the loop by milliseconds at any time";
 
-/// The report for people. `worst` is the slowest frame.
+/// Returns the report as text. `worst` is the slowest frame.
 pub fn text(report: &Report, worst: Option<&Slow>) -> String {
     let mut lines = vec![head(report)];
     lines.push(times("execution", &report.execution, report));
@@ -54,12 +54,12 @@ fn times(name: &str, times: &Times, report: &Report) -> String {
     let Times { median_us, p99_9_us, p99_99_us, worst_us, .. } = times;
     let share = 1e-4 * worst_us / report.period_s;
     format!(
-        "  {name}: median {median_us:.2} µs, 99.9 % {p99_9_us:.2} µs, 99.99 % {p99_99_us:.2} µs, worst {worst_us:.2} µs \
-         ({share:.0} % of the period)"
+        "  {name}: median {median_us:.2} µs, 99.9 % {p99_9_us:.2} µs, 99.99 % {p99_99_us:.2} µs, maximum \
+         {worst_us:.2} µs ({share:.0} % of the period)"
     )
 }
 
-/// What came in, if anything can.
+/// Returns a line about the received inputs. Returns `None` without inputs.
 fn inputs(report: &Report) -> Option<String> {
     let received = &report.received;
     if report.inputs.is_empty() {
@@ -89,28 +89,25 @@ fn springs(report: &Report) -> Option<String> {
     let measured: Vec<String> =
         rows.springs.iter().zip(&rows.p99_us).map(|(n, time)| format!("{n} springs {time:.2} µs")).collect();
     let fits = match rows.fit_in_period {
-        Some(n) => format!("about {n} springs per contact would fill the period"),
-        None => "the number that would fill the period is not measured".to_owned(),
+        Some(n) => format!("about {n} springs per contact fill the period"),
+        None => "the number that fills the period was not measured".to_owned(),
     };
-    Some(format!(
-        "  with contacts as rows of springs 99 % of the frames took: {}; {fits}",
-        measured.join(", ")
-    ))
+    Some(format!("  with rows of springs, 99 % of the frames took at most: {}; {fits}", measured.join(", ")))
 }
 
-/// Kept or not.
+/// Returns a line about the deadlines: kept or not.
 fn verdict(report: &Report) -> String {
     let share = 1e-4 * report.execution.p99_99_us / report.period_s;
     let Report { overruns, frames, deadlines_skipped, longest_skip, .. } = report;
     match report.ended {
         "stopped" | "memory" => format!("stopped: {}", report.error.as_deref().unwrap_or_default()),
-        "no_input" => "not started: no input came".to_owned(),
+        "no_input" => "not started: no input arrived".to_owned(),
         _ if !report.paced => {
             format!("not paced; 99.99 % of the frames took up to {share:.1} % of the period")
         }
         _ if report.kept => {
             format!(
-                "kept: no overrun in {frames} frames; 99.99 % of them took up to {share:.1} % of the period"
+                "kept: no overrun in {frames} frames; 99.99 % of the frames took up to {share:.1} % of the period"
             )
         }
         ended => {
@@ -119,7 +116,7 @@ fn verdict(report: &Report) -> String {
                 "silence" => ", ended by silence",
                 _ => "",
             };
-            let kept = if *overruns == 0 { "no overrun until then" } else { "not kept" };
+            let kept = if *overruns == 0 { "no overrun" } else { "not kept" };
             format!(
                 "{kept}{ended}: {overruns} of {frames} frames overran, {deadlines_skipped} deadlines skipped, at most {longest_skip} \
                  in a row; 99.99 % of the frames took up to {share:.1} % of the period"

@@ -1,35 +1,37 @@
-//! A socket that is open to all until somebody has the inputs, and then to that client alone.
+//! UDP socket that receives from all addresses until a client owns the inputs, and then from this client only.
 
 use crate::intake::{Client, Intake};
 use crate::wire::{self, MOST_VALUES};
 use std::io;
 use std::net::{SocketAddr, UdpSocket};
 
-/// Most packets that are taken off a socket in a frame: a flood costs no more than this.
+/// Maximum number of packets that are read in a frame, which limits the cost of a flood of packets.
 const MOST_PACKETS: usize = 32;
 
-/// A socket that takes packets. While a client has the inputs the system drops what others send: a flood would fill the room that the
-/// system has for packets, and those of the client would find none. (Linux; elsewhere all are read and judged.)
+/// UDP socket of the inputs.
+///
+/// While a client owns the inputs, the system drops the packets of others. Otherwise a flood could fill the receive buffer. This works on
+/// Linux; on other systems all packets are read and validated.
 pub struct Door {
     socket: UdpSocket,
-    /// The one client that is let in.
+    /// Address of the only client that is received.
     guest: Option<SocketAddr>,
-    /// Whether anything came from it since.
+    /// Whether a packet of this client has arrived since.
     heard: bool,
-    /// One that could not be heard while it was the only one.
+    /// Address of a client that could not be received exclusively.
     unheard: Option<SocketAddr>,
 }
 
 impl Door {
-    /// Open to all.
+    /// Creates a receiver for all addresses.
     pub fn new(socket: UdpSocket) -> Self {
         Self { socket, guest: None, heard: false, unheard: None }
     }
 
-    /// Reads what has come, and has it judged.
+    /// Reads the received packets and passes them to the validator.
     pub(super) fn poll(&mut self, intake: &mut Intake) {
         self.admit(intake);
-        // One byte more than any packet has: what is longer is cut to a length that is wrong.
+        // The buffer is one byte longer than any packet, so that longer packets have a wrong length.
         let mut bytes = [0; wire::length(MOST_VALUES) + 1];
         for _ in 0..MOST_PACKETS {
             match self.socket.recv_from(&mut bytes) {
@@ -38,15 +40,14 @@ impl Door {
                     intake.offer(Client::Address(address), &bytes[..length]);
                 }
                 Err(error) if error.kind() == io::ErrorKind::WouldBlock => break,
-                // Such as the echo of an output that nobody was there to take: the next packet may be good.
+                // Such an error may report an output that no receiver accepted. The next packet may be valid.
                 Err(_) => {}
             }
         }
         self.admit(intake);
     }
 
-    /// Shuts the others out while somebody has the inputs, and lets them in when that one has been silent for so long that another may
-    /// take over.
+    /// Restricts the socket to the owner of the inputs, or opens it to all if another client may take over.
     fn admit(&mut self, intake: &Intake) {
         let owner = match intake.holder() {
             Some(Client::Address(address)) => Some(address),
@@ -55,19 +56,19 @@ impl Door {
         if owner == self.guest || (owner.is_some() && owner == self.unheard) {
             return;
         }
-        // The socket of an address that stands for all of a machine gets one of them when it is connected: a client that speaks to
-        // another one of them is no longer heard.
+        // A socket bound to all addresses of a machine is assigned one of them when it is connected. Packets of a client to another of
+        // these addresses are then lost.
         if owner.is_none() && !self.heard {
             self.unheard = self.guest;
         }
-        // Where the system refuses, all are heard: what others say is still judged.
+        // If the system refuses, all packets are received and validated.
         if connect(&self.socket, owner).is_ok() {
             (self.guest, self.heard) = (owner, false);
         }
     }
 }
 
-/// Lets in what one address sends, or all.
+/// Connects the socket to one address, or disconnects it.
 #[cfg(target_os = "linux")]
 fn connect(socket: &UdpSocket, to: Option<SocketAddr>) -> io::Result<()> {
     match to {
@@ -76,7 +77,7 @@ fn connect(socket: &UdpSocket, to: Option<SocketAddr>) -> io::Result<()> {
     }
 }
 
-/// Elsewhere a socket that is connected may send to nobody by address, as outputs are.
+/// On other systems, a connected socket may not send to other addresses, which the outputs need.
 #[cfg(not(target_os = "linux"))]
 fn connect(_: &UdpSocket, _: Option<SocketAddr>) -> io::Result<()> {
     Err(io::ErrorKind::Unsupported.into())

@@ -1,4 +1,4 @@
-//! Lines of text, one value for each input, read by a thread of their own.
+//! Inputs from lines of text with one value per input, read by a separate thread.
 
 use crate::intake::{Client, Intake};
 use crate::plant::{Input, Takes};
@@ -9,14 +9,14 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::thread;
 
-/// Longest line with its end, bytes: 150 numbers of 25.
+/// Maximum length of a line with its end, bytes: 150 numbers of 25 characters.
 const LONGEST: u64 = 4096;
 
-/// The newest of the lines that have come.
+/// Source that uses the latest line received.
 pub struct Lines {
     mailbox: Arc<Mailbox>,
     seen: u64,
-    /// Number of the last line that was seen.
+    /// Number of the last line used.
     last: u64,
     record: Vec<u64>,
     odd: u64,
@@ -25,14 +25,14 @@ pub struct Lines {
 
 struct Mailbox {
     words: Vec<AtomicU64>,
-    /// Lines that are no values.
+    /// Number of lines that are not valid lists of values.
     odd: AtomicU64,
-    /// Lines with a value that its input does not take. They come into no mailbox: a good one may lie there that nobody has seen.
+    /// Number of lines with a value out of range. They do not replace a valid line that is not yet used.
     refused: AtomicU64,
 }
 
 impl Lines {
-    /// Reads lines until there are no more. The thread is left alone at the end of the loop: it waits for a line.
+    /// Starts a thread that reads lines until the end of the input. The thread is not joined, because it may wait for a line.
     pub fn read(mut from: impl BufRead + Send + 'static, scenario: u64, inputs: &[Input]) -> Self {
         let (values, takes): (usize, Vec<Takes>) =
             (inputs.len(), inputs.iter().map(|input| input.takes).collect());
@@ -55,7 +55,7 @@ impl Lines {
                 }
                 sequence += 1;
                 let stamp = Stamp { sequence, time: 0.0 };
-                // This thread alone writes.
+                // Only this thread writes, so that the write succeeds.
                 let _ = seqlock::write(&filled.words, wire::words(scenario, stamp, &found));
             }
         });
@@ -83,7 +83,7 @@ impl Lines {
     }
 }
 
-/// Reads a line; nothing of one that is too long, whose tail must not be taken for another. `false` where there are no more.
+/// Reads a line. A line that is too long is returned as an empty one, and its rest is skipped. Returns `false` at the end of the input.
 fn next(from: &mut impl BufRead, line: &mut Vec<u8>) -> io::Result<bool> {
     line.clear();
     let read = Read::take(&mut *from, LONGEST).read_until(b'\n', line)?;
@@ -94,7 +94,7 @@ fn next(from: &mut impl BufRead, line: &mut Vec<u8>) -> io::Result<bool> {
     Ok(read > 0)
 }
 
-/// The numbers of a line, with blanks or commas between them, if they are as many as these.
+/// Returns the numbers of a line, separated by blanks or commas. Returns `None` if their number is not `values`.
 fn numbers(line: &str, values: usize) -> Option<Vec<f64>> {
     let parts = line.split([' ', '\t', ',', '\r', '\n']).filter(|part| !part.is_empty());
     let numbers = parts.map(|part| part.parse().ok()).collect::<Option<Vec<f64>>>()?;
@@ -106,7 +106,7 @@ mod tests {
     use super::*;
     use crate::intake::{Patience, Silence};
 
-    /// Nobody looks before all lines have come.
+    /// The source is polled after all lines have arrived.
     #[test]
     fn a_value_that_is_refused_takes_no_good_one_away() {
         let input = Input { takes: Takes::Range(0.0, 0.1), ..Input::note("a") };
@@ -148,7 +148,7 @@ mod tests {
         let mut lines = Lines::read(io::Cursor::new(lines.join(&b'\n')), 3, &[Input::note("a")]);
         let patience = Patience { silence: Silence::Hold, silent_after: 10, owner: 10 };
         let mut intake = Intake::new(3, &[Input::note("a")], patience);
-        // Until the thread has read them.
+        // Wait until the thread has read the lines.
         for _ in 0..5000 {
             lines.poll(&mut intake);
             if intake.values() == [2.0] {

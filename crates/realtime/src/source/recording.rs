@@ -1,14 +1,14 @@
-//! The inputs of another run, frame by frame.
+//! Recorded inputs of another run, frame by frame.
 //!
-//! | bytes | what |
+//! | bytes | content |
 //! | --- | --- |
 //! | 0–7 | `sslprec1` |
-//! | 8–15 | scenario, u64 |
+//! | 8–15 | scenario number, u64 |
 //! | 16–23 | period, s, f64 |
 //! | 24–31 | number of inputs n, u64 |
 //! | 32–… | n values (f64) of each frame |
 //!
-//! Everything is little-endian. A last frame that is not whole, of a run that was killed, does not count.
+//! All values are little-endian. An incomplete last frame is ignored.
 
 use crate::intake::Intake;
 use crate::plant::{Input, Takes};
@@ -21,79 +21,79 @@ const MARK: u64 = u64::from_le_bytes(*b"sslprec1");
 const HEAD: usize = 32;
 const WORD: usize = 8;
 
-/// What was applied in each frame of another run.
+/// Recorded inputs of another run.
 pub struct Recording {
     values: Vec<f64>,
     width: usize,
     frame: usize,
 }
 
-/// Why a recording is not played.
+/// Error for a recording that cannot be used.
 #[derive(Debug, Error)]
 pub enum RecordingError {
-    /// It cannot be read.
+    /// The file cannot be read.
     #[error("{}: {source}", path.display())]
     System {
-        /// The file.
+        /// Path of the file.
         path: PathBuf,
-        /// What the system says.
+        /// Error of the operating system.
         source: io::Error,
     },
-    /// It is none.
+    /// The file is not a recording.
     #[error("{}: not a recording of inputs", .0.display())]
     Foreign(PathBuf),
-    /// Of another scenario.
-    #[error("{}: the inputs of a run of another scenario", .0.display())]
+    /// The recording is of another scenario.
+    #[error("{}: a recording of another scenario", .0.display())]
     OtherScenario(PathBuf),
-    /// Of another number of inputs.
-    #[error("{}: {got} inputs, the scene has {expected}", path.display())]
+    /// The number of inputs differs from that of the scenario.
+    #[error("{}: {got} inputs, but the scenario has {expected}", path.display())]
     Width {
-        /// The file.
+        /// Path of the file.
         path: PathBuf,
-        /// What it has.
+        /// Number of inputs in the file.
         got: u64,
-        /// What the scene has.
+        /// Number of inputs of the scenario.
         expected: usize,
     },
-    /// Of frames of another length.
-    #[error("{}: recorded in frames of {got:e} s, not of {expected:e} s", path.display())]
+    /// The frame length differs.
+    #[error("{}: recorded with frames of {got:e} s, expected {expected:e} s", path.display())]
     Period {
-        /// The file.
+        /// Path of the file.
         path: PathBuf,
-        /// Its frames, s.
+        /// Frame length of the recording, s.
         got: f64,
-        /// Those asked for, s.
+        /// Expected frame length, s.
         expected: f64,
     },
-    /// A value that an input does not take.
-    #[error("{}: frame {frame} has {value:e} for input {input}, which takes {takes}", path.display())]
+    /// A value is not allowed for its input.
+    #[error("{}: frame {frame} has {value:e} for input {input}, expected {takes}", path.display())]
     Value {
-        /// The file.
+        /// Path of the file.
         path: PathBuf,
-        /// Which frame.
+        /// Number of the frame, from 0.
         frame: usize,
         /// Name of the input.
         input: String,
         /// The value.
         value: f64,
-        /// What it takes.
+        /// Allowed values.
         takes: Takes,
     },
 }
 
-/// The words at the head of a recording.
+/// Returns the header words of a recording.
 pub fn head(scenario: u64, period: f64, inputs: usize) -> [u64; HEAD / WORD] {
     [MARK, scenario, period.to_bits(), inputs as u64]
 }
 
 impl Recording {
-    /// Reads all of it into memory.
+    /// Reads a recording into memory.
     ///
     /// # Errors
-    /// A file that does not fit.
+    /// The file cannot be read, is not a recording, or does not fit the scenario, the period or the inputs.
     pub fn read(path: &Path, scenario: u64, period: f64, inputs: &[Input]) -> Result<Self, RecordingError> {
         let failed = |source| RecordingError::System { path: path.to_owned(), source };
-        // Whoever opens a pipe waits for another, whom no signal brings; a device may have no end.
+        // Only regular files are read: opening a pipe would block, and a device may have no end.
         if !fs::metadata(path).map_err(failed)?.is_file() {
             return Err(RecordingError::Foreign(path.to_owned()));
         }
@@ -136,7 +136,7 @@ impl Recording {
         Ok(Self { values, width, frame: 0 })
     }
 
-    /// Number of frames.
+    /// Returns the number of frames.
     pub fn frames(&self) -> u64 {
         self.values.len().checked_div(self.width).unwrap_or(0) as u64
     }

@@ -1,4 +1,4 @@
-//! The loop allocates nothing: not for a frame, a packet, a line of the log.
+//! The loop allocates no memory for frames, packets and log lines.
 
 use crate::rig::{FRAMES, HELD, LINEAR, PERIOD, Rig, SCENARIO};
 use std::net::UdpSocket;
@@ -12,7 +12,7 @@ use stickslip_realtime::wire::{self, Stamp};
 use stickslip_realtime::worst::Slow;
 use stickslip_realtime::{Drive, Intake, Pace, Plant, Sink, Source, Timing};
 
-/// The work of a session's frame, in this thread, whose allocations are counted.
+/// Cycle of a session in this thread, with counted allocations.
 struct Counted<'a> {
     drive: Drive<'a>,
     source: Source,
@@ -69,10 +69,10 @@ fn the_loop_allocates_nothing() {
             to,
         };
         let pace = Pace { period: PERIOD, overrun: None, spin: 0.0 };
-        // The first frames open the run, and its memory makes itself room.
+        // The first frames start the run and allocate its memory.
         pace::run(&pace, 200, &mut counted, &mut Timing::new()).unwrap();
         let mut timing = Timing::new();
-        // Sequence numbers begin anew: the last good values stay, or a new client would have to come. Both allocate nothing.
+        // Sequence numbers start again: the last accepted values are held, or a new client would be needed. Neither allocates memory.
         let info = allocation_counter::measure(|| {
             pace::run(&pace, 3000, &mut counted, &mut timing).unwrap();
         });

@@ -1,4 +1,4 @@
-//! Clients that do what they should not.
+//! Faulty and competing clients.
 
 use crate::rig::{LINEAR, PERIOD, Rig, SCENARIO, order, wiring};
 use std::net::{SocketAddr, UdpSocket};
@@ -28,7 +28,7 @@ fn packet(sequence: u64, value: f64) -> Vec<u8> {
     bytes
 }
 
-/// A socket that listens, and its address.
+/// Returns a receiving socket and its address.
 fn listening_at(at: &str) -> (UdpSocket, SocketAddr) {
     let server = socket(at.parse().unwrap()).unwrap();
     let to = server.local_addr().unwrap();
@@ -40,7 +40,7 @@ fn listening() -> (Source, SocketAddr) {
     (Source::Udp(Door::new(server)), to)
 }
 
-/// Over 127.0.0.1 what is sent is there when the call returns; a busy machine may think otherwise for a moment.
+/// Polls until all packets have arrived. On 127.0.0.1 they arrive at once, except on a busy machine.
 fn poll(source: &mut Source, intake: &mut Intake, packets: u64) {
     let told = |intake: &Intake| {
         let r = intake.received();
@@ -103,33 +103,33 @@ fn over_udp_the_second_client_waits_until_the_first_is_silent() {
     poll(&mut source, &mut intake, 1);
     intake.settle().unwrap();
     for sequence in 1..=3 {
-        // The system drops it, and may say so where the next one is sent.
+        // The system drops the packet and may report this at the next one.
         let _ = b.send_to(&packet(sequence, 0.3e-6), to);
         source.poll(&mut intake);
         intake.settle().unwrap();
     }
     assert_eq!((intake.values()[0], intake.received().good), (0.1e-6, 1));
     assert_eq!(intake.owner(), Some(Client::Address(a.local_addr().unwrap())));
-    // From the next look on all are heard.
+    // From the next poll on, all clients are received.
     source.poll(&mut intake);
     b.send_to(&packet(4, 0.3e-6), to).unwrap();
     poll(&mut source, &mut intake, 2);
     intake.settle().unwrap();
     assert_eq!((intake.values()[0], intake.received().owners), (0.3e-6, 2));
-    // Now it is the first that is not heard.
+    // Now the first client is not received.
     let _ = a.send_to(&packet(11, 0.1e-6), to);
     b.send_to(&packet(5, 0.2e-6), to).unwrap();
     poll(&mut source, &mut intake, 3);
     assert_eq!((intake.values()[0], intake.received().good), (0.2e-6, 3));
 }
 
-/// More than the system has room for: what the client sends behind it would be dropped.
+/// The flood exceeds the receive buffer. Without the filter, later packets of the client would be dropped.
 #[test]
 fn over_udp_a_flood_takes_no_packet_of_the_client_that_has_the_inputs() {
     let (mut source, to) = listening();
     let mut intake = rig().intake(Silence::Hold, 1000, 1000);
     let [owner, stranger] = [0, 1].map(|_| UdpSocket::bind("127.0.0.1:0").unwrap());
-    // What came before anybody had the inputs is judged.
+    // Packets that arrived before a client owned the inputs are validated.
     stranger.send_to(b"hello", to).unwrap();
     owner.send_to(&packet(1, 0.1e-6), to).unwrap();
     poll(&mut source, &mut intake, 2);
@@ -146,7 +146,8 @@ fn over_udp_a_flood_takes_no_packet_of_the_client_that_has_the_inputs() {
     assert_eq!((received.foreign, received.owners), (1, 1));
 }
 
-/// A socket at all addresses of a machine gets one of them when it is connected. A client at another one is heard again.
+/// A socket bound to all addresses of a machine is assigned one of them when it is connected. A client at another address is received
+/// again.
 #[test]
 fn over_udp_a_client_at_another_address_of_the_machine_is_not_shut_out() {
     let (server, all) = listening_at("0.0.0.0:0");
@@ -163,7 +164,7 @@ fn over_udp_a_client_at_another_address_of_the_machine_is_not_shut_out() {
     assert!(received.good > 90 && received.owners == 2, "{received:?}");
 }
 
-/// A client that answers the newest output, proportionally, and is killed half way: the last value is held.
+/// A client that controls the latest output proportionally and is killed in the middle: the last value is held.
 #[test]
 fn a_client_in_the_loop_over_udp_and_its_death() {
     let rig = rig();
@@ -178,7 +179,7 @@ fn a_client_in_the_loop_over_udp_and_its_death() {
             let client = UdpSocket::bind("127.0.0.1:0").unwrap();
             client.set_read_timeout(Some(Duration::from_millis(20))).unwrap();
             let (mut bytes, mut values, mut last) = (vec![0; 2000], vec![0.0; width], 0);
-            // The first word, so that there is somebody to answer.
+            // With the first packet, the loop knows the address of the client.
             let mut sequence = 1;
             while last < 300 && !over.load(Ordering::Relaxed) {
                 client.send_to(&packet(sequence, 1e-9 * (sequence % 100) as f64), to).unwrap();
@@ -202,7 +203,7 @@ fn a_client_in_the_loop_over_udp_and_its_death() {
     println!("answered until frame {answered}: {received:?}");
     assert_eq!((ended.outcome, ended.waited_in_vain, ended.timing.frames()), (Ok(()), false, 3000));
     assert!(received.good > 10 && received.owners == 1 && answered >= 300);
-    // Every frame had a new value or was stale, and what was said last is held.
+    // Every frame had a new value or was stale, and the last value is held.
     assert_eq!(received.good - received.superseded + received.stale_frames, 3000);
     assert_eq!(ended.wiring.intake.values(), [said]);
 }
@@ -227,7 +228,7 @@ fn silence_can_end_the_loop() {
     assert_eq!((ended.outcome, ended.timing.frames()), (Err(Stop::Silence), 24));
 }
 
-/// Writes into shared memory as a client does, by the table in the documentation and not by the crate's own words.
+/// Writes to the shared memory like a client, according to the documented layout.
 fn write(path: &Path, writer: u64, sequence: u64, value: f64, scenario: u64) {
     use std::os::unix::fs::FileExt;
     let file = std::fs::OpenOptions::new().read(true).write(true).open(path).unwrap();
@@ -272,13 +273,13 @@ fn over_shared_memory_the_same_is_refused() {
     assert_eq!(frame(&|| write(&path, 1, 5, 0.1e-6, SCENARIO)).0, 0.1e-6);
     assert_eq!(frame(&|| write(&path, 1, 5, 0.2e-6, SCENARIO)).1.repeated, 1);
     assert_eq!(frame(&|| write(&path, 1, 4, 0.2e-6, SCENARIO)).1.out_of_order, 1);
-    // Two stale frames by now: a third, and the next client takes over.
+    // After two stale frames and a third one, the next client takes over.
     assert_eq!(frame(&|| write(&path, 2, 1, 0.3e-6, SCENARIO)).1.other_client, 1);
     assert_eq!(frame(&|| write(&path, 2, 2, 0.3e-6, SCENARIO)).0, 0.3e-6);
     assert_eq!(frame(&|| write(&path, 2, 3, 0.3e-6, SCENARIO + 1)).1.other_scenario, 1);
     let (value, received) = frame(&|| write(&path, 2, 3, f64::INFINITY, SCENARIO));
     assert_eq!((value, received.out_of_range, received.good, received.owners), (0.3e-6, 1, 2, 2));
-    // One that was killed while it wrote: the counter stays odd.
+    // A client that was killed while it wrote: the lowest bit of the counter stays 1.
     let torn = || {
         use std::os::unix::fs::FileExt;
         let file = std::fs::OpenOptions::new().write(true).open(&path).unwrap();
@@ -286,7 +287,7 @@ fn over_shared_memory_the_same_is_refused() {
     };
     let (value, received) = frame(&torn);
     assert_eq!((value, received.torn_frames), (0.3e-6, 1));
-    // After the third frame another one may write; what the killed one left is not read.
+    // After the third frame another client can write. The incomplete record is not read.
     assert_eq!((frame(&|| {}).1.torn_frames, counter(&path)), (2, 77));
     assert_eq!((frame(&|| {}).1.torn_frames, counter(&path)), (3, 78));
     let received = frame(&|| {}).1;
@@ -294,7 +295,7 @@ fn over_shared_memory_the_same_is_refused() {
     assert_eq!(frame(&|| write(&path, 3, 1, 0.4e-6, SCENARIO)).0, 0.4e-6);
 }
 
-/// The counter of the record of inputs.
+/// Returns the counter of the input record.
 fn counter(path: &Path) -> u64 {
     u64::from_le_bytes(std::fs::read(path).unwrap()[64..72].try_into().unwrap())
 }
@@ -310,7 +311,7 @@ fn shared_memory_is_left_to_whom_it_belongs() {
     std::fs::write(&path, "something else").unwrap();
     assert!(matches!(again(), Err(MemoryError::Foreign(_))));
     assert_eq!(std::fs::read(&path).unwrap(), b"something else");
-    // What a run left that was killed is taken over.
+    // The file that a killed run has left is reused.
     std::fs::write(&path, b"sslpshm1 and then some").unwrap();
     again().unwrap();
 }

@@ -1,4 +1,4 @@
-//! A generator that is commanded through the loop.
+//! Commanded generators in the loop.
 
 use crate::rig::{PERIOD, Rig, SCENARIO, order, wiring};
 use stickslip_drive::{Command, Heading, Limits, Plan, Run, Stepper, Steps};
@@ -16,7 +16,7 @@ const STEPPERS: [Stepper; 3] = [
 ];
 const FRAMES: usize = 800;
 
-/// What is said in a frame: stroke (m), frequency (Hz), heading, steps. Corners of 100 Hz lie on ends of frames.
+/// Returns the command of a frame: stroke, m, frequency, Hz, heading, number of cycles. Corners at 100 Hz coincide with frame ends.
 fn said(frame: usize) -> [f64; 4] {
     let backward = if frame % 300 < 150 { 1.0 } else { -1.0 };
     match frame {
@@ -70,7 +70,7 @@ fn a_packet_with_another_heading_or_half_a_step_is_refused() {
     assert_eq!(offer(2, [1e-7, 50.0, 1.0, 1.0]), (2, 3));
 }
 
-/// By hand: a command where something is said anew, whose steps are those left where they are not.
+/// The reference gives a command by hand whenever a value changes, with the remaining number of cycles if this number is unchanged.
 #[test]
 fn commands_through_the_loop_are_those_of_the_run_to_the_bit() {
     for stepper in STEPPERS {
@@ -98,12 +98,12 @@ fn commands_through_the_loop_are_those_of_the_run_to_the_bit() {
             drive.frame(&now, &mut outputs).unwrap();
             assert!(drive.state() == run.state(), "{stepper:?} {frame}");
         }
-        // It has gone both ways, and rests in between.
+        // The slider has moved in both directions and is at rest in between.
         assert!(run.state().generated(0).unwrap().begun > 30, "{stepper:?}");
     }
 }
 
-/// Six steps asked for are six, whatever else is said of them meanwhile, also at the very moments at which they begin.
+/// Six requested cycles are executed exactly, whatever else is commanded meanwhile, even at the times at which cycles start.
 #[test]
 fn a_number_of_steps_that_is_repeated_is_no_new_one() {
     for stepper in STEPPERS {
@@ -115,11 +115,11 @@ fn a_number_of_steps_that_is_repeated_is_no_new_one() {
                 (0..frames).for_each(|frame| drive.frame(&say(frame), &mut outputs).map(|_| ()).unwrap());
                 drive.state().generated(0).unwrap().begun
             };
-        // Another stroke in every frame; cycles of 10 ms begin with every 50th.
+        // A different stroke in every frame; cycles of 10 ms start at every 50th frame.
         let six = begun(&mut drive, 500, &|frame| [100e-9 + 1e-9 * (frame % 7) as f64, 100.0, 1.0, 6.0]);
         assert_eq!(six, 6, "{stepper:?}");
         assert_eq!(begun(&mut drive, 100, &|_| [100e-9, 100.0, 1.0, 2.0]), 8, "{stepper:?}");
-        // The same number once more: another one between.
+        // The same number again, with another one in between.
         assert_eq!(
             begun(&mut drive, 100, &|frame| [100e-9, 100.0, 1.0, if frame == 0 { 0.0 } else { 2.0 }]),
             10
@@ -153,7 +153,7 @@ fn recorded_commands_make_the_same_outputs_with_a_clock_and_without() {
     }
 }
 
-/// Taken up from its state, and told what was said last, it goes on as if it had never been put down.
+/// A drive that is resumed from its state with the last inputs continues as if it had not been interrupted.
 #[test]
 fn put_down_between_two_steps_and_taken_up_it_counts_on() {
     let rig = rig(STEPPERS[0]);

@@ -1,4 +1,4 @@
-//! A clock changes no bit, and neither does being put down.
+//! Pacing and interruption do not change the results.
 
 use crate::rig::{FRAMES, HELD, Kept, LINEAR, PERIOD, Rig, SCENARIO, order, recording, wiring};
 use std::collections::HashMap;
@@ -35,7 +35,7 @@ fn a_clock_changes_no_bit() {
         });
         assert_eq!(traces[0].len(), COUNT * wire::length(rig.width()));
         assert!(traces[0] == traces[1], "{stepper:?}");
-        // The inputs moved it.
+        // The inputs have moved the slider.
         let mut values = vec![0.0; rig.width()];
         let last = &traces[0][traces[0].len() - wire::length(rig.width())..];
         let stamp = wire::decode(last, SCENARIO, &mut values).unwrap();
@@ -70,7 +70,7 @@ fn records_and_feeds_again(rig: &Rig) {
     };
     let (recorded, state) = once();
     let path = folder.path().join("inputs.rec");
-    // What was recorded is what was fed, and is fed again from a file made of it.
+    // The recording equals the inputs and can be replayed from a file.
     let head = std::fs::read(&path).unwrap()[..32].to_vec();
     assert_eq!(std::fs::read(&path).unwrap()[32..], recorded);
     std::fs::write(&path, [head, recorded].concat()).unwrap();
@@ -94,7 +94,7 @@ fn a_recording_that_does_not_fit_is_refused() {
     assert!(other.to_string().contains("frame 7 has 2e-6 for input drive"), "{other}");
 }
 
-/// Half of the frames, the state as bytes, and the other half by this program, started anew.
+/// The first half of the frames runs here, the second half in another process from the stored state.
 #[test]
 fn put_down_in_one_process_and_taken_up_in_another_it_goes_on_to_the_same_bits() {
     goes_on_elsewhere(
@@ -108,7 +108,7 @@ fn put_down_and_taken_up_frames_of_bounded_work_go_on_to_the_same_bits() {
     goes_on_elsewhere(FRAMES, "pacing::put_down_and_taken_up_frames_of_bounded_work_go_on_to_the_same_bits");
 }
 
-/// With the name of the test that asks, by which it is started anew.
+/// `name` is the name of the calling test, which the other process runs.
 fn goes_on_elsewhere(stepper: Stepper, name: &str) {
     const FOLDER: &str = "STICKSLIP_REALTIME_PUT_DOWN";
     let key = [7; 32];
@@ -136,7 +136,7 @@ fn goes_on_elsewhere(stepper: Stepper, name: &str) {
     assert!(here == std::fs::read(folder.path().join("told")).unwrap());
 }
 
-/// The values of a recording; there are as many as there are inputs.
+/// Returns the values of a recording with one input.
 fn feed(source: &Source, rig: &Rig) -> Vec<f64> {
     assert!(matches!(source, Source::Recording(_)) && rig.inputs.len() == 1);
     let mut drawn = 0x2545_f491_4f6c_dd1d_u64;
@@ -159,7 +159,7 @@ fn go(drive: &mut stickslip_realtime::Drive<'_>, rig: &Rig, values: &[f64]) -> V
     told
 }
 
-/// The count in the report is that of the log, frame by frame; the sleepers make sure that there are some.
+/// The overruns in the report equal those in the log of all frames. Sleeping frames ensure that there are some.
 #[test]
 fn overruns_are_those_of_the_log() {
     let rig = Rig::of("p1", None, EVENT);
@@ -171,7 +171,7 @@ fn overruns_are_those_of_the_log() {
     let mut start = vec![0.0; rig.width()];
     drive.tell(&mut start);
     let mut reels = [reel];
-    // Frames of 200 ns cannot be kept by any machine that sleeps in between.
+    // No machine that sleeps between frames can keep frames of 200 ns.
     let mut order = order(20_000, Some(Overrun::Skip));
     order.pace.period = 200e-9;
     let ended = stickslip_realtime::session::run(&mut drive, wiring, &start, &order, &mut reels, &());
@@ -184,7 +184,7 @@ fn overruns_are_those_of_the_log() {
     println!("{over} of 20000 frames");
     assert!(over > 0);
     assert_eq!((ended.timing.overruns, ended.timing.left_out), (over, rows.iter().map(|row| row[3]).sum()));
-    // Latencies and execution times are those of the histograms, too.
+    // The histograms contain the same latencies and execution times.
     let sums: HashMap<_, u64> = [1, 2].map(|i| (i, rows.iter().map(|row| row[i]).sum())).into();
     let means = [&ended.timing.latency, &ended.timing.execution].map(|h| h.mean() * h.total() as f64);
     assert!((means[0] - sums[&1] as f64).abs() < 1.0 && (means[1] - sums[&2] as f64).abs() < 1.0);
@@ -198,14 +198,14 @@ fn a_loop_that_is_to_stop_at_an_overrun_does() {
     order.pace.period = 200e-9;
     let (ended, bytes) = rig.run(&mut rig.drive((rig.start(), 0)), wiring, &order);
     assert_eq!((ended.outcome, ended.timing.overruns), (Err(Stop::Overrun), 1));
-    // What was computed was told.
+    // All computed frames were reported.
     assert_eq!(bytes.len() as u64, ended.timing.frames() * wire::length(rig.width()) as u64);
 }
 
-/// Nothing is due, so nothing is lost, although the frames are more than a tape holds and come faster than they are written.
+/// Without pacing no record is lost, although the frames exceed the buffer and are faster than the writing.
 #[test]
 fn without_a_clock_the_loop_waits_for_what_is_written_down() {
-    /// Takes its time at first: the loop could fill any ring meanwhile.
+    /// A writer that is slow at first, so that the loop could fill the buffer.
     struct Slow(u64, Duration);
 
     impl Write for Slow {
@@ -238,7 +238,7 @@ fn without_a_clock_the_loop_waits_for_what_is_written_down() {
     assert_eq!(slow.map(|slow| slow.0), [8 * count * width as u64, 32 * count, 8 * count]);
 }
 
-/// Says once that it was enough.
+/// A watcher that stops the run once.
 struct Once(std::sync::atomic::AtomicU64);
 
 impl stickslip_drive::Watcher for Once {
@@ -249,7 +249,7 @@ impl stickslip_drive::Watcher for Once {
     }
 }
 
-/// A frame of 200 000 steps, of which an observer is asked every 1024.
+/// The observer of a frame with 200 000 steps is asked every 1024 steps.
 #[test]
 fn an_interruption_ends_a_frame_that_takes_long() {
     for stepper in [Stepper::Verlet { step: 1e-9 }, Stepper::Rk4 { step: 1e-9 }] {
@@ -261,13 +261,12 @@ fn an_interruption_ends_a_frame_that_takes_long() {
         let order = order(1_000_000, None);
         let ended = stickslip_realtime::session::run(&mut drive, wiring, &start, &order, &mut [], &once);
         assert_eq!((ended.outcome, ended.timing.frames()), (Err(Stop::Interrupted), 0));
-        // Asked before the frame and after each 1024 steps of it: the fourth time it is enough.
+        // The observer is asked before the frame and after each 1024 steps; at the fourth time it stops the run.
         let reached = drive.state().time();
         assert!((reached / 3072e-9 - 1.0).abs() < 1e-9, "{stepper:?}: {reached}");
     }
 }
 
-/// An empty loop of an hour.
 #[test]
 fn an_interruption_ends_the_empty_loop_at_once() {
     let rig = Rig::of("p1", None, EVENT);

@@ -1,4 +1,4 @@
-//! A drive made ready, and loops of it.
+//! Prepared drives and their loops for the tests.
 
 use std::path::Path;
 use std::sync::{Arc, Mutex};
@@ -12,21 +12,21 @@ use stickslip_realtime::wire;
 use stickslip_realtime::{Drive, Intake, Overrun, Pace, Sink, Source};
 use stickslip_run::Job;
 
-/// Number of the scenario in packets.
+/// Scenario number in packets.
 pub(crate) const SCENARIO: u64 = 0x5ca1_ab1e;
 /// Length of a frame, s.
 pub(crate) const PERIOD: f64 = 200e-6;
 
-/// What a loop steps by unless another stepper is asked for.
+/// Default integrator of a loop.
 pub(crate) const FRAMES: Stepper = Stepper::Frames { length: PERIOD, accuracy: 1e-3 };
 
-/// A foot that is fed from outside, straight from value to value, under a slider.
+/// Input for the foot with linear interpolation.
 pub(crate) const LINEAR: &str =
     r#"{"input": {"initial": 0, "range": ["-1 um", "1 um"], "interpolation": "linear"}}"#;
-/// The same by jumps.
+/// Input for the foot with held values.
 pub(crate) const HELD: &str = r#"{"input": {"initial": 0, "range": ["-1 um", "1 um"]}}"#;
 
-/// A drive made ready.
+/// A prepared drive.
 pub(crate) struct Rig {
     pub(crate) job: Job,
     pub(crate) plan: Plan,
@@ -35,7 +35,7 @@ pub(crate) struct Rig {
 }
 
 impl Rig {
-    /// An example whose drive is an input, or is left as it is.
+    /// Prepares an example. `drive` replaces its waveform.
     pub(crate) fn of(example: &str, drive: Option<&str>, stepper: Stepper) -> Self {
         let file =
             Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenarios").join(format!("{example}.json"));
@@ -59,17 +59,17 @@ impl Rig {
         Drive::new(&self.job.model, &self.plan, at, PERIOD, (&self.inputs, &self.outputs)).unwrap()
     }
 
-    /// Judges who keep silent for `silent` frames and give another client a chance after `owner` ones.
+    /// Returns a validator with these time limits in frames.
     pub(crate) fn intake(&self, silence: Silence, silent_after: u64, owner: u64) -> Intake {
         Intake::new(SCENARIO, &self.inputs, Patience { silence, silent_after, owner })
     }
 
-    /// Values that are told of frame after frame.
+    /// Returns the number of outputs.
     pub(crate) fn width(&self) -> usize {
         self.outputs.len()
     }
 
-    /// Runs a loop whose outputs are also kept as bytes.
+    /// Runs a loop and returns its outputs as bytes, too.
     pub(crate) fn run(&self, drive: &mut Drive<'_>, wiring: Wiring, order: &Order) -> (Ended, Vec<u8>) {
         let (mut wiring, kept) = (wiring, Kept::default());
         let words = wire::length(self.width()) / 8;
@@ -85,18 +85,18 @@ impl Rig {
     }
 }
 
-/// Nothing comes in, nothing goes out.
+/// Returns inputs and outputs without sinks.
 pub(crate) fn wiring(source: Source, intake: Intake) -> Wiring {
     Wiring { source, intake, sinks: Vec::new(), log: None, recording: None }
 }
 
-/// So many frames after a clock, or without one.
+/// Returns the settings of a loop with or without pacing.
 pub(crate) fn order(frames: u64, overrun: Option<Overrun>) -> Order {
     let pace = Pace { period: PERIOD, overrun, spin: 0.0 };
     Order { pace, frames, favours: Favours::default(), floor: 0, wait: 0.0 }
 }
 
-/// What is written, for whoever looks later.
+/// A shared buffer for written bytes.
 #[derive(Clone, Default)]
 pub(crate) struct Kept(pub(crate) Arc<Mutex<Vec<u8>>>);
 
@@ -111,7 +111,7 @@ impl std::io::Write for Kept {
     }
 }
 
-/// Inputs that differ from frame to frame, as a recording: within ±0.5 µm.
+/// Returns a recording of inputs within ±0.5 µm that differ from frame to frame.
 pub(crate) fn recording(rig: &Rig, frames: usize, folder: &Path) -> Source {
     use stickslip_realtime::source::{Recording, recording_head};
     let mut bytes: Vec<u8> = recording_head(SCENARIO, PERIOD, rig.inputs.len())

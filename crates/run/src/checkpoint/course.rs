@@ -1,4 +1,4 @@
-//! The course of a run that keeps checkpoints.
+//! Execution of a run that writes checkpoints.
 
 use super::keeper::Keeper;
 use crate::job::Job;
@@ -9,16 +9,14 @@ use stickslip_contact::{Memory, Segment};
 use stickslip_drive::{Event, Extent, Record, Run, RunError};
 
 impl Job {
-    /// [`Self::run_recorded`] with checkpoints: the recorder is a fresh one, or one that was told of the parts before.
+    /// Runs like [`Self::run_recorded`] and writes checkpoints. The recorder is new, or has received the journal of the earlier part.
     ///
-    /// The last checkpoint of a run that comes to its end is its last moment before steps are cut for that end: from there it
-    /// can go on to a later one. A run that is halted, by an interrupt or a limit, keeps the moment at which it was, one
-    /// that stops itself the last one before.
-    ///
-    /// A checkpoint that cannot be written ends the run: what was computed is in its tables.
+    /// A complete run stores its last state before time steps are shortened for the end. From this state it can be continued to a later
+    /// end. A run that is halted by an interrupt or a limit stores its current state. After an error, the previous checkpoint remains. If a
+    /// checkpoint cannot be written, the run ends; its results so far are written.
     ///
     /// # Errors
-    /// A table of which nothing can be written.
+    /// A table cannot be written.
     pub fn run_kept(&self, recorder: Recorder<'_>, keeper: Keeper) -> io::Result<(Outcome, Vec<Draft>)> {
         let (plan, from) = (&self.scenario.plan, keeper.from.clone());
         let begun = if keeper.is_begun {
@@ -37,7 +35,7 @@ impl Job {
     }
 }
 
-/// A recorder that keeps a journal, and pauses the run when a checkpoint is due.
+/// Recorder that writes a journal and pauses the run when a checkpoint is due.
 struct Journalled<'r> {
     recorder: Recorder<'r>,
     keeper: Keeper,
@@ -45,7 +43,7 @@ struct Journalled<'r> {
 }
 
 impl Journalled<'_> {
-    /// Follows a run to its end.
+    /// Runs until the end, with pauses for checkpoints.
     fn follow(&mut self, job: &Job, mut run: Run<'_>) -> Ended {
         let ended = loop {
             let ended = run.approach(self);
@@ -55,12 +53,12 @@ impl Journalled<'_> {
                 self.recorder.fail(failure);
                 break ended;
             }
-            // Only a pause is no end.
+            // A pause is not an end.
             if ended.is_ok() || !std::mem::take(&mut self.pauses) {
                 break ended;
             }
         };
-        // What follows belongs to this end and not to the run as it may go on: it is no part of the journal.
+        // The following records belong to this end only and not to a continued run. Therefore they are not added to the journal.
         let error = match ended {
             Ok(()) => run.finish(&mut self.recorder).err(),
             Err(error) => {
@@ -125,7 +123,7 @@ impl Record for Journalled<'_> {
 
     fn goes_on(&mut self, t: f64) -> bool {
         let goes_on = self.recorder.goes_on(t);
-        // A journal that cannot be written ends the run at its next checkpoint, which is now.
+        // If the journal cannot be written, the run pauses and ends.
         self.pauses = goes_on && (self.keeper.is_due() || self.keeper.journal.has_failed());
         goes_on && !self.pauses
     }

@@ -1,16 +1,16 @@
-//! The journal of a run: all that its record was told, in order, as plain bytes.
+//! Journal of a run: all calls to its recorder, in order, in binary form.
 //!
-//! Whatever results are made of comes from these calls alone: told again to a fresh recorder, they leave it as the run had left
-//! it, tables and figures and fingerprints alike. Numbers are their bits, little-endian:
+//! All results follow from these calls. A new recorder that receives them again has the same tables, results and fingerprints. Numbers are
+//! little-endian.
 //!
 //! | record | bytes |
 //! | --- | --- |
-//! | row | tag, a number for each channel |
-//! | event | tag, kind of its source and its place (u32), length of its word (u8) and the word, a number for each channel |
-//! | look | tag, time, number of words (u64), the words of each contact's memory |
-//! | mark | tag, a number for each channel |
-//! | path | tag, place of the contact (u32), kind (u8), end (d, u), force and energy at it |
-//! | extents | tag, and of each of two bodies: least position and its time, largest position and its time, largest fall and rise |
+//! | row | tag, one number per channel |
+//! | event | tag, kind and index (u32) of its source, length of its name (u8), its name, one number per channel |
+//! | snapshot (`look`) | tag, time, number of words (u64), words of the slip memory of each contact |
+//! | sample (`mark`) | tag, one number per channel |
+//! | path | tag, index of the contact (u32), kind (u8), end (d, u), force and energy at the end |
+//! | extents | tag; for each of two bodies: minimum, its time, maximum, its time, largest decrease, largest increase of the position |
 
 use sha2::{Digest, Sha256};
 use std::fs::{File, OpenOptions};
@@ -19,7 +19,7 @@ use std::path::Path;
 use stickslip_contact::{Memory, Segment};
 use stickslip_drive::{Event, Extent, Source};
 
-/// What a record begins with.
+/// Tags of the records.
 pub(super) mod tag {
     pub(in super::super) const ROW: u8 = 0;
     pub(in super::super) const EVENT: u8 = 1;
@@ -29,25 +29,25 @@ pub(super) mod tag {
     pub(in super::super) const PATH: u8 = 5;
 }
 
-/// How far a journal counts, and what it holds up to there.
+/// Length of a journal with the digest of its contents.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct Mark {
-    /// Bytes.
+    /// Length, bytes.
     pub(super) length: u64,
-    /// SHA-256 of them.
+    /// SHA-256 of these bytes.
     pub(super) digest: [u8; 32],
 }
 
-/// A journal being written. What fails is told at the next [`Self::mark`].
+/// Writer of a journal. [`Self::mark`] returns the first write error.
 pub(super) struct Journal {
     writer: BufWriter<Digested>,
     failure: Option<io::Error>,
-    /// Scratch.
+    /// Buffers.
     bytes: Vec<u8>,
     words: Vec<u64>,
 }
 
-/// A file with the digest of what goes into it.
+/// A file with the digest of its contents.
 struct Digested {
     file: File,
     length: u64,
@@ -55,12 +55,12 @@ struct Digested {
 }
 
 impl Journal {
-    /// An empty journal in the place of whatever is there.
+    /// Creates an empty journal and replaces an existing one.
     pub(super) fn create(path: &Path) -> io::Result<Self> {
         Ok(Self::on(File::create(path)?, 0, Sha256::new()))
     }
 
-    /// Goes on with a journal where it counts, whose digest is that far; what comes after is cut off.
+    /// Continues a journal at a length, with the digest of its contents up to there. The rest of the file is truncated.
     pub(super) fn go_on(path: &Path, length: u64, digest: Sha256) -> io::Result<Self> {
         let mut file = OpenOptions::new().write(true).open(path)?;
         file.set_len(length)?;
@@ -73,12 +73,12 @@ impl Journal {
         Self { writer, failure: None, bytes: Vec::new(), words: Vec::new() }
     }
 
-    /// Whether something could not be written.
+    /// Returns whether a write has failed.
     pub(super) fn has_failed(&self) -> bool {
         self.failure.is_some()
     }
 
-    /// Writes all of it through and tells how far that is.
+    /// Writes all buffered data to disk and returns the length and the digest.
     pub(super) fn mark(&mut self) -> io::Result<Mark> {
         if let Some(failure) = self.failure.take() {
             return Err(failure);
@@ -101,7 +101,7 @@ impl Journal {
             Source::Waveform(place) => (1, place),
             Source::Block(place) => (2, place),
         };
-        // No scene has that many parts, no kind so long a word.
+        // No model has that many parts, and no event name is that long.
         let place = u32::try_from(place).unwrap_or(u32::MAX);
         let word = event.kind.name().as_bytes();
         let word = &word[..word.len().min(usize::from(u8::MAX))];
@@ -155,7 +155,7 @@ impl Journal {
         self.bytes.extend(values.iter().flat_map(|value| value.to_le_bytes()));
     }
 
-    /// Writes the record that was put together. After a failure nothing more: a journal has no gaps.
+    /// Writes the assembled record. After an error nothing more is written, so that the journal has no gaps.
     fn put(&mut self) {
         if self.failure.is_none() {
             self.failure = self.writer.write_all(&self.bytes).err();

@@ -1,4 +1,4 @@
-//! Checkpoints of a run under way.
+//! Writing of checkpoints during a run.
 
 use super::journal::Journal;
 use super::key::{model_key, run_key};
@@ -15,36 +15,38 @@ use std::time::{Duration, Instant};
 use stickslip_drive::{State, Stepper};
 use stickslip_scenario::ScenarioError;
 
-/// Keeps checkpoints of one run: its journal, and a state from time to time.
+/// Writes the checkpoints of one run: its journal, and its state at intervals.
 pub struct Keeper {
     place: PathBuf,
     stub: Stub,
     pub(super) journal: Journal,
-    /// Where the run begins, or goes on from.
+    /// State at the start of this part of the run.
     pub(super) from: State,
-    /// Whether its record has been told of what came before.
+    /// Whether the recorder has already received data of the run.
     pub(super) is_begun: bool,
-    /// When this part of the run began, by the clock on the wall, and how long the parts before it took, s.
+    /// Start of this part of the run, and wall time of the previous parts, s.
     begun: Instant,
     before: f64,
     saved: Instant,
 }
 
 impl Keeper {
-    /// Begins the checkpoints of a job, `every` so many seconds of wall time; the first one, of the start, is taken at once.
-    /// What an earlier run has kept is gone.
+    /// Starts the checkpoints of a run at intervals of `every` seconds of wall time. The first checkpoint is written immediately.
+    ///
+    /// An existing checkpoint is removed.
     ///
     /// # Errors
-    /// What the system says of writing them.
+    /// The checkpoint cannot be written.
     pub fn begin(job: &Job, every: f64) -> io::Result<Self> {
         Self::begin_with(job, &job.start, every)
     }
 
-    /// The same of a run that begins with another state, from which [`Resumption`](super::Resumption) then begins it, such as a
-    /// steady motion.
+    /// Starts the checkpoints of a run with another initial state, such as a periodic orbit.
+    ///
+    /// A [`Resumption`](super::Resumption) from its first checkpoint starts the run from this state.
     ///
     /// # Errors
-    /// What the system says of writing them.
+    /// The checkpoint cannot be written.
     pub fn begin_with(job: &Job, start: &State, every: f64) -> io::Result<Self> {
         let place = place(&job.folder);
         remove(&job.folder)?;
@@ -66,11 +68,11 @@ impl Keeper {
         Ok(keeper)
     }
 
-    /// Goes on with the checkpoints of an earlier part of the run.
+    /// Continues the checkpoints of an earlier part of the run.
     pub(super) fn go_on(job: &Job, stub: Stub, journal: Journal, from: (State, bool)) -> io::Result<Self> {
         let place = place(&job.folder);
         sweep(&place, &[STATE, SCENARIO]);
-        // Either end is one of this run: whichever of the two files is there after a crash, it can go on.
+        // After a crash either of the two scenario files may exist. The run can be resumed with both.
         folder::write(&place.join(SCENARIO), job.resolved.as_bytes())?;
         Ok(Self::new(place, stub, journal, from))
     }
@@ -80,42 +82,42 @@ impl Keeper {
         Self { place, stub, journal, from, is_begun, begun, before, saved: begun }
     }
 
-    /// Whether it is time for the next one.
+    /// Returns whether the next checkpoint is due.
     pub(super) fn is_due(&self) -> bool {
         self.saved.elapsed() >= Duration::try_from_secs_f64(self.stub.every).unwrap_or(Duration::MAX)
     }
 
-    /// Wall time of the run with all its parts, s.
+    /// Returns the wall time of all parts of the run, s.
     pub(super) fn wall(&self) -> f64 {
         self.before + self.begun.elapsed().as_secs_f64()
     }
 
-    /// Takes a checkpoint: the run stands between two steps.
+    /// Writes a checkpoint. The run must be between two time steps.
     pub(super) fn save(&mut self, job: &Job, state: &State) -> io::Result<()> {
-        // The journal first: a state never counts what is not there.
+        // The journal is written first, so that its length in the state file is never too large.
         self.stub.mark = self.journal.mark()?;
         self.stub.wall = self.wall();
         self.stub.state = state.to_bytes(&job.model, &self.stub.model_key);
         folder::write(&self.place.join(STATE), &self.stub.to_bytes())?;
         System.sync_folder(&self.place)?;
-        // From its end: writing may take longer than the interval.
+        // The interval starts at the end of the writing, which may take longer than the interval.
         self.saved = Instant::now();
         Ok(())
     }
 }
 
 impl Job {
-    /// Whether the stepper of the run can go on from a checkpoint.
+    /// Checks that the integrator of the run supports checkpoints.
     ///
     /// # Errors
-    /// A stepper that cannot, with its place in the scenario.
+    /// It does not. The error contains its position in the scenario file.
     pub fn check_checkpoints(&self) -> Result<(), ScenarioError> {
         let stepper = self.model.effective(self.scenario.plan.stepper);
         if !matches!(stepper, Stepper::Dopri5 { .. }) {
             return Ok(());
         }
-        let message = format!("the stepper \"{}\" keeps no checkpoints", stepper.name());
-        let help = "take \"event\", \"verlet\" or \"rk4\", or run without --checkpoint-every".to_owned();
+        let message = format!("the stepper \"{}\" has no checkpoints", stepper.name());
+        let help = "use \"event\", \"verlet\" or \"rk4\", or run without --checkpoint-every".to_owned();
         Err(self.scenario.locate("run.stepper", message, Some(help)))
     }
 }

@@ -1,4 +1,4 @@
-//! A journal told again.
+//! Replay of a journal to a recorder.
 
 use super::error::CheckpointError;
 use super::journal::{Mark, tag};
@@ -12,13 +12,13 @@ use std::path::Path;
 use stickslip_contact::{Apex, Engine, Interface, Memory, Segment, Words};
 use stickslip_drive::{Extent, Record, Source};
 
-/// Bytes read at a time.
+/// Size of the read buffer, in bytes.
 const CHUNK: usize = 1 << 16;
 
-/// Digest of a journal up to a mark.
+/// Checks a journal up to a mark and returns the digest of its contents.
 ///
 /// # Errors
-/// A journal that is shorter than the mark says, that does not hold what it held then, or cannot be read.
+/// The journal is too short, was changed, or cannot be read.
 pub(super) fn check(path: &Path, mark: &Mark) -> Result<Sha256, CheckpointError> {
     let unreadable = |source| CheckpointError::Read { path: path.to_owned(), source };
     plain(path).map_err(unreadable)?;
@@ -39,22 +39,22 @@ pub(super) fn check(path: &Path, mark: &Mark) -> Result<Sha256, CheckpointError>
     if same { Ok(digest) } else { Err(CheckpointError::Journal(path.to_owned())) }
 }
 
-/// What a journal is told up to.
+/// End of a replay.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Told {
     pub(super) mark: Mark,
-    /// Time that the run had come to, s.
+    /// Time that the run has reached, s.
     pub(super) reached: f64,
-    /// Whether it goes on to the end that it had: what was not looked at then could not be.
+    /// Whether the planned end of the run is unchanged. Then missing snapshots are no error.
     pub(super) same_end: bool,
 }
 
-/// Tells a recorder, fresh from the job, what a journal that was checked holds.
+/// Replays a checked journal to a new recorder of the job.
 ///
-/// Looks that only the earlier end wanted are left out.
+/// Snapshots that only the previous end required are skipped.
 ///
 /// # Errors
-/// A journal of another job, one that lacks a look that the new end wants, or one that cannot be read.
+/// The journal is of another job, lacks a snapshot that the new end requires, or cannot be read.
 pub(super) fn tell(
     path: &Path,
     told: Told,
@@ -89,11 +89,11 @@ pub(super) fn tell(
     }
 }
 
-/// The looks that a recorder asks for, as a run keeps them.
+/// The snapshots that a recorder requests.
 struct Looks {
-    /// The next one, s; infinite after the last.
+    /// Time of the next snapshot, s; infinite after the last one.
     due: f64,
-    /// The first one that the journal lacks, s.
+    /// Time of the first snapshot that the journal lacks, s.
     missed: Option<f64>,
 }
 
@@ -102,7 +102,7 @@ impl Looks {
         self.due = recorder.next_look().unwrap_or(f64::INFINITY);
     }
 
-    /// Passes over those before t.
+    /// Skips the snapshots before time t.
     fn pass(&mut self, t: f64, recorder: &mut Recorder<'_>) {
         while self.due < t {
             self.missed.get_or_insert(self.due);
@@ -111,7 +111,7 @@ impl Looks {
     }
 }
 
-/// Laws and engines of the contacts.
+/// Returns the contact laws and engines of all contacts.
 fn contacts(job: &Job) -> Vec<(&Interface, Engine)> {
     let engine = |memory: &Memory| match memory {
         Memory::Curve(_) => Engine::Curve,
@@ -120,13 +120,13 @@ fn contacts(job: &Job) -> Vec<(&Interface, Engine)> {
     job.model.contacts().zip(job.start.memories()).map(|((_, law), memory)| (law, engine(memory))).collect()
 }
 
-/// A journal on the way to a recorder.
+/// A journal that is being replayed.
 struct Playback<'a, 'r> {
     bytes: BufReader<File>,
-    /// Bytes still to come.
+    /// Number of remaining bytes.
     left: u64,
     contacts: Vec<(&'a Interface, Engine)>,
-    /// Values of the channels.
+    /// Buffer for the channel values.
     values: Vec<f64>,
     scratch: Vec<u8>,
     looks: Looks,
@@ -143,7 +143,7 @@ impl Playback<'_, '_> {
         Ok(Extent { least: [least, at], most: [most, then], fall, rise })
     }
 
-    /// Tells the next record; none for one that no run has written.
+    /// Replays the next record. Returns `None` for an invalid record.
     fn record(&mut self) -> io::Result<Option<()>> {
         match self.array()? {
             [tag::ROW] => {
@@ -207,7 +207,7 @@ impl Playback<'_, '_> {
     fn look(&mut self) -> io::Result<Option<()>> {
         let t = f64::from_le_bytes(self.array()?);
         let count = u64::from_le_bytes(self.array()?);
-        // What is made room for is never more than the journal has.
+        // The length is checked before memory is allocated.
         let Some(length) = count.checked_mul(8).filter(|length| *length <= self.left) else {
             return Ok(None);
         };
@@ -235,7 +235,7 @@ impl Playback<'_, '_> {
         Ok(())
     }
 
-    /// Fills the scratch.
+    /// Reads bytes into the scratch buffer.
     fn read_bytes(&mut self, length: u64) -> io::Result<()> {
         self.left = self.left.checked_sub(length).ok_or(io::ErrorKind::UnexpectedEof)?;
         self.scratch.resize(usize::try_from(length).map_err(io::Error::other)?, 0);

@@ -1,4 +1,4 @@
-//! A run that goes on from its checkpoint.
+//! Resumption of a run from its checkpoint.
 
 use super::error::CheckpointError;
 use super::journal::Journal;
@@ -17,21 +17,20 @@ use std::path::{Path, PathBuf};
 use stickslip_drive::State;
 use stickslip_scenario::Scenario;
 
-/// A run that can go on: everything about its checkpoint was found good.
+/// A run that can be resumed. Its checkpoint has been checked.
 pub struct Resumption {
     place: PathBuf,
     stub: Stub,
     state: State,
-    /// Digest of the journal as far as it counts.
+    /// Digest of the journal up to the length in the state file.
     digest: Sha256,
 }
 
 impl Resumption {
-    /// Reads the checkpoint in a folder of results; pairs in `set` give it another end or other limits. Writes
-    /// nothing.
+    /// Reads the checkpoint in a results folder. The pairs in `set` change the end or the limits of the run. Nothing is written.
     ///
     /// # Errors
-    /// A checkpoint that is none, or not this run's; a change of anything but the end and the limits; an end that the run has passed.
+    /// The checkpoint is invalid or belongs to another run, another key is changed, or the run has passed the new end.
     pub fn read(results: &Path, set: &[(String, String)]) -> Result<(Job, Self), CheckpointError> {
         let place = place(results);
         let stub = stub(&place.join(STATE), results)?;
@@ -51,16 +50,17 @@ impl Resumption {
         Ok((job, Self { place, stub, state, digest }))
     }
 
-    /// Time that the run has come to, s.
+    /// Returns the time that the run has reached, s.
     pub fn reached(&self) -> f64 {
         self.state.time()
     }
 
-    /// Tells a recorder, fresh from the job, of the run so far, and goes on keeping checkpoints: at the interval that was kept,
-    /// or another one, s of wall time.
+    /// Replays the run so far to a new recorder of the job and continues the checkpoints.
+    ///
+    /// `every` is the new interval of the checkpoints, s of wall time. `None` keeps the previous one.
     ///
     /// # Errors
-    /// A journal that changes in these moments, or files that cannot be written.
+    /// The journal was changed in the meantime, or a file cannot be written.
     pub fn tell(
         mut self,
         job: &Job,
@@ -69,7 +69,7 @@ impl Resumption {
     ) -> Result<Keeper, CheckpointError> {
         let path = self.place.join(JOURNAL);
         let (mark, end) = (self.stub.mark, job.scenario.plan.duration);
-        // A run whose record was told nothing has not begun: it begins with its first row and look.
+        // A run with an empty journal starts with its first row and snapshot.
         let is_begun = mark.length > 0;
         if is_begun {
             let told = Told { mark, reached: self.state.time(), same_end: self.stub.end == end };
@@ -83,7 +83,7 @@ impl Resumption {
     }
 }
 
-/// The state with what else stands beside it.
+/// Reads the state file.
 fn stub(path: &Path, results: &Path) -> Result<Stub, CheckpointError> {
     match plain(path).and_then(|()| fs::read(path)) {
         Ok(bytes) => Stub::from_bytes(&bytes, path),
@@ -94,7 +94,7 @@ fn stub(path: &Path, results: &Path) -> Result<Stub, CheckpointError> {
     }
 }
 
-/// The job that goes on, perhaps to another end.
+/// Returns the job of the resumed run, with the changes in `set`.
 fn job(path: &Path, set: &[(String, String)], stub: &Stub, results: &Path) -> Result<Job, CheckpointError> {
     let kept = Scenario::load(path)?;
     if run_key(&kept) != stub.run_key || model_key(&kept) != stub.model_key {

@@ -1,7 +1,8 @@
-//! The file `state`: one moment of a run with all that it needs to go on, written whole or not at all.
+//! The file `state` with the state of a run and all data for its resumption.
 //!
-//! Magic, version of the form (u32), length of the file (u64) and the program in every form; then what is in [`Stub`], and at
-//! last the SHA-256 of all before. Numbers are little-endian, a text or a list of bytes comes after its length (u64).
+//! Every format starts with a magic string, the format version (u32), the file length (u64) and the program. The contents of [`Stub`]
+//! follow, and finally the SHA-256 of everything before. Numbers are little-endian. Texts and byte lists are preceded by their length
+//! (u64).
 
 use super::error::CheckpointError;
 use super::journal::Mark;
@@ -10,35 +11,35 @@ use sha2::{Digest, Sha256};
 use std::path::Path;
 
 const MAGIC: &[u8] = b"stickslip checkpoint\n";
-/// Version of the form that this program reads and writes.
+/// Format version that this program reads and writes.
 const FORM: u32 = 2;
-/// Where the length of the file stands.
+/// Offset of the file length.
 const LENGTH: usize = MAGIC.len() + 4;
-/// Bytes of a digest.
+/// Size of a digest, in bytes.
 const DIGEST: usize = 32;
 
-/// A moment of a run.
+/// Contents of the state file.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Stub {
-    /// The run's name.
+    /// Name of the run.
     pub(super) name: String,
-    /// Of what moves, and of all but the end.
+    /// Keys of [`model_key`](super::model_key) and `run_key`.
     pub(super) model_key: [u8; DIGEST],
     pub(super) run_key: [u8; DIGEST],
     /// Wall time between two checkpoints, s.
     pub(super) every: f64,
-    /// The end that the run was on its way to, s.
+    /// Planned end of the run, s.
     pub(super) end: f64,
-    /// Wall time that the run has taken so far, s.
+    /// Wall time of the run so far, s.
     pub(super) wall: f64,
-    /// How far the journal goes.
+    /// Length and digest of the journal.
     pub(super) mark: Mark,
-    /// The state, as it writes itself.
+    /// State in binary form.
     pub(super) state: Vec<u8>,
 }
 
 impl Stub {
-    /// The bytes of the file.
+    /// Returns the contents of the file.
     pub(super) fn to_bytes(&self) -> Vec<u8> {
         let mut bytes = MAGIC.to_vec();
         bytes.extend(FORM.to_le_bytes());
@@ -57,10 +58,10 @@ impl Stub {
         bytes
     }
 
-    /// Reads the bytes of the file at `path`.
+    /// Reads the contents of the file at `path`.
     ///
     /// # Errors
-    /// Anything but a whole checkpoint of this form.
+    /// The file is not a complete checkpoint of this format.
     pub(super) fn from_bytes(bytes: &[u8], path: &Path) -> Result<Self, CheckpointError> {
         let path = || path.to_owned();
         let found = bytes.len() as u64;
@@ -97,7 +98,7 @@ fn text(bytes: &mut Vec<u8>, text: &[u8]) {
     bytes.extend(text);
 }
 
-/// Reads the parts of a file one after the other.
+/// Sequential reader of a file.
 struct Reader<'a> {
     left: &'a [u8],
 }
@@ -173,7 +174,7 @@ mod tests {
         for length in 0..bytes.len() {
             let said = read(&bytes[..length]);
             assert!(
-                said.starts_with(&format!("state: is cut short: {length} bytes of ")),
+                said.starts_with(&format!("state: is truncated: {length} bytes of ")),
                 "{length}: {said}"
             );
         }
@@ -200,7 +201,7 @@ mod tests {
         let this = this_program();
         assert_eq!(
             read(&bytes),
-            format!("state: written by {this}, in a form that this program, {this}, does not know")
+            format!("state: written by {this} in a format that this program, {this}, does not know")
         );
         let mut bytes = stub().to_bytes();
         let place = LENGTH + 16 + this.len() - 1;
@@ -209,7 +210,10 @@ mod tests {
         let digest = Sha256::digest(&bytes[..all]);
         bytes[all..].copy_from_slice(&digest);
         let other = format!("{}9", &this[..this.len() - 1]);
-        assert!(read(&bytes).starts_with(&format!("state: written by {other}, this is {this}: it would")));
-        assert_eq!(read(b"%PDF"), "state: expected a checkpoint of stickslip, found something else");
+        assert!(
+            read(&bytes)
+                .starts_with(&format!("state: written by {other}, this is {this}: the results could"))
+        );
+        assert_eq!(read(b"%PDF"), "state: is not a checkpoint of stickslip");
     }
 }

@@ -1,4 +1,4 @@
-//! A journal told to a fresh recorder leaves it as the run had left the first one.
+//! A replayed journal gives a recorder the same results as the original run.
 
 use super::error::CheckpointError;
 use super::journal::{Journal, Mark};
@@ -13,12 +13,12 @@ use stickslip_contact::Memory;
 use stickslip_drive::{Event, Record};
 use stickslip_scenario::PlotName;
 
-/// A recorder that keeps a journal.
+/// A recorder that also writes a journal.
 struct Both<'a> {
     journal: Journal,
     recorder: Recorder<'a>,
     rows: usize,
-    /// Rows until a mark is made, and the mark.
+    /// Number of rows until a mark is made, and the mark.
     marked: (usize, Option<Mark>),
 }
 
@@ -47,7 +47,7 @@ impl Record for Both<'_> {
     }
 }
 
-/// A job of an example that asks for everything there is.
+/// A job of an example with all outputs.
 fn job(name: &str, set: &[(&str, &str)], out: &Path) -> Job {
     let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenarios").join(name);
     let set: Vec<_> = set.iter().map(|(path, value)| ((*path).to_owned(), (*value).to_owned())).collect();
@@ -60,7 +60,7 @@ fn recorder<'a>(job: &'a Job, folder: &Folder) -> Recorder<'a> {
     Recorder::new(job, &()).fingerprinted().with_tables(folder).unwrap()
 }
 
-/// What a recorder has come to: the bytes of its tables, what is kept, the number of rows.
+/// Results of a recorder: contents of its tables, kept data, number of rows.
 type Left = (Vec<(&'static str, Vec<u8>)>, Kept, u64);
 
 fn left(recorder: Recorder<'_>) -> Left {
@@ -69,12 +69,12 @@ fn left(recorder: Recorder<'_>) -> Left {
     (tables.collect(), recorded.kept, recorded.rows)
 }
 
-/// All of a journal that was not begun for another end.
+/// The whole journal of a run with an unchanged end.
 fn all(mark: Mark, reached: f64) -> Told {
     Told { mark, reached, same_end: true }
 }
 
-/// Runs a job with a journal; returns the marks at its end and at a row, and what its recorder has come to.
+/// Runs a job with a journal. Returns the marks at its end and at a row, and the results of its recorder.
 fn journalled(job: &Job, folder: &Folder, path: &Path, row: usize) -> (Mark, Option<Mark>, Left) {
     let journal = Journal::create(path).unwrap();
     let mut both = Both { journal, recorder: recorder(job, folder), rows: 0, marked: (row, None) };
@@ -100,7 +100,7 @@ fn a_journal_told_to_a_fresh_recorder_makes_the_same_results() {
         let (job, path) = (job(name, set, root.path()), root.path().join("journal"));
         let folder = Folder::make(&job.folder).unwrap();
         let (mark, _, (tables, kept, rows)) = journalled(&job, &folder, &path, 0);
-        // What was written after the mark does not count.
+        // Bytes after the mark are ignored.
         let more = [fs::read(&path).unwrap(), vec![0; 10_000]].concat();
         fs::write(&path, more).unwrap();
         playback::check(&path, &mark).unwrap();
@@ -113,7 +113,7 @@ fn a_journal_told_to_a_fresh_recorder_makes_the_same_results() {
     }
 }
 
-/// As much as was told counts, no more: what the recorder asks for next is what the run goes on with.
+/// Only the journal up to the mark counts. The next snapshot that the recorder requests is that of the continued run.
 #[test]
 fn a_journal_counts_up_to_its_mark_and_goes_on_from_there() {
     let root = tempfile::tempdir().unwrap();
@@ -129,7 +129,7 @@ fn a_journal_counts_up_to_its_mark_and_goes_on_from_there() {
     playback::tell(&path, all(mark, reached), &job, &mut again).unwrap();
     assert_eq!(again.next_look(), Some(0.4e-3 * (reached / 0.4e-3).ceil()));
     assert_eq!(left(again).2, 1000);
-    // The rest is cut off; what is written from here on continues the digest.
+    // The rest is truncated. Later records continue the digest.
     let mut journal = Journal::go_on(&path, mark.length, digest).unwrap();
     assert_eq!(journal.mark().unwrap(), mark);
     journal.row(&[1.0, 2.0]);
@@ -156,7 +156,7 @@ fn a_journal_that_was_cut_or_changed_is_refused() {
     assert!(matches!(playback::check(&path, &mark), Err(CheckpointError::Read { .. })));
 }
 
-/// Whatever stands in a journal that nobody checked, telling it ends.
+/// Replaying an unchecked journal with arbitrary contents terminates.
 #[test]
 fn no_bytes_are_trouble() {
     let root = tempfile::tempdir().unwrap();
@@ -168,7 +168,7 @@ fn no_bytes_are_trouble() {
         for place in (0..2000).step_by(7) {
             let mut bytes = whole[place..place + 3000].to_vec();
             bytes[0] = tag;
-            // A source that is a contact: other names are looked up where the checked journal has them.
+            // The source is a contact. Other source names are looked up in the checked journal.
             bytes[1] = 0;
             fs::write(&path, &bytes).unwrap();
             let _ = playback::tell(

@@ -1,16 +1,16 @@
-//! A fingerprint in the making.
+//! Incremental computation of a fingerprint.
 
 use super::{ColumnPrint, Fingerprint, TablePrint};
 use crate::columns::Columns;
 use std::fmt::Write;
 use stickslip_drive::{Channel, state_name};
 
-/// Most blocks of a table. When they are full, neighbours become one: blocks are as long as it takes, a power of two.
+/// Maximum number of blocks of a table. If it is reached, neighbouring blocks are merged, and the block size doubles.
 pub(super) const MOST_BLOCKS: usize = 64;
-/// What a digest is multiplied by for the next value: odd, so that no bit of an earlier value is lost.
+/// Multiplier of the polynomial digest. It has an inverse modulo 2⁶⁴, so no bit of earlier values is lost.
 const FACTOR: u64 = 0x9e37_79b9_7f4a_7c15;
 
-/// A fingerprint in the making.
+/// Fingerprint under construction.
 #[derive(Debug, Clone)]
 pub struct Sketch {
     columns: Columns,
@@ -18,7 +18,7 @@ pub struct Sketch {
     events: TableSketch,
 }
 
-/// Fingerprint of a table in the making. Digests stand block by block, in each in the order of the columns.
+/// Fingerprint of a table under construction. Digests are stored block by block, within a block in the order of the columns.
 #[derive(Debug, Clone)]
 struct TableSketch {
     names: Vec<String>,
@@ -26,13 +26,13 @@ struct TableSketch {
     block: u64,
     starts: Vec<f64>,
     full: Vec<u64>,
-    /// Digests of the block that is being filled, and its rows so far.
+    /// Digests of the current block and the number of its rows.
     current: Vec<u64>,
     filled: u64,
 }
 
 impl Sketch {
-    /// Nothing yet, of tables with these columns.
+    /// Creates an empty fingerprint for tables with these columns.
     pub fn new(columns: Columns) -> Self {
         let channels = columns.channels();
         let names: Vec<&str> = channels.iter().map(|channel| channel.name.as_str()).collect();
@@ -42,12 +42,12 @@ impl Sketch {
         Self { columns, trace, events }
     }
 
-    /// Takes a row of the trace.
+    /// Adds a row of the trace.
     pub fn row(&mut self, values: &[f64]) {
         self.trace.push(self.columns.of(values).map(digest));
     }
 
-    /// Takes an event: its words and the values after it.
+    /// Adds an event with its source and kind, and the values after it.
     pub fn event(&mut self, words: [&str; 2], values: &[f64]) {
         let mut values = self.columns.of(values).map(digest);
         let time = values.next();
@@ -55,18 +55,18 @@ impl Sketch {
         self.events.push(time.into_iter().chain(words).chain(values));
     }
 
-    /// The fingerprint of what came so far.
+    /// Returns the fingerprint of all rows so far.
     pub fn finish(&self) -> Fingerprint {
         Fingerprint { trace: self.trace.finish(), events: self.events.finish() }
     }
 }
 
-/// A value and its digest.
+/// Returns a value with its digest.
 fn digest((value, channel): (f64, &Channel)) -> (f64, u64) {
     (value, if channel.is_state { of_word(state_name(value)) } else { of_number(value) })
 }
 
-/// All that is not a number has one digest, as it has one text.
+/// Returns the digest of a number. All NaN values have the same digest, as they have the same text.
 fn of_number(value: f64) -> u64 {
     mixed(if value.is_nan() { f64::NAN } else { value }.to_bits())
 }
@@ -75,15 +75,16 @@ fn of_word(word: &str) -> u64 {
     word.bytes().fold(word.len() as u64, |digest, byte| mixed(digest ^ u64::from(byte)))
 }
 
-/// Every bit of a value changes half the bits of this, and no two values have the same: the finaliser of Steele, Lea,
-/// Flood, *Fast splittable pseudorandom number generators* (2014).
+/// Mixes the bits of a value. The function is invertible, and every input bit affects about half of the output bits.
+///
+/// It is the finaliser of Steele, Lea, Flood, *Fast splittable pseudorandom number generators* (2014).
 fn mixed(mut bits: u64) -> u64 {
     bits = (bits ^ (bits >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
     bits = (bits ^ (bits >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
     bits ^ (bits >> 31)
 }
 
-/// Digest of a block and the one after it of `rows` rows: the digest of their rows one after the other.
+/// Returns the digest of two consecutive blocks from their digests. The second block has `rows` rows.
 fn joined(first: u64, second: u64, rows: u64) -> u64 {
     let (mut power, mut base, mut rest) = (1_u64, FACTOR, rows);
     while rest > 0 {
@@ -109,7 +110,7 @@ impl TableSketch {
         }
     }
 
-    /// Takes a row of values with their digests, the time first.
+    /// Adds a row of values with their digests, the time first.
     fn push(&mut self, row: impl Iterator<Item = (f64, u64)>) {
         for (place, (digest, (value, next))) in self.current.iter_mut().zip(row).enumerate() {
             *digest = digest.wrapping_mul(FACTOR).wrapping_add(next);
@@ -149,7 +150,7 @@ impl TableSketch {
     }
 }
 
-/// Neighbouring blocks made one; of `rows`, the first is the length of a block and the second that of the last one.
+/// Merges neighbouring blocks. `rows` are the length of a block and the length of the last block.
 pub(super) fn halved(starts: &[f64], digests: &[u64], rows: (u64, u64)) -> (Vec<f64>, Vec<u64>) {
     let blocks = starts.len();
     let width = digests.len() / blocks.max(1);

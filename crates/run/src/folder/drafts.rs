@@ -1,4 +1,4 @@
-//! Files under temporary names, beside the places that they are meant for.
+//! Temporary files in the folder of their final names.
 
 use std::fs::{self, DirEntry, File, TryLockError};
 use std::io;
@@ -6,40 +6,40 @@ use std::path::Path;
 use std::time::Duration;
 use tempfile::{Builder, NamedTempFile};
 
-/// Letters and digits at the end of a draft's name, drawn anew until there is no such file.
+/// Number of random characters at the end of a temporary name.
 const DRAWN: usize = 6;
 
-/// How long a draft was not touched that is taken for one of a command that was killed, where there are no locks.
+/// Age at which an unlocked temporary file counts as abandoned, on file systems without locks.
 const LEFT: Duration = Duration::from_secs(60);
 
-/// An empty file under a temporary name in a folder, locked as long as it is open: what is not is left of a command that was killed, and
-/// goes if it is a draft of the same file.
+/// Creates an empty temporary file in a folder and locks it while it is open.
+///
+/// Unlocked temporary files of the same name were left by killed commands and are removed.
 ///
 /// # Errors
-/// What the system says.
+/// An error of the operating system.
 pub fn draft(folder: &Path, name: &str) -> io::Result<NamedTempFile> {
     sweep(folder, &[name]);
     let prefix = format!(".{name}-");
     let mut builder = Builder::new();
     builder.prefix(&prefix).rand_bytes(DRAWN);
-    // Results are for everybody whom the user's mask lets read; temporary files are for nobody else by default.
+    // Temporary files have restricted permissions by default. Results should follow the umask of the user.
     #[cfg(unix)]
     builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
     let file = builder.tempfile_in(folder)?;
-    // Where there are no locks nobody is told of others.
+    // Without locks, the file is not protected.
     let _ = file.as_file().try_lock();
     Ok(file)
 }
 
-/// Removes what runs that were killed have left of drafts of these names. What another command is writing stays, and what cannot be
-/// removed: it is in nobody's way.
+/// Removes temporary files of these names that killed commands have left. Files that are in use or cannot be removed are kept.
 pub fn sweep(folder: &Path, names: &[impl AsRef<str>]) {
     for entry in drafts(folder, names).filter(|entry| !is_written(entry)) {
         let _ = fs::remove_file(entry.path());
     }
 }
 
-/// Whether somebody has it open; where that cannot be told, whether somebody has touched it within the last minute.
+/// Returns whether a file is open in another command. Without locks, it is considered open if it was modified within the last minute.
 fn is_written(entry: &DirEntry) -> bool {
     let Ok(file) = File::open(entry.path()) else { return false };
     match file.try_lock() {
@@ -52,7 +52,7 @@ fn is_written(entry: &DirEntry) -> bool {
     }
 }
 
-/// Whether there are drafts of these names.
+/// Returns whether there are temporary files of these names.
 pub(crate) fn has_drafts(folder: &Path, names: &[impl AsRef<str>]) -> bool {
     drafts(folder, names).next().is_some()
 }
@@ -65,7 +65,7 @@ fn drafts(folder: &Path, names: &[impl AsRef<str>]) -> impl Iterator<Item = DirE
     fs::read_dir(folder).into_iter().flatten().flatten().filter(is_draft)
 }
 
-/// Whether a name is one that [`draft`] gives.
+/// Returns whether a file name has the form that [`draft`] creates.
 fn is_draft_of(found: &str, name: &str) -> bool {
     let end = found.strip_prefix('.').and_then(|rest| rest.strip_prefix(name)?.strip_prefix('-'));
     end.is_some_and(|end| end.len() == DRAWN && end.bytes().all(|byte| byte.is_ascii_alphanumeric()))

@@ -1,19 +1,22 @@
-//! Hysteresis and creep of a stack, in words.
+//! Sentences about hysteresis and creep of a stack.
 
 use stickslip_piezo::creep::Creep;
 use stickslip_quantity::Real;
 use stickslip_quantity::quantity;
 use stickslip_scenario::{Ceramic, Hysteresis, Piezo};
 
-/// What its ceramic makes of a stack's voltage, a sentence for each.
+/// Returns one sentence for each of hysteresis, creep and compensation.
 pub(super) fn words(piezo: &Piezo) -> Vec<String> {
     let Ceramic { hysteresis, creep, compensated, idle } = &piezo.ceramic;
     let laws = hysteresis.as_ref().map(law).into_iter().chain(creep.as_ref().map(creeps));
     let mut words: Vec<String> = laws.map(|law| format!("{}: {law}", piezo.name)).collect();
     if *idle && !words.is_empty() {
-        words.push(format!("{}: its charge is controlled, and neither comes in", piezo.name));
+        words.push(format!(
+            "{}: hysteresis and creep have no effect, because the charge is controlled",
+            piezo.name
+        ));
     } else if *compensated {
-        words.push(format!("{}: the command is led through their inverses first", piezo.name));
+        words.push(format!("{}: the command passes the inverse model first", piezo.name));
     }
     words
 }
@@ -21,14 +24,14 @@ pub(super) fn words(piezo: &Piezo) -> Vec<String> {
 fn law(hysteresis: &Hysteresis) -> String {
     match hysteresis {
         Hysteresis::Plays(plays, Some(stroke)) => format!(
-            "hysteresis of {} plays, a loop {} % wide at a stroke of {}",
+            "hysteresis of {} play operators, loop width {} % at a stroke of {}",
             plays.count(),
             short(100.0 * plays.width(*stroke) / stroke),
             quantity(Real(*stroke), "m")
         ),
-        Hysteresis::Plays(plays, None) => format!("hysteresis of {} plays", plays.count()),
+        Hysteresis::Plays(plays, None) => format!("hysteresis of {} play operators", plays.count()),
         Hysteresis::BoucWen(law) => {
-            format!("hysteresis of Bouc and Wen, which keeps back up to {}", quantity(Real(law.limit()), "m"))
+            format!("Bouc–Wen hysteresis, with up to {} of stroke", quantity(Real(law.limit()), "m"))
         }
     }
 }
@@ -37,7 +40,7 @@ fn creeps(creep: &Creep) -> String {
     let [first, last] =
         [creep.times().first(), creep.times().last()].map(|time| time.copied().unwrap_or(0.0));
     format!(
-        "creep by {} exponentials of {} to {}, {} of a stroke off the logarithm",
+        "creep by {} exponentials of {} to {}; the deviation from the logarithm is {} of a stroke",
         creep.times().len(),
         quantity(Real(first), "s"),
         quantity(Real(last), "s"),
@@ -45,7 +48,7 @@ fn creeps(creep: &Creep) -> String {
     )
 }
 
-/// Three digits.
+/// Rounds to three significant digits.
 fn short(value: f64) -> f64 {
     format!("{value:.2e}").parse().unwrap_or(value)
 }

@@ -1,4 +1,4 @@
-//! Contacts: pair, scales, stiffness.
+//! Contacts: materials, scales, stiffnesses.
 
 use crate::job::Job;
 use crate::parts::Parts;
@@ -9,102 +9,109 @@ use stickslip_drive::facts;
 use stickslip_drive::scene::Side;
 use stickslip_quantity::Real;
 
-/// A contact.
+/// Properties of a contact.
 #[derive(Debug, Serialize, JsonSchema)]
 pub struct ContactInfo {
-    /// first and second body
+    /// names of the first and second body
     pub between: [String; 2],
-    /// names of their materials
+    /// names of the materials of the first and second body
     pub materials: [String; 2],
-    /// word for the profile
+    /// type of the profile, such as `sphere`
     pub profile: String,
     /// number of identical contacts
     pub count: u32,
-    /// E*, effective modulus: 1/E* = (1-ν₁²)/E₁ + (1-ν₂²)/E₂ (4.13)
+    /// E*, effective modulus: `1/E* = (1-ν₁²)/E₁ + (1-ν₂²)/E₂` (4.13)
     #[serde(rename = "normal_modulus_Pa")]
     pub normal_modulus: Real,
-    /// G*, effective shear modulus: 1/G* = (2-ν₁)/(4G₁) + (2-ν₂)/(4G₂), G = E/(2(1+ν)) (4.13)
+    /// G*, effective shear modulus: `1/G* = (2-ν₁)/(4G₁) + (2-ν₂)/(4G₂)`, with G = E/(2(1+ν)) (4.13)
     #[serde(rename = "tangential_modulus_Pa")]
     pub tangential_modulus: Real,
-    /// β = [(1-2ν₁)/G₁ - (1-2ν₂)/G₂] / [2(1-ν₁)/G₁ + 2(1-ν₂)/G₂]; 0 of similar bodies (Dundurs 1969)
+    /// β, Dundurs' constant (1969): `β = [(1-2ν₁)/G₁ - (1-2ν₂)/G₂] / [2(1-ν₁)/G₁ + 2(1-ν₂)/G₂]`. 0 for elastically
+    /// similar bodies.
     pub dundurs_beta: Real,
-    /// whether β is 0, which makes the theory exact
+    /// whether the bodies are elastically similar, β = 0. Then the theory is exact.
     pub elastically_similar: bool,
-    /// artanh(β)/β - 1, by how much of itself the normal stiffness at a given radius is too low at most, [derived
-    /// here](figures.md#similarity)
+    /// largest relative amount by which the normal stiffness at a given contact radius is too low, because of the
+    /// [neglected coupling](theory/contact_mechanics.md#elastic-similarity): artanh(β)/β - 1
     pub neglected_stiffness: Real,
-    /// both in words
+    /// sentence about dundurs_beta and neglected_stiffness
     pub similarity: String,
     /// μ, coefficient of friction
     pub friction: Real,
-    /// κ = μE*/G*, displacement per height of the memory curve: u_c = κd
+    /// κ, tangential displacement at the onset of slip divided by the indentation of a spring: `κ = μE*/G*`, so that
+    /// u_c = κd
     pub stick_slope: Real,
     /// At t = 0.
     #[schemars(extend("x-name" = "LOAD"))]
     pub start: Pressed,
-    /// At the smallest indentation of a load that varies.
+    /// At the smallest indentation of a varying load.
     #[serde(rename = "smallest", skip_serializing_if = "Option::is_none")]
     #[schemars(extend("x-name" = "LOAD"))]
     pub least: Option<Pressed>,
-    /// At the largest.
+    /// At the largest indentation of a varying load.
     #[serde(rename = "largest", skip_serializing_if = "Option::is_none")]
     #[schemars(extend("x-name" = "LOAD"))]
     pub most: Option<Pressed>,
 }
 
-/// What depends on the indentation. Forces, radius and pressure are those of one contact, stiffnesses of all `count`.
+/// Properties that depend on the indentation. Forces, radius and pressure are those of one contact, stiffnesses and
+/// friction limit totals of all identical contacts.
 #[derive(Debug, Serialize, JsonSchema)]
 pub struct Pressed {
     /// F_N, normal force of one contact: 2E*∫₀^a (d - g(x)) dx (4.26)
     #[serde(rename = "normal_force_N")]
     pub normal_force: Real,
-    /// d, indentation; below 0 the contact is open
+    /// d, indentation. Below 0 if the contact is open.
     #[serde(rename = "indentation_m")]
     pub indentation: Real,
     /// a, contact radius, where g(a) = d (4.26)
     #[serde(rename = "contact_radius_m")]
     pub radius: Real,
-    /// p_max, largest pressure; infinite at tips and edges, left out for a list of springs
+    /// p_max, largest pressure. Infinite at tips and sharp edges. Absent for lists of springs.
     #[serde(rename = "peak_pressure_Pa", skip_serializing_if = "Option::is_none")]
     pub peak_pressure: Option<Real>,
-    /// u_c = κd, where gross slip of a first loading begins (4.28)
+    /// u_c, gross slip displacement: u_c = κd, where gross slip begins in a first loading (4.28)
     #[serde(rename = "gross_slip_displacement_m")]
     pub gross_slip: Real,
-    /// S₀, stroke up to which an ideal drive makes no step: flyback in no time, slow return, all ringing damped, no load on
-    /// the slider
+    /// S₀, zero-step stroke: largest stroke without a step of an ideal drive, with instantaneous flyback, slow forward
+    /// stroke, no ringing and no load
     #[serde(rename = "zero_step_stroke_m")]
     pub zero_step_stroke: Real,
-    /// What the constant load on the slider makes of it.
+    /// Influence of the constant load on the slider.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub loaded: Option<Loaded>,
-    /// μF_N, maximum force of all count contacts without damping; the stuck springs of a damped one bear βG*ṡ beside G*s
+    /// μF_N, friction limit, total of all identical contacts. With contact damping β, sticking springs also carry βG*ṡ,
+    /// and |F_x| may exceed it.
     #[serde(rename = "limit_force_N")]
     pub limit_force: Real,
-    /// ∂F_x/∂u of all count contacts where all of them sticks: count · 2G*a
+    /// tangential stiffness ∂F_x/∂u in full stick, total of all identical contacts: count · 2G*a
     #[serde(rename = "tangential_stiffness_N_m")]
     pub tangential_stiffness: Real,
-    /// ∂F_N/∂d of all count contacts: count · 2E*a
+    /// normal stiffness ∂F_N/∂d, total of all identical contacts: count · 2E*a
     #[serde(rename = "normal_stiffness_N_m")]
     pub normal_stiffness: Real,
-    /// √(k/m)/2π, with k the tangential stiffness and m the reduced mass of its two bodies; left out where neither is free
+    /// resonance frequency of the two bodies on the contact in full stick: √(k/m)/2π, with its tangential stiffness k
+    /// and the reduced mass m of the bodies. Absent if neither is free.
     #[serde(rename = "contact_resonance_Hz", skip_serializing_if = "Option::is_none")]
     pub resonance: Option<Real>,
 }
 
-/// A constant load on a body that depends on one contact only.
+/// Constant load on a body that only one contact holds.
 #[derive(Debug, Clone, Copy, Serialize, JsonSchema)]
 pub struct Loaded {
-    /// constant loads and gravity along x on the slider, where it has no other contact
+    /// constant force along x on the slider, from loads and gravity. Absent if other contacts, springs or actuators
+    /// hold it, too.
     #[serde(rename = "force_N")]
     pub force: Real,
-    /// its magnitude over μF_N of all count contacts
+    /// magnitude of the constant force on the slider divided by μF_N of all identical contacts
     pub share: Real,
-    /// S₀ where this load opposes the steps; left out where the contact does not hold it
+    /// S₀, zero-step stroke if the constant force on the slider opposes the steps. Absent if the contact does not hold
+    /// the force.
     #[serde(rename = "zero_step_stroke_m", skip_serializing_if = "Option::is_none")]
     pub zero_step_stroke: Option<Real>,
 }
 
-/// All contacts.
+/// Returns the properties of all contacts.
 pub fn contacts(job: &Job) -> Parts<ContactInfo> {
     let contacts = job.model.contacts().enumerate();
     Parts(contacts.filter_map(|(c, (name, law))| Some((name.to_owned(), contact(job, c, law)?))).collect())
@@ -157,7 +164,7 @@ impl Pressed {
     }
 }
 
-/// Name of a side.
+/// Returns the name of the body on one side of a contact, or `ground`.
 pub fn name(job: &Job, side: Side) -> String {
     match side {
         Side::Ground => "ground".to_owned(),

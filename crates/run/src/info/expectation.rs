@@ -1,4 +1,4 @@
-//! What a run to its end is expected to write and to hold.
+//! Expected size of the output of a run, and its memory.
 
 use crate::job::Job;
 use crate::kept::draws_from_series;
@@ -10,52 +10,52 @@ use stickslip_measure::Series;
 use stickslip_quantity::Real;
 use stickslip_scenario::PlotName;
 
-/// Bytes of a number with its comma in a table: 13.9 to 19.7 on the examples.
+/// Bytes of a number with its comma in a table; between 13.9 and 19.7 in the examples.
 const BYTES_PER_VALUE: f64 = 19.0;
-/// Bytes of a line of `springs.csv`: 149 and 150 on the examples.
+/// Bytes of a row of `springs.csv`.
 const BYTES_PER_SPRING: f64 = 150.0;
-/// What the program takes by itself, its pictures included, B.
+/// Memory of the program without results, including plots, B.
 const BASE: f64 = 20e6;
-/// Memory over what is kept: growing lists, and the copies that become figures. 1.56 with a million rows.
+/// Ratio of the memory to the size of the stored series, for growing lists and copies.
 const OVERHEAD: f64 = 1.6;
 
-/// What a run to its end is expected to write and to hold.
+/// Expected output of a complete run.
 #[derive(Debug, Serialize, JsonSchema)]
 pub struct Expectation {
-    /// steps of a stepper of fixed step
+    /// number of time steps of a run. Absent for adaptive time integrators.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub steps: Option<Real>,
     /// Events.
     pub events: Events,
-    /// rows of trace.csv
+    /// number of rows of trace.csv
     pub rows: Real,
-    /// its columns
+    /// number of columns of trace.csv
     pub columns: usize,
-    /// about the size of trace.csv, in bytes
+    /// estimated size of trace.csv in bytes
     #[serde(rename = "trace_B")]
     pub trace: Real,
-    /// about the size of events.csv, in bytes
+    /// estimated size of events.csv in bytes
     #[serde(rename = "events_B")]
     pub events_file: Real,
-    /// lines of springs.csv
+    /// number of rows of springs.csv. Absent if the file is not written.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub spring_lines: Option<Real>,
-    /// about its size, in bytes
+    /// estimated size of springs.csv in bytes. Absent if the file is not written.
     #[serde(rename = "springs_B", skip_serializing_if = "Option::is_none")]
     pub springs_file: Option<Real>,
-    /// curves in memory.csv; an open contact has none
+    /// largest number of memory curves in memory.csv. Open contacts have none. Absent if the file is not written.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub memory_curves: Option<Real>,
-    /// lines of fields.csv, and of friction.csv
+    /// number of rows of fields.csv and of friction.csv. Absent if the files are not written.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub field_lines: Option<Real>,
-    /// Events in `events.csv`, estimated.
+    /// Estimated number of rows of `events.csv`.
     #[serde(skip)]
     pub(crate) events_written: Real,
-    /// What of it grows with the run: rows and events that pictures are drawn from, B.
+    /// Memory that grows with the run, B: rows and events for plots.
     #[serde(skip)]
     pub(crate) kept: Real,
-    /// about the memory that the program takes, in bytes
+    /// estimated memory of the program in bytes
     #[serde(rename = "memory_B")]
     pub memory: Real,
 }
@@ -63,11 +63,12 @@ pub struct Expectation {
 /// Events of the whole run.
 #[derive(Debug, Serialize, JsonSchema)]
 pub struct Events {
-    /// corners of waveforms: those of a period times the periods, whole or not
+    /// number of corners of waveforms: those of one period times the number of periods
     pub corners: Real,
-    /// events of contacts and blocks, estimated: to a factor of two on the examples, elsewhere a guess
+    /// estimated number of events of contacts and blocks. Within a factor of two for the examples; other models may
+    /// differ more.
     pub contacts_estimate: Real,
-    /// All in a period of the waveform of `figures`, on the average.
+    /// Events in a period of the waveform named in `figures`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub per_period: Option<PerPeriod>,
 }
@@ -75,14 +76,14 @@ pub struct Events {
 /// Events in a period.
 #[derive(Debug, Serialize, JsonSchema)]
 pub struct PerPeriod {
-    /// the waveform of `figures`
+    /// name of the waveform named in `figures`
     pub waveform: String,
-    /// all events in a period of it, on the average
+    /// estimated mean number of events in a period of the waveform named in `figures`
     pub estimate: Real,
 }
 
 impl Expectation {
-    /// That of a job.
+    /// Returns the expected output of a job.
     pub fn of(job: &Job) -> Self {
         let plan = &job.scenario.plan;
         let events = ExpectedEvents::of(job.setup(), plan);
@@ -90,7 +91,7 @@ impl Expectation {
         let written = written_events(job, &events);
         let series = Series::new(&job.model.channels(), &job.scenario.plots);
         let width = if draws_from_series(&job.scenario.plots) { series.width() } else { 0 };
-        // A picture of the events has the time of each.
+        // The plot of events needs the time of each.
         let times = if job.scenario.plots.contains(&PlotName::Events) { written } else { 0.0 };
         let kept = (width as f64 * (rows + written) + times) * size_of::<f64>() as f64;
         let springs: usize = job.grids.iter().flatten().map(|grid| grid.count()).sum();
@@ -109,7 +110,7 @@ impl Expectation {
             rows: Real(rows),
             columns,
             trace: Real(rows * columns as f64 * BYTES_PER_VALUE),
-            // Two words more in each row.
+            // Each row has two more words.
             events_file: Real(written * (columns + 2) as f64 * BYTES_PER_VALUE),
             events_written: Real(written),
             kept: Real(kept),
@@ -119,15 +120,15 @@ impl Expectation {
     }
 }
 
-/// Rows in the trace.
+/// Returns the number of rows of `trace.csv`.
 fn written_rows(job: &Job) -> f64 {
     let plan = &job.scenario.plan;
     let ([from, to], Some(every)) = (job.scenario.written.window, plan.every) else { return rows(plan) };
-    // The first and the last are there anyway.
+    // The first and last row are always written.
     rows(plan).min((to.min(plan.duration) - from).max(0.0) / every + 3.0)
 }
 
-/// Events in their table, about: of some kinds or contacts no more than of all.
+/// Returns the estimated number of rows of `events.csv`. A selection of kinds or contacts is not taken into account.
 fn written_events(job: &Job, events: &ExpectedEvents) -> f64 {
     let (written, duration) = (&job.scenario.written, job.scenario.plan.duration);
     let [from, to] = written.window;
@@ -148,7 +149,7 @@ impl Events {
         Self { corners: Real(corners), contacts_estimate: Real(contacts), per_period }
     }
 
-    /// All events.
+    /// Returns the number of all events.
     pub fn total(&self) -> f64 {
         self.corners.0 + self.contacts_estimate.0
     }

@@ -1,4 +1,4 @@
-//! What moves: bodies, waveforms, normal modes.
+//! Bodies, waveforms and normal modes.
 
 use crate::job::Job;
 use crate::parts::Parts;
@@ -9,68 +9,72 @@ use stickslip_drive::facts::{self, Follower, Mode, followers};
 use stickslip_drive::scene::{Axis, Coordinate, Freedom, Scene};
 use stickslip_quantity::Real;
 
-/// A body.
+/// Properties of a body.
 #[derive(Debug, Serialize, JsonSchema)]
 pub struct BodyInfo {
-    /// m, mass; left out for a body that needs none
+    /// m, mass of the body. Absent if the scenario gives none.
     #[serde(rename = "mass_kg", skip_serializing_if = "Option::is_none")]
     pub mass: Option<Real>,
-    /// What each coordinate does, by name.
+    /// Type of each coordinate, by its name.
     #[schemars(extend("x-name" = "AXIS"))]
     pub coordinates: Parts<Freed>,
 }
 
-/// what `x`, `z` and `pitch` do: `fixed`, `free` (by an equation of motion), `balanced` (where forces balance, without mass)
+/// type of the coordinate `x`, `z` or `pitch`: `fixed`, `free` (has inertia and obeys the equation of motion) or
+/// `balanced` (no inertia, forces in equilibrium at all times). A coordinate that follows a waveform has the key
+/// `follows` instead.
 #[derive(Debug, Serialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Freed {
-    /// Stays where it was drawn.
+    /// Does not move.
     Fixed,
-    /// Moves by its equation of motion.
+    /// Has inertia and obeys the equation of motion.
     Free,
-    /// Has no mass and is where forces balance.
+    /// Has no inertia; its forces are in equilibrium at all times.
     Balanced,
-    /// the waveform that the coordinate follows
+    /// name of the waveform that the coordinate follows
     Follows(String),
 }
 
-/// A waveform.
+/// Properties of a waveform.
 #[derive(Debug, Serialize, JsonSchema)]
 pub struct WaveformInfo {
-    /// T, period; left out for what does not repeat
+    /// T, period. Absent for waveforms that do not repeat.
     #[serde(rename = "period_s", skip_serializing_if = "Option::is_none")]
     pub period: Option<Real>,
-    /// smallest and largest frequency that may be commanded of a generator
+    /// smallest and largest frequency that a generator accepts as a command. Absent for other waveforms.
     #[serde(rename = "commanded_Hz", skip_serializing_if = "Option::is_none")]
     pub commanded: Option<[Real; 2]>,
-    /// smallest and largest value over all time, where it drives lengths
+    /// smallest and largest value over all time, if the waveform drives lengths or angles. Absent otherwise.
     #[serde(rename = "range_m", skip_serializing_if = "Option::is_none")]
     pub lengths: Option<[Real; 2]>,
-    /// smallest and largest value over all time, where it drives forces
+    /// smallest and largest value over all time, if the waveform drives forces. Absent otherwise.
     #[serde(rename = "range_N", skip_serializing_if = "Option::is_none")]
     pub forces: Option<[Real; 2]>,
-    /// what follows it
+    /// coordinates, actuators, loads and contacts that follow the waveform
     pub drives: Vec<String>,
 }
 
-/// A normal mode with all contacts stuck.
+/// Normal mode with all contacts in full stick.
 #[derive(Debug, Serialize, JsonSchema)]
 pub struct ModeInfo {
-    /// frequency of a normal mode with all contacts stuck, as deep as at t = 0; 0: nothing holds this motion
+    /// natural frequency of a normal mode with all contacts in full stick, at their indentations at t = 0. 0 for a
+    /// rigid-body motion that nothing holds.
     #[serde(rename = "frequency_Hz")]
     pub frequency: Real,
-    /// of the mode of this place at the smallest and the largest indentations, where loads vary
+    /// frequencies of the normal mode at the smallest and largest indentations of varying loads. Absent if no load
+    /// varies.
     #[serde(rename = "frequency_range_Hz", skip_serializing_if = "Option::is_none")]
     pub range: Option<[Real; 2]>,
-    /// share of critical damping, φᵀCφ/(2ω φᵀMφ) of the undamped shape φ: exact where damping does not couple the modes, else
-    /// an estimate, which may be above 1
+    /// damping ratio (1: critical damping): φᵀCφ/(2ω φᵀMφ), with the undamped mode shape φ. Exact if damping does not
+    /// couple the modes; otherwise an estimate, which may exceed 1.
     pub damping_ratio: Real,
-    /// displacements in the mode, the largest of them 1
+    /// mode shape: displacement of each coordinate, normalised to a largest value of 1
     #[schemars(extend("x-name" = "COORDINATE"))]
     pub shape: Parts<Real>,
 }
 
-/// All bodies.
+/// Returns the properties of all bodies.
 pub fn bodies(job: &Job) -> Parts<BodyInfo> {
     let scene = &job.scenario.scene;
     let body = |body: &stickslip_drive::scene::Named<stickslip_drive::scene::Body>| {
@@ -99,7 +103,7 @@ impl Freed {
     }
 }
 
-/// All waveforms.
+/// Returns the properties of all waveforms.
 pub fn waveforms(job: &Job) -> Parts<WaveformInfo> {
     let followers = followers(&job.scenario.scene);
     let waveform = |(w, named): (usize, &stickslip_drive::scene::Named<Waveform>)| {
@@ -120,7 +124,7 @@ pub fn waveforms(job: &Job) -> Parts<WaveformInfo> {
     Parts(job.scenario.scene.waveforms.iter().enumerate().map(waveform).collect())
 }
 
-/// All normal modes.
+/// Returns all normal modes.
 pub fn modes(job: &Job) -> Vec<ModeInfo> {
     let mode = |mode: Mode| ModeInfo {
         frequency: Real(mode.frequency),

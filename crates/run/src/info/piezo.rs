@@ -1,4 +1,4 @@
-//! Piezo stacks: what they are, and what their drivers will make of what is commanded.
+//! Piezo stacks: properties, commands, and a forecast of what their drivers reach.
 
 use crate::job::Job;
 use crate::parts::Parts;
@@ -13,90 +13,93 @@ use stickslip_quantity::Real;
 use stickslip_quantity::quantity;
 use stickslip_scenario::{Ceramic, Piezo};
 
-/// Part of a command that counts as none of it lost: the forecast walks in steps of a 8000th of a period.
+/// Relative loss of stroke up to which the forecast reports none. Its steps are 1/8000 of a period.
 const WHOLE: f64 = 2e-3;
 
-/// A stack.
+/// Properties of a stack.
 #[derive(Debug, Serialize, JsonSchema)]
 pub struct PiezoInfo {
-    /// k, given or blocking force over stroke of the data sheet; k/(1 - kα²/C) of a reciprocal stack under charge control
+    /// k, stiffness: given, or blocking force divided by stroke of the data sheet. With charge control and a reciprocal
+    /// stack: k/(1 - kα²/C).
     #[serde(rename = "stiffness_N_m")]
     pub stiffness: Real,
-    /// c, given or √(k m)/Q with m the mass that it moves
+    /// c, damping: given, or √(k m)/Q with the mass m that the stack moves
     #[serde(rename = "damping_N_s_m")]
     pub damping: Real,
-    /// Q, from which c follows where the scenario gives none
+    /// Q, quality factor from which the damping follows. Absent if the scenario gives the damping.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub quality: Option<Real>,
-    /// its own mass, given or k/(2f)² of the resonance with both ends free
+    /// mass of the stack: given, or k/(2f)² from its resonance frequency f with both ends free. Absent if it has none.
     #[serde(rename = "mass_kg", skip_serializing_if = "Option::is_none")]
     pub mass: Option<Real>,
-    /// what of it has been added to the bodies at its ends
+    /// masses added to the first and second body to represent the mass of the stack. Absent if it has none.
     #[serde(rename = "added_to_ends_kg", skip_serializing_if = "Option::is_none")]
     pub ends: Option<[Real; 2]>,
-    /// α, given or stroke over voltage of the data sheet
+    /// α, stroke per volt: given, or stroke divided by voltage of the data sheet. Absent if unknown.
     #[serde(rename = "stroke_per_volt_m_V", skip_serializing_if = "Option::is_none")]
     pub stroke_per_volt: Option<Real>,
-    /// C, capacitance
+    /// C, capacitance. Absent if unknown.
     #[serde(rename = "capacitance_F", skip_serializing_if = "Option::is_none")]
     pub capacitance: Option<Real>,
-    /// smallest step of its driver as a stroke
+    /// voltage resolution of the driver as a stroke. Absent if the scenario gives none.
     #[serde(rename = "resolution_m", skip_serializing_if = "Option::is_none")]
     pub resolution: Option<Real>,
-    /// kα²/C: charge of strain as a share of the electrical energy, left out unless the driver is reciprocal
+    /// electromechanical coupling kα²/C: share of the electrical energy due to the charge caused by strain. Absent
+    /// unless the driver is reciprocal.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub coupling: Option<Real>,
-    /// What it is commanded.
+    /// Commanded stroke and voltage.
     pub command: CommandInfo,
-    /// Where a driver is asked for most.
+    /// Part of the period with the largest demand on the driver.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub corner: Option<CornerInfo>,
-    /// remarks on it, in sentences
+    /// remarks about the stack and its driver, in sentences
     #[serde(rename = "text")]
     pub words: Vec<String>,
 }
 
-/// What a stack is commanded, and what of it is left.
+/// Commanded and reached strokes.
 #[derive(Debug, Serialize, JsonSchema)]
 pub struct CommandInfo {
-    /// smallest and largest free stroke that is commanded
+    /// smallest and largest commanded free stroke
     #[serde(rename = "stroke_m")]
     pub stroke: [Real; 2],
-    /// smallest and largest voltage that is commanded
+    /// smallest and largest commanded voltage. Absent if the command is no voltage.
     #[serde(rename = "voltage_V", skip_serializing_if = "Option::is_none")]
     pub voltage: Option<[Real; 2]>,
-    /// k times the largest stroke: force against a wall
+    /// blocking force of the largest commanded stroke: k times this stroke
     #[serde(rename = "blocking_force_N")]
     pub blocking_force: Real,
-    /// smallest and largest stroke that its driver reaches when periods repeat, about
+    /// estimated smallest and largest stroke that the driver reaches in repeated periods. Absent without a forecast.
     #[serde(rename = "reached_m", skip_serializing_if = "Option::is_none")]
     pub left: Option<[Real; 2]>,
 }
 
-/// The part of a period that asks most of the driver's current.
+/// Part of the period with the largest demand on the driver's current.
 #[derive(Debug, Serialize, JsonSchema)]
 pub struct CornerInfo {
-    /// the part of a period that asks most of the driver's current
+    /// start and end time of the section of the period that needs the largest fraction of the driver's current
     #[serde(rename = "between_s")]
     pub between: [Real; 2],
-    /// voltages at its ends
+    /// voltages at the start and end of the section between_s
     #[serde(rename = "voltage_V")]
     pub voltage: [Real; 2],
-    /// current C·|dV/dt| that it needs; null of a jump
+    /// current C·|dV/dt| needed in the section between_s. null for a jump.
     #[serde(rename = "needed_A")]
     pub needed: Real,
-    /// current that there is
+    /// current limit of the driver in the section between_s. Absent without a limit.
     #[serde(rename = "available_A", skip_serializing_if = "Option::is_none")]
     pub available: Option<Real>,
-    /// I/C, the rate of the voltage that there is
+    /// largest rate of the voltage at the current limit, I/C. Absent without a limit.
     #[serde(rename = "slew_V_s", skip_serializing_if = "Option::is_none")]
     pub slew: Option<Real>,
-    /// time that all of that change takes with it
+    /// time that the voltage change of the section between_s takes at the current limit. Absent without a limit, and
+    /// for curved waveforms.
     #[serde(rename = "takes_s", skip_serializing_if = "Option::is_none")]
     pub takes: Option<Real>,
 }
 
-/// All stacks.
+/// Returns the properties of all stacks.
 pub fn piezos(job: &Job) -> Parts<PiezoInfo> {
     let stacks = job.scenario.stacks.iter().enumerate();
     Parts(stacks.map(|(i, piezo)| (piezo.name.clone(), of(job, i, piezo))).collect())
@@ -163,7 +166,7 @@ fn corner(spec: &Spec, forecast: &Forecast) -> CornerInfo {
     }
 }
 
-/// What the driver cannot follow, and what it will take instead.
+/// Returns the sentence about a command that is too fast for the driver.
 fn steep(name: &str, spec: &Spec, forecast: &Forecast) -> Option<String> {
     let steepest = &forecast.steepest;
     if !steepest.is_too_steep() {
@@ -173,7 +176,7 @@ fn steep(name: &str, spec: &Spec, forecast: &Forecast) -> Option<String> {
     let (from, to) = steepest.between;
     if steepest.curved {
         return Some(format!(
-            "{name}: its command changes by up to {} V/us, which needs {}, and {} are there: the voltage changes by {} V/us",
+            "{name}: the command changes by up to {} V/us, which needs {}, but the driver supplies {}: the voltage changes by {} V/us",
             short(steepest.current.abs() / spec.capacitance / 1e6),
             told(steepest.current.abs(), "A"),
             told(steepest.available, "A"),
@@ -183,10 +186,10 @@ fn steep(name: &str, spec: &Spec, forecast: &Forecast) -> Option<String> {
     let needs = if steepest.current.is_finite() {
         format!("in {} needs {}", told(to - from, "s"), told(steepest.current.abs(), "A"))
     } else {
-        "in no time needs a current without end".to_owned()
+        "instantly needs an infinite current".to_owned()
     };
     Some(format!(
-        "{name}: going from {} to {} {needs}, and {} are there: the voltage changes by {} V/us, all of it would take {}",
+        "{name}: the change from {} to {} {needs}, but the driver supplies {}: the voltage changes by {} V/us, and the whole change takes {}",
         told(steepest.volts.0, "V"),
         told(steepest.volts.1, "V"),
         told(steepest.available, "A"),
@@ -195,17 +198,17 @@ fn steep(name: &str, spec: &Spec, forecast: &Forecast) -> Option<String> {
     ))
 }
 
-/// What was told is that of the driver alone.
+/// Returns the sentence that the forecast excludes hysteresis and creep.
 fn beside(piezo: &Piezo) -> Option<String> {
     let Ceramic { hysteresis, creep, compensated, idle } = &piezo.ceramic;
     if *idle || (hysteresis.is_none() && creep.is_none()) {
         return None;
     }
-    let of = if *compensated { "the command before its compensation, and " } else { "" };
-    Some(format!("{}: so far this is told of {of}the voltage without hysteresis and creep", piezo.name))
+    let of = if *compensated { "the command before its compensation and " } else { "" };
+    Some(format!("{}: the numbers above are for {of}the voltage without hysteresis and creep", piezo.name))
 }
 
-/// What is left of the stroke.
+/// Returns the sentence about the loss of stroke.
 fn lost(name: &str, forecast: &Forecast) -> Option<String> {
     let ((least, most), ((low, high), periods)) = (forecast.asked, forecast.left?);
     let (asked, left) = (most - least, high - low);
@@ -214,7 +217,7 @@ fn lost(name: &str, forecast: &Forecast) -> Option<String> {
     }
     let told = |value: f64| quantity(Real(value), "m");
     Some(format!(
-        "{name}: of the {} commanded the driver leaves {}, from {} to {}, when periods repeat (after {} of them)",
+        "{name}: the commanded stroke is {}, the driver leaves {}, from {} to {}, in a repeating period (after {} periods)",
         told(asked),
         told(left),
         told(low),
@@ -223,7 +226,7 @@ fn lost(name: &str, forecast: &Forecast) -> Option<String> {
     ))
 }
 
-/// Contacts whose zero-step stroke is larger than the stack's stroke.
+/// Returns sentences about contacts whose zero-step stroke exceeds the stroke of the stack.
 fn idle(job: &Job, i: usize, name: &str, stroke: f64) -> Vec<String> {
     let ends = job.scenario.scene.actuators[i].part.between;
     let moved = |side: &Side| matches!(side, Side::Body(_)) && ends.contains(side);
@@ -233,7 +236,7 @@ fn idle(job: &Job, i: usize, name: &str, stroke: f64) -> Vec<String> {
         let least = zero_step_stroke(law, d, 0.0).filter(|_| contact.part.between.iter().any(moved))?;
         (stroke > 0.0 && stroke < least).then(|| {
             format!(
-                "{name}: its stroke of {} is below the zero-step stroke of {} of {contact_name}: an ideal sawtooth makes no step of it",
+                "{name}: the stroke of {} is below the zero-step stroke of {} of {contact_name}: an ideal sawtooth makes no step",
                 quantity(Real(stroke), "m"),
                 quantity(Real(least), "m"),
             )
@@ -242,7 +245,7 @@ fn idle(job: &Job, i: usize, name: &str, stroke: f64) -> Vec<String> {
     said.collect()
 }
 
-/// Four digits.
+/// Rounds to four significant digits.
 fn short(value: f64) -> f64 {
     format!("{value:.3e}").parse().unwrap_or(value)
 }

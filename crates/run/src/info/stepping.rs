@@ -1,4 +1,4 @@
-//! How time is stepped, and what fixed steps could be.
+//! Time integration, and the stability limits of fixed time steps.
 
 use crate::job::Job;
 use schemars::JsonSchema;
@@ -6,40 +6,42 @@ use serde::Serialize;
 use stickslip_drive::Stepper;
 use stickslip_quantity::Real;
 
-/// How time is stepped, and what fixed steps could be.
+/// Time integration of a run, and the stability limits of fixed time steps.
 #[derive(Debug, Serialize, JsonSchema)]
 pub struct Stepping {
-    /// the stepper that the run takes
+    /// name of the time integrator that the run uses
     pub stepper: &'static str,
-    /// its tolerance: local error per step, relative to the scales of the contacts
+    /// tolerance of the time integrator: local error per time step relative to the natural scales of the contacts.
+    /// Absent for fixed time steps.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub tolerance: Option<Real>,
-    /// its step, where that is fixed; the longest of a frame
+    /// fixed time step; with `frames`, the longest one. Absent for adaptive time integrators.
     #[serde(rename = "step_s", skip_serializing_if = "Option::is_none")]
     pub step: Option<Real>,
-    /// length of a frame, of the stepper `frames`
+    /// duration of a frame. Absent without `frames`.
     #[serde(rename = "frame_s", skip_serializing_if = "Option::is_none")]
     pub frame: Option<Real>,
-    /// time steps of a frame, without those added at corners and contact events
+    /// number of time steps in a frame, without those added at corners and contact events. Absent without `frames`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub substeps: Option<Real>,
-    /// simulated time
+    /// simulated time of a complete run
     #[serde(rename = "duration_s")]
     pub duration: Real,
-    /// largest relative change of a step at which the run ends earlier
+    /// largest relative change of the step length at which run.until_steady ends the run. Absent without this key.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub until_steady: Option<Real>,
-    /// longest stable step of velocity Verlet: 2/ω of the fastest mode with all contacts stuck and as deep as they get, or RC
-    /// of a driver
+    /// stability limit of the time step of velocity Verlet: 2/ω of the fastest mode with all contacts in full stick at
+    /// their largest indentations, or RC of a driver. Absent without a limit.
     #[serde(rename = "longest_verlet_step_s", skip_serializing_if = "Option::is_none")]
     pub longest_verlet: Option<Real>,
-    /// the same of the classical Runge–Kutta method: 2√2/ω without damping, or 2.785·RC
+    /// stability limit of the time step of the classical Runge–Kutta method: 2√2/ω (without damping) of the fastest
+    /// mode, or 2.785·RC of a driver. Absent without a limit.
     #[serde(rename = "longest_rk4_step_s", skip_serializing_if = "Option::is_none")]
     pub longest_rk4: Option<Real>,
 }
 
 impl Stepping {
-    /// That of a job.
+    /// Returns the time integration of a job.
     pub fn of(job: &Job) -> Self {
         let (stepper, word, value) = job.stepper();
         let value_if = |wanted| (word == wanted).then_some(Real(value));

@@ -1,4 +1,4 @@
-//! What a run computes of a scene, and what it skips and why.
+//! What a run computes for a model, and what it omits.
 
 use super::name;
 use crate::Job;
@@ -7,29 +7,30 @@ use serde::Serialize;
 use stickslip_drive::scene::{Body, EngineChoice, Freedom, Named, Side};
 use stickslip_drive::{Expected, Method, Pressing, Treatment, Why};
 
-/// What is computed and what is not.
+/// Computations of a run, and omitted ones.
 #[derive(Debug, Default, Serialize, JsonSchema)]
 pub struct Usage {
-    /// What a run computes.
+    /// Computations of a run.
     pub used: Vec<Item>,
-    /// What it skips.
+    /// Omitted computations.
     pub skipped: Vec<Item>,
 }
 
-/// Something of these parts, and why it is computed or not.
+/// A computation with the parts of the model that it concerns.
 #[derive(Debug, Serialize, JsonSchema)]
 pub struct Item {
-    /// what a run computes
+    /// computation or part of the model, such as motion, memory or waveform. `used` lists what a run computes,
+    /// `skipped` what it omits.
     pub what: &'static str,
-    /// of which parts of the scenario; left out for the whole
+    /// names of the parts of the scenario that it concerns. Absent if it concerns the whole scenario.
     #[serde(rename = "parts", skip_serializing_if = "Vec::is_empty")]
     pub of: Vec<String>,
-    /// why, or how
+    /// reason for the computation or omission, or its method, in words
     pub why: String,
 }
 
 impl Usage {
-    /// Of a scenario. What is told of methods and contacts is asked of the functions by which a run decides.
+    /// Returns the computations of a run. The same functions decide in the run.
     pub fn of(job: &Job) -> Self {
         let mut usage = Self::default();
         let expected = job.model.expected(&job.start, job.scenario.plan.stepper);
@@ -56,17 +57,13 @@ impl Usage {
             let asked = if job.scenario.plan.stepper.locates_events() {
                 ""
             } else {
-                ", whatever stepper is asked for"
+                ", independent of the chosen stepper"
             };
             let balanced = balanced(job);
             let why = if balanced.is_empty() { Why::NothingFree } else { Why::Balanced };
             self.skips("equations of motion", "", format!("{why}{asked}"));
             for name in balanced {
-                self.uses(
-                    "place",
-                    &name,
-                    "balanced: solved from loads, springs and contacts where it is asked for",
-                );
+                self.uses("place", &name, "balanced: follows from loads, springs and contacts");
             }
             return;
         }
@@ -78,7 +75,11 @@ impl Usage {
             self.uses("method", "", format!("{}: {why}", method.name()));
         }
         for name in job.model.travellers() {
-            self.uses("position", &format!("{name}.x"), "counted from near by: only contacts depend on it");
+            self.uses(
+                "position",
+                &format!("{name}.x"),
+                "relative to the contact: only contacts depend on it",
+            );
         }
         if expected.takes(Method::Swing) {
             self.skips("steps between events", "", Why::OneQuadrature.to_string());
@@ -105,29 +106,21 @@ impl Usage {
             match contact.part.engine {
                 EngineChoice::Curve => self.uses("memory", name, "the exact curve"),
                 EngineChoice::Springs { count, .. } => {
-                    self.uses(
-                        "memory",
-                        name,
-                        format!("a row of {count} springs, straight from spring to spring"),
-                    );
+                    self.uses("memory", name, format!("a row of {count} springs, linear between springs"));
                 }
             }
             self.pressing(job, c, name);
             if let Some(asked) = &job.scenario.fields
                 && contact.part.interface.profile().has_shape()
             {
-                let why = "radii for output.fields, on every path, quick while the normal rests";
-                self.uses("friction by place", name, format!("{} {why}", asked.radii));
+                let why = "radii for output.fields; fast while the normal load is constant";
+                self.uses("friction work per area", name, format!("{} {why}", asked.radii));
             }
             if let Some(why) = expected.treats(c, Treatment::Apart).filter(|_| job.is_coupled(c)) {
                 self.skips("forces", name, why.to_string());
             }
             if located && job.model.grows(c) {
-                self.uses(
-                    "tangential force",
-                    name,
-                    "a state of its own while the contact grows in full stick",
-                );
+                self.uses("tangential force", name, "integrated while the contact grows in full stick");
             }
             if let Some(why) = expected.treats(c, Treatment::Closed) {
                 self.skips("memory between events", name, why.to_string());
@@ -135,16 +128,16 @@ impl Usage {
         }
     }
 
-    /// What sets the indentation of contact `c`.
+    /// Adds how the indentation of contact `c` is determined.
     fn pressing(&mut self, job: &Job, c: usize, name: &str) {
         let why = match job.model.pressing(c) {
             None => return,
             Some(Pressing::Constant) => {
-                let why = "constant load: the indentation is found once, nothing grows";
+                let why = "constant load: the indentation is constant";
                 return self.skips("normal motion", name, why);
             }
             Some(Pressing::Followed) => "follows a waveform",
-            Some(Pressing::Solved) => "solved from a waveform at every evaluation",
+            Some(Pressing::Solved) => "follows from a waveform at every evaluation",
             Some(Pressing::Bodies) => "from the motion of the bodies",
         };
         self.uses("indentation", name, why);
@@ -163,17 +156,29 @@ impl Usage {
         for (kind, part, between, is_spared) in springs.chain(actuators) {
             let [first, second] = between.map(|side| name(job, side));
             if is_spared {
-                self.skips(kind, part, format!("neither {first} nor {second} is free: it moves nothing"));
+                self.skips(
+                    kind,
+                    part,
+                    format!("neither {first} nor {second} is free: no effect on the motion"),
+                );
             } else if between.iter().any(is_free) {
                 self.uses(kind, part, format!("between {first} and {second}"));
             } else {
-                self.uses(kind, part, format!("neither {first} nor {second} is free: for its energy alone"));
+                self.uses(
+                    kind,
+                    part,
+                    format!("neither {first} nor {second} is free: only its energy is computed"),
+                );
             }
         }
         for (i, load) in scene.loads.iter().enumerate() {
             let (place, body) = (format!("loads[{i}]"), Side::Body(load.on));
             if spared.loads.contains(&i) {
-                self.skips("load", &place, format!("{} is not free: its guide carries it", name(job, body)));
+                self.skips(
+                    "load",
+                    &place,
+                    format!("{} is not free: its guide takes the load", name(job, body)),
+                );
             } else {
                 self.uses("load", &place, format!("on {}", name(job, body)));
             }
@@ -186,7 +191,7 @@ impl Usage {
                     if along == 0.0 { String::new() } else { format!(", {along:.4} m/s² down the slide") };
                 self.uses("gravity", "", format!("{normal:.4} m/s² down{slope}"));
             } else if along == 0.0 || !scene.bodies.iter().any(|body| body.part.is_free()) {
-                self.skips("gravity", "", "nothing moves freely along it");
+                self.skips("gravity", "", "no body is free along gravity");
             } else {
                 self.uses("gravity", "", format!("{along:.4} m/s² down the slide"));
             }
@@ -196,10 +201,10 @@ impl Usage {
     fn unused(&mut self, job: &Job) {
         let scene = &job.scenario.scene;
         for material in job.scenario.unused_materials() {
-            self.skips("material", material, "no contact is made of it");
+            self.skips("material", material, "no contact has this material");
         }
         for waveform in job.model.spared().waveforms.iter().filter_map(|w| scene.waveforms.get(*w)) {
-            self.skips("waveform", &waveform.name, "nothing follows it: its corners end no steps");
+            self.skips("waveform", &waveform.name, "no part follows this waveform");
         }
         for body in &scene.bodies {
             if body.part.mass.is_some() && !body.part.is_free() {
@@ -211,25 +216,28 @@ impl Usage {
     fn output(&mut self, job: &Job) {
         let (written, all) = (job.columns.len(), job.model.channels().len());
         if job.scenario.plan.every.is_none() {
-            self.skips("rows", "", "no output.every: the first and the last row only");
+            self.skips("rows", "", "no output.every: only the first and the last row");
         }
         if written < all {
-            let why = format!("{} of {all} are not asked for in output.channels", all - written);
+            let why = format!("output.channels leaves out {} of {all}", all - written);
             self.skips("channels", "", why);
         }
         if job.scenario.plots.is_empty() {
-            self.skips("pictures", "", "none asked for in plots");
+            self.skips("pictures", "", "the key plots is empty");
         }
-        job.scenario.plots.iter().for_each(|plot| self.uses("picture", plot.name(), "asked for in plots"));
+        job.scenario
+            .plots
+            .iter()
+            .for_each(|plot| self.uses("picture", plot.name(), "named in the key plots"));
     }
 }
 
-/// Whether events are located: they are crossed by all other steppers.
+/// Returns whether the stepper locates events.
 fn is_located(expected: &Expected) -> bool {
     !expected.takes(Method::AskedFor)
 }
 
-/// Coordinates without mass, as `BODY.x`.
+/// Returns the names of coordinates without mass, as `BODY.x`.
 fn balanced(job: &Job) -> Vec<String> {
     let of = |body: &Named<Body>| {
         let balanced = body.part.coordinates().into_iter().filter(|(_, c)| c.freedom == Freedom::Balanced);
@@ -238,7 +246,7 @@ fn balanced(job: &Job) -> Vec<String> {
     job.scenario.scene.bodies.iter().flat_map(of).collect()
 }
 
-/// Adds to what stands there for the same reason, if anything does.
+/// Adds a part to the item with the same computation and reason, or a new item.
 fn add(items: &mut Vec<Item>, what: &'static str, of: &str, why: String) {
     let of = (!of.is_empty()).then(|| of.to_owned());
     match items.iter_mut().find(|item| item.what == what && item.why == why) {

@@ -1,4 +1,4 @@
-//! Stress and displacement under the contacts, and where friction works: `fields.csv` and `friction.csv`.
+//! Stresses and displacements in the contacts, and their friction work: `fields.csv` and `friction.csv`.
 
 use super::state_name;
 use crate::folder::Folder;
@@ -11,20 +11,20 @@ use stickslip_quantity::Columns;
 use stickslip_quantity::columns::{FIELDS, FRICTION};
 use stickslip_scenario::FieldsOutput;
 
-/// The two tables.
+/// Writer of the two tables.
 pub(super) struct FieldTables<'a> {
     contacts: Vec<Followed<'a>>,
     fields: Sheet,
     friction: Sheet,
 }
 
-/// A contact and what it has gone through.
+/// A contact with its friction history.
 struct Followed<'a> {
     name: &'a str,
     law: &'a Interface,
-    /// Where it stood when the last path was told.
+    /// Slip memory at the end of the last reported path.
     memory: Memory,
-    /// Its friction up to then; none of a contact without fields.
+    /// Friction work up to then. `None` for a contact without fields.
     map: Option<FrictionMap>,
 }
 
@@ -36,7 +36,7 @@ impl<'a> FieldTables<'a> {
         };
         let contacts = job.model.contacts().zip(job.start.memories()).enumerate();
         let follow = |(c, ((name, law), memory)): (usize, ((&'a str, &'a Interface), &Memory))| {
-            // A contact without width is never pressed, a list of springs and a normal law have no shape.
+            // A contact without width is never pressed. Lists of springs and prescribed normal laws have no shape.
             let width = job.model.contact_width(c).filter(|_| law.profile().has_shape());
             let radii = width.map(|width| radii(asked, asked.extent.unwrap_or(BEYOND * 0.5 * width)));
             Followed { name, law, memory: memory.clone(), map: radii.map(FrictionMap::new) }
@@ -45,16 +45,16 @@ impl<'a> FieldTables<'a> {
         Ok(Self { contacts, fields: open(FIELDS)?, friction: open(FRICTION)? })
     }
 
-    /// Takes a path of contact `c`.
+    /// Adds a path of contact `c`.
     pub(super) fn path(&mut self, c: usize, segment: Segment) {
         let Some(contact) = self.contacts.get_mut(c) else { return };
         let Some(map) = &mut contact.map else { return };
         map.follow(contact.law, &contact.memory, segment);
-        // The run's own memory has gone this way: it refuses nothing.
+        // The run has accepted this path, so the commit cannot fail.
         let _ = contact.memory.commit(contact.law, segment);
     }
 
-    /// Writes down what there is at a moment, s.
+    /// Writes the fields at a time, s.
     pub(super) fn look(&mut self, t: f64, memories: &[Memory]) {
         for (contact, memory) in self.contacts.iter().zip(memories) {
             let Followed { name, law, memory: before, map: Some(map) } = contact else { continue };
@@ -70,7 +70,7 @@ impl<'a> FieldTables<'a> {
                 field.error.into_iter().for_each(|error| self.fields.number(error));
                 self.fields.end_line();
             }
-            // The run commits a path when it is over: the part of it before this moment is not told yet.
+            // A path is reported at its end. Its part before this time is added here.
             let mut map = map.clone();
             map.follow(law, before, Segment::Straight(memory.apex()));
             for ((r, work), way) in map.radii().iter().zip(map.work()).zip(map.way()) {
@@ -82,7 +82,7 @@ impl<'a> FieldTables<'a> {
         }
     }
 
-    /// Whether one of the files takes no more.
+    /// Returns whether a write has failed.
     pub(super) fn has_failed(&self) -> bool {
         self.fields.has_failed() || self.friction.has_failed()
     }
@@ -93,7 +93,7 @@ impl<'a> FieldTables<'a> {
     }
 }
 
-/// Evenly from the axis to a distance, m.
+/// Returns equally spaced radii from 0 to `extent`, m.
 fn radii(asked: &FieldsOutput, extent: f64) -> Vec<f64> {
     let last = asked.radii.saturating_sub(1).max(1);
     (0..asked.radii).map(|k| extent * k as f64 / last as f64).collect()

@@ -1,33 +1,33 @@
-//! A measured record without spikes, and without the lag and the drift that are to be taken out of it.
+//! Corrections of a measured record: spikes, time lag, drift and compliance of the rig.
 
 use std::borrow::Cow;
 use stickslip_measure::{Interval, SteadyLoop, noise};
 
-/// A spike stands out of both neighbours by so many standard deviations of the noise, and by so many of the usual steps from row to row.
+/// Minimum height of a spike: in standard deviations of the noise, and relative to usual differences between rows.
 const SPIKE: [f64; 2] = [10.0, 6.0];
-/// Share of the steps that are usual.
+/// Quantile of the differences that is used as the usual difference.
 const USUAL: f64 = 0.9;
 
-/// What is taken out of a record.
+/// Effects that are corrected on request.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub struct Correct {
-    /// The lag of the force.
+    /// Time lag of the force.
     pub lag: bool,
-    /// The drift of both channels.
+    /// Drift of displacement and force.
     pub drift: bool,
 }
 
-/// A rig in series with the contact.
+/// Test rig in series with the contact.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Rig {
-    /// Of this stiffness, N/m.
+    /// Known stiffness of the rig, N/m.
     Stiffness(f64),
-    /// Beside a contact whose tangent at the reversal is this, N/m: what softens it is the rig.
+    /// Known tangent stiffness of the contact at the reversals, N/m. The additional compliance is that of the rig.
     Contact(f64),
 }
 
 impl Rig {
-    /// Its compliance, m/N, by a measured tangent of rig and contact together.
+    /// Returns the compliance of the rig, m/N, from a measured tangent stiffness of rig and contact together.
     pub(super) fn compliance(self, whole: Interval) -> Interval {
         match self {
             Self::Stiffness(stiffness) => {
@@ -42,12 +42,12 @@ impl Rig {
     }
 }
 
-/// By how much.
+/// Amounts of the corrections.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub(super) struct Correction {
-    /// Lag of the force, s.
+    /// Time lag of the force, s.
     lag: f64,
-    /// Drifts of the displacement and of the force per second.
+    /// Drift rates of the displacement and of the force, per second.
     drift: [f64; 2],
     /// Compliance of the rig, m/N.
     pub(super) compliance: f64,
@@ -64,7 +64,7 @@ impl Correction {
     }
 }
 
-/// Displacements and forces without spikes and what is to be taken out, and how many spikes there were.
+/// Returns the corrected displacements and forces, and the numbers of removed spikes.
 pub(super) fn clean<'a>(
     t: &[f64],
     u: &'a [f64],
@@ -87,7 +87,7 @@ pub(super) fn clean<'a>(
     (u, force, [first, second])
 }
 
-/// Values at the times t + lag, straight between rows, as they are at the ends.
+/// Returns values at the times t + lag by linear interpolation. Beyond the ends they are constant.
 fn earlier(t: &[f64], values: &[f64], lag: f64) -> Vec<f64> {
     let at = |time: f64| {
         let after = t.partition_point(|t| *t < time).clamp(1, t.len() - 1);
@@ -98,7 +98,7 @@ fn earlier(t: &[f64], values: &[f64], lag: f64) -> Vec<f64> {
     if t.len() < 2 { values.to_vec() } else { t.iter().map(|t| at(t + lag)).collect() }
 }
 
-/// Replaces single rows that stand far out of both neighbours by the mean of these.
+/// Replaces spikes of single rows by the mean of their neighbours. Returns the number of spikes.
 fn without_spikes(values: &[f64]) -> (Cow<'_, [f64]>, usize) {
     let mut steps: Vec<f64> = values.windows(2).map(|two| (two[1] - two[0]).abs()).collect();
     if steps.len() < 8 {

@@ -1,4 +1,4 @@
-//! Stages of a measured record, and what of the record lies in its cycles.
+//! Stages of a measured record, and the rows and energies within its cycles.
 
 use super::MeasuredCycle;
 use serde::Serialize;
@@ -6,46 +6,48 @@ use serde_json::{Map, Value, json};
 use std::ops::Range;
 use stickslip_measure::{Interval, SteadyLoop, Thresholds, steady_loop};
 
-/// A stage ends where the amplitude, or the time of a cycle, differs by more than these shares: noise moves reversals of a sine by a tenth.
+/// Relative changes of the amplitude and of the cycle duration that start a new stage.
 const STAGE: [f64; 2] = [0.1, 0.25];
-/// Most stages whose loops are fitted, the longest ones.
+/// Maximum number of stages with a fitted steady loop. The longest ones are fitted.
 const FITTED: usize = 20;
-/// What is left of the forces by the best branch, as a share of Q\*, from which on the loop is none of an elastic contact at constant load.
+/// Deviation of the forces from the best branch, relative to Q\*, above which the family of curves does not apply.
 pub const MISFIT: f64 = 0.01;
-/// Quantiles of Student's distribution for an interval of 95 %, by the degrees of freedom from 1.
+/// Quantiles of Student's t for 95 % intervals, for degrees of freedom from 1.
 const STUDENT: [f64; 10] = [12.706, 4.303, 3.182, 2.776, 2.571, 2.447, 2.365, 2.306, 2.262, 2.228];
 
-/// Cycles of about one amplitude and one time that follow each other.
+/// Consecutive cycles of similar amplitude and duration.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Stage {
-    /// Places of its cycles.
+    /// Indices of its cycles.
     pub cycles: Range<usize>,
-    /// From when to when, s.
+    /// Start and end, s.
     pub time: [f64; 2],
-    /// Its mean loop; none where its cycles have no common period.
+    /// Steady loop. `None` if the cycles have no common period.
     pub steady: Option<SteadyLoop>,
-    /// Its figures with their intervals, by their names.
+    /// Results with confidence intervals, by name.
     pub results: Vec<(&'static str, Interval)>,
-    /// How it slips, by the thresholds of a profile that is known: `partial`, `gross`, or `undecided` where an interval holds a threshold.
+    /// Slip regime, if a profile was given: `partial`, `gross`, or `undecided` if an interval contains a threshold.
     pub regime: Option<&'static str>,
 }
 
-/// What of a record lies in its cycles. A row belongs to one cycle, that which it begins or lies in; works are ∫F du by the trapezoids between rows.
+/// Rows and energies of a record within and outside of its cycles.
+///
+/// A row belongs to the cycle in which it lies or which it starts. Energies are ∫F du by the trapezoidal rule.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Account {
-    /// Rows of the record.
+    /// Number of rows.
     pub rows: usize,
-    /// Rows in cycles.
+    /// Number of rows within cycles.
     pub rows_in_cycles: usize,
-    /// All others.
+    /// Number of rows outside of cycles.
     pub rows_outside: usize,
     /// Work of the whole record, J.
     #[serde(rename = "work_J")]
     pub work: f64,
-    /// Work in cycles, J.
+    /// Work within cycles, J.
     #[serde(rename = "work_in_cycles_J")]
     pub work_in_cycles: f64,
-    /// Work of all others, J.
+    /// Work outside of cycles, J.
     #[serde(rename = "work_outside_J")]
     pub work_outside: f64,
 }
@@ -71,12 +73,12 @@ impl Account {
     }
 }
 
-/// Work between a row and the next, J.
+/// Returns the work between a row and the next one, J.
 pub(super) fn work_after((u, force): (&[f64], &[f64]), row: usize) -> f64 {
     0.5 * (force[row] + force[row + 1]) * (u[row + 1] - u[row])
 }
 
-/// Numbers the stages of cycles, and measures each, with times, displacements and forces of the record.
+/// Assigns the cycles to stages and evaluates each stage. `record` are the times, displacements and forces.
 pub(super) fn stages(
     cycles: &mut [MeasuredCycle],
     record: (&[f64], &[f64], &[f64]),
@@ -115,7 +117,7 @@ fn number(cycles: &mut [MeasuredCycle]) {
 }
 
 impl Stage {
-    /// Measures the cycles of a part, by a steady loop if they are at least so many.
+    /// Evaluates the cycles of a stage. A steady loop is fitted if there are at least `least` cycles.
     fn of(
         cycles: &[MeasuredCycle],
         part: Range<usize>,
@@ -132,7 +134,7 @@ impl Stage {
         let results = match &steady {
             None => by_cycles(stage),
             Some(steady) if steady.misfit < MISFIT => of_steady(steady),
-            // Neither the scatter of cycles nor a branch that is another one tells how far they are off: both do.
+            // Neither the scatter of cycles nor the misfitting branch gives the error alone, so both intervals are combined.
             Some(steady) => {
                 let other = of_steady(steady);
                 let widened = |(name, own): (&'static str, Interval)| {
@@ -145,7 +147,7 @@ impl Stage {
         Self { cycles: part, time, steady, results, regime: None }
     }
 
-    /// On which side of the thresholds its intervals lie.
+    /// Returns the slip regime from the confidence intervals and the thresholds.
     fn regime(&self, thresholds: &Thresholds) -> &'static str {
         let all = [
             ("energy_ratio", thresholds.energy_ratio),
@@ -170,13 +172,13 @@ impl Stage {
         }
     }
 
-    /// A figure by its name.
+    /// Returns a result by its name.
     #[must_use]
     pub fn result(&self, name: &str) -> Option<Interval> {
         self.results.iter().find(|(own, _)| *own == name).map(|(_, interval)| *interval)
     }
 
-    /// Its figures for machines: null where an interval has no ends.
+    /// Returns the results as JSON. Interval ends that are not finite are null.
     #[must_use]
     pub fn results(&self) -> Value {
         Value::Object(
@@ -188,7 +190,7 @@ impl Stage {
     }
 }
 
-/// Figures of a steady loop, by their names.
+/// Returns the results of a steady loop by name.
 fn of_steady(steady: &SteadyLoop) -> Vec<(&'static str, Interval)> {
     let all = [
         ("displacement_amplitude_m", Some(steady.displacement_amplitude)),
@@ -205,7 +207,9 @@ fn of_steady(steady: &SteadyLoop) -> Vec<(&'static str, Interval)> {
     all.into_iter().filter_map(|(name, interval)| Some((name, interval?))).collect()
 }
 
-/// Means over the cycles of a stage without a common period, with the intervals of the means by their scatter; of one cycle the ends are no numbers.
+/// Returns the means over the cycles of a stage, with confidence intervals from their scatter.
+///
+/// For a single cycle the interval ends are not finite.
 fn by_cycles(stage: &[MeasuredCycle]) -> Vec<(&'static str, Interval)> {
     type Figure = fn(&MeasuredCycle) -> Option<f64>;
     let all: [(&str, Figure); 10] = [
@@ -225,7 +229,7 @@ fn by_cycles(stage: &[MeasuredCycle]) -> Vec<(&'static str, Interval)> {
         let count = values.len() as f64;
         let value = values.iter().sum::<f64>() / count;
         let squares = values.iter().map(|other| (other - value).powi(2)).sum::<f64>();
-        // Beyond the table that of the normal distribution, with its first correction.
+        // Beyond the table, the normal quantile with its first correction is used.
         let quantile =
             STUDENT.get(values.len().wrapping_sub(2)).copied().unwrap_or(1.96 + 2.6 / (count - 1.0));
         let half = quantile * (squares / (count - 1.0) / count).sqrt();

@@ -1,14 +1,14 @@
-//! What is told of a measured record.
+//! Notes and JSON output of the evaluation of a measured record.
 
 use super::{Evaluated, MISFIT, Measured, Stage};
 use crate::{Real, quantity};
 use serde_json::{Value, json};
 use stickslip_measure::Interval;
 
-/// A drift per cycle below this share of the amplitude, and a lag below this share of the period, are not told.
+/// Smallest reported drift per cycle, relative to the amplitude, and lag, relative to the period.
 const LITTLE: f64 = 1e-4;
 impl Evaluated {
-    /// All that is told, for machines.
+    /// Returns all results as JSON.
     #[must_use]
     pub fn json(&self, measured: &Measured) -> Value {
         let of_stage = |stage: &Stage| {
@@ -45,19 +45,19 @@ impl Evaluated {
         })
     }
 
-    /// What was done that nobody has asked for, and what should be known of the signals.
+    /// Returns notes on assumptions, corrections and properties of the signals.
     #[must_use]
     pub fn notes(&self, measured: &Measured) -> Vec<String> {
         let mut notes = measured.notes.clone();
         if measured.is_turned {
-            notes.push("the force resists the motion; its sign is turned".to_owned());
+            notes.push("the force opposes the motion; its sign is reversed".to_owned());
         }
         let [of_u, of_force] = self.spikes;
         if of_u + of_force > 0 {
             notes.push(format!("spikes left out: {of_u} of the displacement, {of_force} of the force"));
         }
         let Some(found) = self.found else {
-            let lost = "the cycles have no common period: the intervals are those of the scatter of cycles, without lag";
+            let lost = "the cycles have no common period: the intervals follow from the scatter of cycles, without lag";
             notes.push(lost.to_owned());
             return notes;
         };
@@ -82,7 +82,7 @@ impl Evaluated {
         if found.misfit >= MISFIT {
             let share = 100.0 * found.misfit;
             notes.push(format!(
-            "the branches are not those of an elastic contact at constant load ({share:.1} % of Q* are left): figures are means over the cycles, and their intervals are rough"
+            "the branches differ from those of an elastic contact at constant load by {share:.1} % of Q*: results are means over the cycles, and their intervals are approximate"
         ));
             return notes;
         }
@@ -96,10 +96,10 @@ impl Evaluated {
             notes.push(format!("the force is {lag} late, {shares:.2} % of a period (--correct lag)"));
         }
         if !found.is_sense_sure {
-            notes.push("the rows do not tell whether the force drives or resists the motion".to_owned());
+            notes.push("the rows do not determine whether the force drives or opposes the motion".to_owned());
         }
         if found.dissipated.low <= 0.0 {
-            notes.push("undecided: whether the loop dissipates anything".to_owned());
+            notes.push("the dissipated energy is not significantly above 0".to_owned());
         }
         notes
     }

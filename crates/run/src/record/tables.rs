@@ -1,4 +1,4 @@
-//! The tables of a run on the disk, written as it goes on.
+//! Tables of a run on disk.
 
 use crate::cycles_table::CyclesTable;
 use crate::files::{CYCLES, EVENTS, STEPS, TRACE};
@@ -13,7 +13,7 @@ use std::fs::File;
 use std::io;
 use tempfile::NamedTempFile;
 
-/// Most tables of a run that are written as it goes on.
+/// Maximum number of tables.
 const MOST: usize = 8;
 
 /// Tables under construction.
@@ -21,39 +21,39 @@ pub(super) struct Tables<'a> {
     pub(super) trace: Table,
     pub(super) events: Table,
     pub(super) cycles: CyclesTable,
-    /// None where no step is written.
+    /// `None` if no steps are written.
     pub(super) steps: Option<StepsTable>,
     pub(super) insides: Insides<'a>,
-    /// Room on the disk for the last blocks of the tables, each for itself.
+    /// Reserved disk space for the last block of each table.
     reserve: Vec<File>,
 }
 
-/// A written table, still without its name.
+/// A complete table without its final name.
 #[derive(Debug)]
 pub struct Draft {
-    /// The name that is meant for it.
+    /// Final file name.
     pub name: &'static str,
     /// The file.
     pub file: NamedTempFile,
-    /// What a summary says of it.
+    /// Seal for the summary.
     pub seal: Seal,
 }
 
-/// Tables that are written to their ends.
+/// Closed tables.
 #[derive(Default)]
 pub(super) struct Closed {
     pub(super) drafts: Vec<Draft>,
-    /// Those of which nothing could be written.
+    /// Names of tables that could not be written at all.
     pub(super) absent: Vec<&'static str>,
-    /// Why something could not be written any further.
+    /// First write error.
     pub(super) failure: Option<io::Error>,
 }
 
 impl<'a> Tables<'a> {
-    /// Begins them in a folder.
+    /// Creates the tables in a folder.
     ///
     /// # Errors
-    /// A table that cannot be begun.
+    /// A table cannot be created.
     pub(super) fn begin(job: &'a Job, folder: &Folder, has_state_numbers: bool) -> io::Result<Self> {
         let table = |name, words: &[&'static str]| -> io::Result<Table> {
             Ok(Table::new(folder.draft(name)?, job.columns.clone(), words, has_state_numbers))
@@ -80,15 +80,15 @@ impl<'a> Tables<'a> {
             || self.insides.has_failed()
     }
 
-    /// From here on their last blocks have room, whatever else is full.
+    /// Releases the reserved disk space for the last blocks of the tables.
     pub(super) fn release(&mut self) {
         self.reserve.clear();
     }
 
-    /// Closes them. One that could not be written any further ends with its last whole block, and the failure is told.
+    /// Closes the tables. After a write error a table ends with its last complete block. The error is part of the result.
     ///
     /// # Errors
-    /// A table of which nothing could be written.
+    /// A table cannot be written at all.
     pub(super) fn finish(self) -> io::Result<Closed> {
         let mut closed = Closed::default();
         let mut all = vec![(TRACE, self.trace.finish()?), (EVENTS, self.events.finish()?)];
@@ -98,7 +98,7 @@ impl<'a> Tables<'a> {
         {
             match finished {
                 Ok(written) => optional.extend(written.map(|written| (name, written))),
-                // The others are worth something without it.
+                // The other tables are useful without this one.
                 Err(failure) => {
                     closed.failure.get_or_insert(failure);
                     closed.absent.push(name);

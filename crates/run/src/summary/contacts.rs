@@ -1,4 +1,4 @@
-//! Contacts, and the quantities of their last cycle.
+//! Contacts, with the results of their last cycle.
 
 use super::fretting::Fretting;
 use crate::job::Job;
@@ -11,89 +11,95 @@ use stickslip_drive::NaturalScale;
 use stickslip_measure::tally::ContactTally;
 use stickslip_quantity::Real;
 
-/// A contact. Forces and work are those of all identical contacts together unless they say otherwise.
+/// Results of a contact. Forces and work are totals of all identical contacts, except in `one`.
 #[derive(Debug, Serialize, JsonSchema)]
 pub struct ContactSummary {
     /// number of identical contacts
     count: u32,
-    /// u_c = μE*d/G* at t = 0: the displacement at which the last spring of a first loading slips
+    /// u_c, gross slip displacement at t = 0: `u_c = μE*d/G*`. At this displacement the last spring begins to slip in a
+    /// first loading.
     #[serde(rename = "gross_slip_displacement_m")]
     gross_slip_displacement: Real,
-    /// What the stepper's tolerance is relative to.
+    /// Natural scales, to which the tolerance is relative.
     scales: Scales,
     /// Loads of one contact at t = 0.
     one: Load,
-    /// Loads of all of them.
+    /// Loads of all identical contacts at t = 0.
     all: Load,
-    /// largest |F_x| of all count contacts at rows, events and ends of periods; of a damped contact, or under a load that
-    /// varies, its peak may lie between them
+    /// largest |F_x| of rows, events and period ends, total of all identical contacts. With contact damping or a
+    /// varying normal force, the true peak may lie between them and be larger.
     #[serde(rename = "peak_fx_N")]
     peak_tangential: Real,
-    /// largest F_N of all of them during the run
+    /// largest F_N of rows, events and period ends, total of all identical contacts
     #[serde(rename = "peak_fn_N")]
     peak_normal: Real,
-    /// Of a coupled contact.
+    /// Motion along the normal. Absent unless the contact is coupled.
     #[serde(skip_serializing_if = "Option::is_none")]
     normal: Option<NormalMotion>,
-    /// friction work of all count contacts during the run
+    /// friction work of the run, total of all identical contacts
     #[serde(rename = "friction_J")]
     friction: Real,
     similarity: SimilaritySummary,
-    /// Quantities of the last whole cycle; none where there is none, or where it does not come back to its start.
+    /// Hysteresis loop of the last whole cycle. Absent if u does not return to its start.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub fretting: Option<Fretting>,
 }
 
-/// How far the theory holds for the two bodies.
+/// Elastic similarity of the two bodies.
 #[derive(Debug, Serialize, JsonSchema)]
 struct SimilaritySummary {
-    /// β = [(1-2ν₁)/G₁ - (1-2ν₂)/G₂] / [2(1-ν₁)/G₁ + 2(1-ν₂)/G₂]; 0 of similar bodies
+    /// β, Dundurs' constant: `β = [(1-2ν₁)/G₁ - (1-2ν₂)/G₂] / [2(1-ν₁)/G₁ + 2(1-ν₂)/G₂]`. 0 for elastically similar
+    /// bodies.
     dundurs_beta: Real,
-    /// artanh(β)/β - 1, by how much of itself the normal stiffness is too low at most
+    /// largest relative amount by which the normal stiffness is too low, because the coupling of normal and tangential
+    /// contact is neglected: artanh(β)/β - 1
     neglected_stiffness: Real,
-    /// both in words
+    /// sentence about dundurs_beta and neglected_stiffness
     #[serde(rename = "text")]
     means: String,
 }
 
 #[derive(Debug, Serialize, JsonSchema)]
 struct Load {
-    /// F_N at t = 0: of one contact, or of all count of them
+    /// F_N, normal force at t = 0. `one`: of one contact, `all`: total of all identical contacts.
     #[serde(rename = "normal_force_N")]
     normal: Real,
-    /// μF_N at t = 0, of the same
+    /// friction limit μF_N at t = 0. `one`: of one contact, `all`: total of all identical contacts.
     #[serde(rename = "limit_force_N")]
     limit: Real,
 }
 
-/// Natural scales at the deepest indentation that the scenario names.
+/// Natural scales at the largest indentation that the scenario defines.
 #[derive(Debug, Serialize, JsonSchema)]
 struct Scales {
-    /// the length that the stepper's tolerance is relative to: u_c of the largest load known
+    /// natural scale of displacements, to which the tolerance is relative: u_c at the largest load that the scenario
+    /// defines
     #[serde(rename = "displacement_m")]
     displacement: Real,
-    /// the force that it is relative to: μF_N of that load, of all count contacts
+    /// natural scale of forces, to which the tolerance is relative: μF_N at the largest load that the scenario defines,
+    /// total of all identical contacts
     #[serde(rename = "force_N")]
     force: Real,
-    /// the velocity that both make with the mass that moves
+    /// natural scale of velocities, to which the tolerance is relative. It follows from the scales of displacement and
+    /// force and from the moving mass.
     #[serde(rename = "velocity_m_s")]
     velocity: Real,
 }
 
-/// What the bodies' motion does to a contact along the normal, over all rows and events.
+/// Ranges of a coupled contact along the normal, over all rows and events.
 #[derive(Debug, PartialEq, Serialize, JsonSchema)]
 struct NormalMotion {
-    /// smallest and largest F_N of a coupled contact
+    /// smallest and largest F_N of a coupled contact, at rows and events
     #[serde(rename = "fn_N")]
     force: [Real; 2],
-    /// smallest and largest d of it
+    /// smallest and largest indentation d of a coupled contact, at rows and events
     #[serde(rename = "d_m")]
     indentation: [Real; 2],
-    /// share of the time in which it is open
+    /// fraction of the time in which a coupled contact is open
     open_share: Real,
 }
 
-/// All contacts.
+/// Returns the results of all contacts.
 pub(super) fn of(job: &Job, outcome: &Outcome) -> Parts<ContactSummary> {
     let contacts = job.model.contacts().enumerate();
     Parts(contacts.map(|(c, (name, law))| (name.to_owned(), contact(job, outcome, (c, law)))).collect())
@@ -142,7 +148,7 @@ fn scales(job: &Job, c: usize) -> Scales {
 }
 
 impl NormalMotion {
-    /// None without rows.
+    /// Returns the ranges, or `None` without rows.
     fn of(tally: &ContactTally) -> Option<Self> {
         let [force, indentation] = tally.ranges.map(|range| range.map(Real));
         Some(Self { force, indentation, open_share: Real(tally.open_share()?) })

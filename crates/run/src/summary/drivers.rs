@@ -1,4 +1,4 @@
-//! What the driver electronics of stacks have done.
+//! Results of the driver electronics of piezo stacks.
 
 use crate::job::Job;
 use crate::parts::Parts;
@@ -8,52 +8,58 @@ use stickslip_drive::State;
 use stickslip_piezo::Figures;
 use stickslip_quantity::Real;
 
-/// What a driver has done.
+/// Results of a driver.
 #[derive(Debug, Serialize, JsonSchema)]
 pub struct DriverSummary {
-    /// energy that the driver's source gave wherever it gave any; what came back is not taken off
+    /// energy that the source of the driver supplied, without deducting the energy that flowed back
     #[serde(rename = "drawn_J")]
     drawn: Real,
-    /// largest |I|, at the ends of steps, within short ones behind a resistance or a bandwidth, and after jumps
+    /// largest |I| at the ends of time steps and after jumps. With a resistance or a bandwidth also within short time
+    /// steps.
     #[serde(rename = "peak_current_A")]
     peak_current: Real,
-    /// mean of |I|, C times the way of the voltage over the time
+    /// mean of |I|: capacitance C times total variation of the voltage, divided by the time
     #[serde(rename = "mean_current_A")]
     mean_current: Real,
-    /// Shares of the time at each limit.
+    /// Fractions of the time at each limit.
     at_limit: Shares,
 }
 
-/// Shares of the time at each limit.
+/// Fractions of the time at each limit.
 #[derive(Debug, Serialize, JsonSchema)]
 struct Shares {
-    /// share of the time at the largest current into the stack
+    /// fraction of the time at the limit of the current into the stack
     current_up: Real,
-    /// share of the time at the largest current out of it
+    /// fraction of the time at the limit of the current out of the stack
     current_down: Real,
-    /// share of the time with the command below the window
+    /// fraction of the time in which the command is below the voltage window
     window_low: Real,
-    /// share of the time with the command above it
+    /// fraction of the time in which the command is above the voltage window
     window_high: Real,
 }
 
 impl DriverSummary {
-    /// For how much of the run a limit held it back, where one did.
+    /// Returns a sentence with the fractions of the time at limits, or `None` without any.
     pub(super) fn line(&self, name: &str) -> Option<String> {
         let Shares { current_up, current_down, window_low, window_high } = &self.at_limit;
         let [current, window] = [current_up.0 + current_down.0, window_low.0 + window_high.0];
+        // A command that only touches an end of the window is not clipped.
         let told = |share: f64, what: &str| {
-            (share > 0.0).then(|| format!("{:.1} % of the time {what}", 100.0 * share))
+            let percent = format!("{:.1} %", 100.0 * share);
+            (percent != "0.0 %").then(|| format!("{percent} of the time {what}"))
         };
         let limits = [told(current, "at its current limit"), told(window, "at an end of its window")];
+        let effect = match &limits {
+            [Some(_), Some(_)] => "the stack lags behind its command, which the driver clips",
+            [_, Some(_)] => "the driver clips its command",
+            _ => "the stack lags behind its command",
+        };
         let limits: Vec<String> = limits.into_iter().flatten().collect();
-        (!limits.is_empty()).then(|| {
-            format!("the driver of {name} was {}: the stack lags behind its command", limits.join(" and "))
-        })
+        (!limits.is_empty()).then(|| format!("the driver of {name} was {}: {effect}", limits.join(" and ")))
     }
 }
 
-/// All drivers, at the end of a run.
+/// Returns the results of all drivers at the end of a run.
 pub(super) fn of(job: &Job, state: &State) -> Parts<DriverSummary> {
     let stacks = job.scenario.stacks.iter();
     let of = stacks.filter_map(|piezo| {

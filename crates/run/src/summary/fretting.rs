@@ -5,84 +5,89 @@ use serde::Serialize;
 use stickslip_measure::contact_cycles::{ContactCycles, JudgedCycle};
 use stickslip_quantity::Real;
 
-/// The last cycle of a contact that comes back along u.
+/// Last whole cycle of a contact whose displacement u returns to its start.
 #[derive(Debug, Serialize, JsonSchema)]
 pub struct Fretting {
-    /// number of whole cycles; what follows is of the last
+    /// number of whole cycles. All other results of `fretting` are those of the last one.
     cycles: usize,
-    /// its start and end
+    /// start and end time of the last cycle
     #[serde(rename = "cycle_s")]
     cycle: [Real; 2],
-    /// whether F_x comes back within a hundredth of its range: only then it is a loop
+    /// whether F_x returns within 1 % of its range. Otherwise the cycle is no closed loop and has no ratios.
     pub closed: bool,
-    /// δ* = (u_max - u_min)/2
+    /// δ*, displacement amplitude: (u_max - u_min)/2
     #[serde(rename = "displacement_amplitude_m")]
     displacement_amplitude: Real,
-    /// Q* = (F_max - F_min)/2
+    /// Q*, tangential force amplitude: (F_max - F_min)/2
     #[serde(rename = "force_amplitude_N")]
     force_amplitude: Real,
-    /// δ₀, half of the way between the places where F_x passes the middle of its range
+    /// δ₀, half the width of the loop at the middle of the range of F_x
     #[serde(rename = "half_opening_m", skip_serializing_if = "Option::is_none")]
     half_opening: Option<Real>,
-    /// E_d, all that the contact loses in the cycle: friction work, and of a damped contact what its damping takes; left out where other parts lose energy as well, for their share cannot be separated
+    /// E_d, energy dissipated by the contact in the cycle, by friction and contact damping. Absent if the contact is
+    /// damped and other parts of the model dissipate, too.
     #[serde(rename = "dissipated_J", skip_serializing_if = "Option::is_none")]
     pub dissipated: Option<Real>,
-    /// friction's part of E_d, of a damped contact
+    /// friction work in the cycle, part of E_d. Absent without contact damping.
     #[serde(rename = "friction_J", skip_serializing_if = "Option::is_none")]
     friction: Option<Real>,
-    /// damping's part of E_d, of a damped contact
+    /// energy dissipated by contact damping in the cycle, part of E_d. Absent without contact damping.
     #[serde(rename = "damping_J", skip_serializing_if = "Option::is_none")]
     pub damping: Option<Real>,
-    /// A = E_d/(4Q*δ*)
+    /// A, energy ratio: `A = E_d/(4Q*δ*)`. 0 for an elastic contact, 1 for a rectangular loop.
     #[serde(skip_serializing_if = "Option::is_none")]
     energy_ratio: Option<Real>,
-    /// B = E_d/(4Q*δ₀); left out where δ₀ is rounding, as in full stick
+    /// B, system-free ratio: B = E_d/(4Q*δ₀), independent of the compliance of the rig. Absent if δ₀ is 0 within
+    /// rounding, as in full stick.
     #[serde(skip_serializing_if = "Option::is_none")]
     system_free_ratio: Option<Real>,
-    /// D = δ₀/δ*
+    /// D, slip ratio: D = δ₀/δ*
     #[serde(skip_serializing_if = "Option::is_none")]
     slip_ratio: Option<Real>,
-    /// μ_e = E_d/(4Pδ₀), P the mean normal force; left out where δ₀ is rounding
+    /// μ_e, energy coefficient of friction: μ_e = E_d/(4Pδ₀), with the mean normal force P. Absent if δ₀ is 0 within
+    /// rounding.
     #[serde(skip_serializing_if = "Option::is_none")]
     energy_coefficient_of_friction: Option<Real>,
-    /// tangent right after the reversal at the largest u: count · 2G*a
+    /// tangent stiffness dF_x/du immediately after the reversal at the largest u, in full stick: count · 2G*a
     #[serde(rename = "stiffness_after_maximum_N_m", skip_serializing_if = "Option::is_none")]
     stiffness_after_maximum: Option<Real>,
-    /// the same at the smallest u
+    /// tangent stiffness dF_x/du immediately after the reversal at the smallest u, in full stick: count · 2G*a
     #[serde(rename = "stiffness_after_minimum_N_m", skip_serializing_if = "Option::is_none")]
     stiffness_after_minimum: Option<Real>,
-    /// secant over the first tenth of the displacement range after the largest u
+    /// secant stiffness over the first tenth of the displacement range after the largest u, as evaluated in experiments
     #[serde(rename = "secant_after_maximum_N_m", skip_serializing_if = "Option::is_none")]
     secant_after_maximum: Option<Real>,
-    /// the same from the smallest u
+    /// secant stiffness over the first tenth of the displacement range after the smallest u, as evaluated in
+    /// experiments
     #[serde(rename = "secant_after_minimum_N_m", skip_serializing_if = "Option::is_none")]
     secant_after_minimum: Option<Real>,
-    /// A, B and D of this profile at the limit between partial and gross slip on a rigid rig; only under a constant load and
-    /// without damping.
+    /// A, B and D at the onset of gross slip on a rigid rig. Only with a constant normal force and without damping.
     #[serde(skip_serializing_if = "Option::is_none")]
     thresholds: Option<Limits>,
-    /// `still` where u moves by no more than can be told from rest, `gross` where F_x comes both ways to the limit of friction,
-    /// `stick` where A is below 5e-4, else `partial`; but for `still` of a loop under a constant load without damping
+    /// slip regime: `still` (u does not move within the resolution), `gross` (F_x reaches +μF_N and -μF_N), `stick` (A
+    /// below 5e-4), otherwise `partial`. Except for `still`, absent if the normal force varies or the contact is
+    /// damped.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub regime: Option<&'static str>,
 }
 
-/// Where gross slip begins.
+/// Ratios at the onset of gross slip.
 #[derive(Debug, Serialize, JsonSchema)]
 struct Limits {
-    /// A of this profile where gross slip begins, on a rigid rig
+    /// A at the onset of gross slip for this profile on a rigid rig
     #[serde(skip_serializing_if = "Option::is_none")]
     energy_ratio: Option<Real>,
-    /// B there; B of small loops is near 2/3 on any smooth profile, above the threshold of a worn one
+    /// B at the onset of gross slip for this profile on a rigid rig. Small loops have B near 2/3 on any smooth profile,
+    /// above the threshold of a worn one.
     #[serde(skip_serializing_if = "Option::is_none")]
     system_free_ratio: Option<Real>,
-    /// D there
+    /// D at the onset of gross slip for this profile on a rigid rig
     #[serde(skip_serializing_if = "Option::is_none")]
     slip_ratio: Option<Real>,
 }
 
 impl Fretting {
-    /// The last of the cycles; of a contact that `is_damped` with the parts of what it loses.
+    /// Returns the last cycle. If the contact `is_damped`, friction work and damping work are separate.
     pub(super) fn of(cycles: &ContactCycles, is_damped: bool) -> Option<Self> {
         let JudgedCycle { figures: last, regime } = cycles.last?;
         let cycle = last.cycle;
@@ -115,7 +120,7 @@ impl Fretting {
         })
     }
 
-    /// What friction takes in the cycle, J.
+    /// Returns the friction work of the cycle, J.
     pub fn friction_work(&self) -> Real {
         self.friction.or(self.dissipated).unwrap_or(Real(0.0))
     }

@@ -1,4 +1,4 @@
-//! What a step loses: how far the body falls back, and how much of the foot's travel is no step.
+//! Losses of a step: back-step and lost stroke.
 
 use super::period::Way;
 use crate::job::Job;
@@ -9,29 +9,29 @@ use stickslip_drive::scene::Side;
 use stickslip_measure::foot::Foot;
 use stickslip_quantity::Real;
 
-/// Two times are the same where they differ by less than this share of their sum.
+/// Two durations whose difference is below this fraction of their sum count as equal.
 const SAME: f64 = 1e-3;
 
-/// What a step loses.
+/// Losses of a step.
 #[derive(Debug, Serialize, JsonSchema)]
 pub struct Losses {
-    /// back-step as a share of the body's forward motion: back_step_m / (|step_m| + back_step_m); left out where the step is 0
-    /// within its error
+    /// relative back-step: back_step_m / (|step_m| + back_step_m). Absent if the step length is 0 within its error.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub back_step: Option<Real>,
-    /// back-step: the largest fall of x after a maximum within a period and its repetition, counted in the direction of the
-    /// step, max x(t1) - x(t2) over t1 <= t2; without a step the peak-to-peak motion. The mean of the last periods
+    /// back-step: largest displacement of the body against the direction of the step within a period and its
+    /// repetition. For a step along +x: max x(t1) - x(t2) over t1 <= t2. Without a step: peak-to-peak motion. In
+    /// `steady`, the mean of the last periods.
     #[serde(rename = "back_step_m")]
     pub back_step_length: Real,
-    /// lost stroke: peak-to-peak travel of the foot over the last whole period, minus |step_m|; below 0 where the step exceeds
-    /// it. Of the foot that the waveform of the figures moves, itself or by a stack; left out, with the reason in steps.why,
-    /// without one such foot and where the waveform goes back as slowly as it goes forward
+    /// lost stroke: peak-to-peak travel of the foot in the last whole period minus |step_m|. Below 0 if the step is
+    /// longer. Absent if the waveform named in `figures` does not move exactly one foot, or if flyback and forward
+    /// stroke last equally long. Then steps.why has the reason.
     #[serde(rename = "lost_stroke_m", skip_serializing_if = "Option::is_none")]
     pub lost_stroke: Option<Real>,
 }
 
 impl Losses {
-    /// Those of a step that may be off by an error, that falls back so far on a foot of such a travel, m.
+    /// Returns the losses of a step with an error, its back-step `fall` and the travel of the foot, all in m.
     pub(super) fn of([step, error]: [f64; 2], fall: f64, travel: Option<f64>) -> Self {
         let share = (step.abs() > error).then(|| Real(fall / (step.abs() + fall)));
         let lost_stroke = travel.map(|travel| Real(travel - step.abs()));
@@ -39,19 +39,20 @@ impl Losses {
     }
 }
 
-/// How the foot moved in the last whole period.
+/// Motion of the foot in the last whole period.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct FootMotion {
-    /// Peak to peak, m.
+    /// Peak-to-peak travel, m.
     pub(super) travel: f64,
-    /// How long the stack lengthens and shortens, s; none of a foot that follows its waveform.
+    /// Durations of extension and retraction of the stack, s. `None` if the foot follows its waveform directly.
     pub(super) own_times: Option<[f64; 2]>,
 }
 
-/// How the foot moves in a period, or why none is told. `ways` are those of the waveform, forth and back.
+/// Returns the motion of the foot in a period, or the reason why there is none. `ways` are forward and return stroke of
+/// the waveform.
 pub(super) fn foot(job: &Job, outcome: &Outcome, ways: [&Way; 2]) -> Result<FootMotion, &'static str> {
     let foot = Foot::of(job)
-        .ok_or("it is defined for a drive with exactly one foot, moved by the waveform of `figures`")?;
+        .ok_or("it is defined only for a drive with one foot that follows the waveform of `figures`")?;
     let [forth, back] = ways.map(|way| way.time.0);
     if (forth - back).abs() <= SAME * (forth + back) {
         return Err(
@@ -59,11 +60,11 @@ pub(super) fn foot(job: &Job, outcome: &Outcome, ways: [&Way; 2]) -> Result<Foot
         );
     }
     let Foot::Driven { body, stack } = foot else {
-        let stroke = super::steps::stroke(job).ok_or("the waveform has no length")?;
+        let stroke = super::steps::stroke(job).ok_or("the waveform is not a length")?;
         return Ok(FootMotion { travel: stroke, own_times: None });
     };
     let extent = outcome.tally.foot().ok_or("the motion of the foot was not recorded")?;
-    // A voltage behind a driver tells it without the ringing of the foot.
+    // The voltage behind a driver has no ringing of the foot.
     let (leads, is_mirrored) = match outcome.tally.voltage() {
         Some(voltage) => (voltage, false),
         None => (

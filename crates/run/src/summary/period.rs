@@ -1,4 +1,4 @@
-//! The account of the last period of a drive.
+//! Evaluation of the last period of a drive.
 
 use super::losses::{self, FootMotion, Losses};
 use crate::job::Job;
@@ -12,97 +12,99 @@ use stickslip_measure::Stride;
 use stickslip_measure::account::{Account, ContactAccount, Phases, RINGING};
 use stickslip_quantity::Real;
 
-/// The last whole period of the waveform of the figures. Forth is the way on which the waveform takes longer; of two that take
-/// as long, the way of the step.
+/// Last whole period of the waveform named in `figures`. The forward stroke is the slower stroke of the waveform. If
+/// both are equally slow, it is the stroke in the direction of the step.
 #[derive(Debug, Serialize, JsonSchema)]
 pub struct LastPeriod {
-    /// start of the last whole period
+    /// start time of the last whole period
     #[serde(rename = "from_s")]
     from: Real,
-    /// its end
+    /// end time of the last whole period
     #[serde(rename = "to_s")]
     to: Real,
-    /// how far the body came in it
+    /// step length in the last whole period: displacement of the body
     #[serde(rename = "step_m")]
     pub(super) step: Real,
-    /// What the step loses.
+    /// Losses of the step.
     #[serde(flatten)]
     pub(super) losses: Losses,
-    /// How its foot moved, or why a step is not measured by that.
+    /// Motion of the foot, or the reason why it is not evaluated.
     #[serde(skip)]
     pub(super) foot: Result<FootMotion, &'static str>,
-    /// While the waveform goes forward.
+    /// Forward stroke.
     #[serde(rename = "forward")]
     pub(super) forth: Way,
-    /// While it returns.
+    /// Return stroke.
     #[serde(rename = "return")]
     pub(super) back: Way,
-    /// Where the work of the drive went.
+    /// Energy balance of the period.
     pub(super) work: PeriodWork,
-    /// The contacts of the body.
+    /// Contacts of the body.
     #[schemars(extend("x-name" = "CONTACT"))]
     pub(super) contacts: Parts<ContactPeriod>,
 }
 
-/// One way of the waveform.
+/// Stroke of the waveform, forward or return.
 #[derive(Debug, Serialize, JsonSchema)]
 pub struct Way {
-    /// duration of this stroke of the waveform. `forward` is its slower stroke, of two as slow that of the step, or without a step
-    /// the rising one; `return` is the other
+    /// duration of the `forward` or `return` stroke of the waveform. `forward` is the slower stroke. If both are
+    /// equally slow, it is the stroke in the direction of the step; without a step, the rising one.
     #[serde(rename = "time_s")]
     pub(super) time: Real,
-    /// travel of the waveform in it, with its sign
+    /// travel of the waveform during the stroke, with its sign. Absent if the waveform is no length.
     #[serde(rename = "stroke_m", skip_serializing_if = "Option::is_none")]
     pub(super) stroke: Option<Real>,
-    /// travel of the body in it; what the waveform rests counts with the forward stroke
+    /// travel of the body during the stroke. Travel while the waveform rests counts with the forward stroke.
     #[serde(rename = "travel_m")]
     pub(super) travel: Real,
 }
 
-/// Work of a period: drive = load + friction + damping + stored, but for the errors of integration.
+/// Energy balance of a period: drive = load + friction + damping + stored, except for integration errors.
 #[derive(Debug, Serialize, JsonSchema)]
 pub struct PeriodWork {
-    /// what the drive put in: growth of energy.input_J, plus load_J; left out where a load varies
+    /// energy that the drive supplied in the period: increase of energy.input_J, plus load_J. Absent if a load varies
+    /// or acts on another body.
     #[serde(rename = "drive_J", skip_serializing_if = "Option::is_none")]
     pub(super) drive: Option<Real>,
-    /// -F·step, work against the constant loads and the weight of the body, F their force along x
+    /// work of the body in the period against constant loads and its weight: -F·step, with their force F along x.
+    /// Absent if a load varies or acts on another body.
     #[serde(rename = "load_J", skip_serializing_if = "Option::is_none")]
     pub(super) load: Option<Real>,
-    /// work of friction
+    /// friction work in the period
     #[serde(rename = "friction_J")]
     pub(super) friction: Real,
-    /// work of dampers
+    /// energy dissipated in the period by dampers and contact damping
     #[serde(rename = "damping_J")]
     pub(super) damping: Real,
-    /// growth of kinetic and stored energy
+    /// increase of kinetic and elastic energy in the period
     #[serde(rename = "stored_J")]
     stored: Real,
-    /// load_J / drive_J, where both are above 0
+    /// efficiency: load_J / drive_J. Absent unless both are above 0.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(super) efficiency: Option<Real>,
 }
 
-/// What a contact of the body did.
+/// Behaviour of a contact of the body in the period.
 #[derive(Debug, Serialize, JsonSchema)]
 pub struct ContactPeriod {
-    /// share of the forward stroke in which the whole contact slips
+    /// fraction of the forward stroke in gross slip
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(super) slip_share_forward: Option<Real>,
-    /// the same of the return stroke
+    /// fraction of the return stroke in gross slip
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(super) slip_share_return: Option<Real>,
-    /// number of reversals of u on the forward stroke, in full stick, too; out of gross slip they do not count
+    /// number of reversals of u in the forward stroke, also in full stick. Reversals out of gross slip do not count.
     pub(super) reversals_forward: u32,
-    /// from the beginning of the forward stroke until the force's last swing beyond 5 % of the limit of friction; left out where it
-    /// swings on
+    /// settling time: from the start of the forward stroke to the last oscillation of F_x with an amplitude above 5 %
+    /// of μF_N. 0 without such an oscillation. Absent if the last oscillation of the stroke is still above 5 %.
     #[serde(rename = "settling_s", skip_serializing_if = "Option::is_none")]
     pub(super) settling: Option<Real>,
-    /// last swing of the force on the forward stroke, half of peak to peak, over the limit of friction, the mean of that at both
-    /// turns of u
+    /// residual ringing: amplitude of the last oscillation of F_x in the forward stroke, divided by μF_N
     pub(super) ringing_left: Real,
 }
 
-/// The last period, with the stride that the body made in it; none of a run without one. A step below `error`, m, is none.
+/// Returns the evaluation of the last period, or `None` without one. `stride` is the motion of the body in it; a step
+/// below `error`, m, counts as none.
 pub(super) fn of(
     job: &Job,
     outcome: &Outcome,
@@ -117,7 +119,7 @@ pub(super) fn of(
     let way = |side: usize| Way {
         time: Real(account.time[side]),
         stroke: is_length.then(|| Real(stroke(accounts.phases(), side))),
-        // What it goes while the waveform rests is of the way that led there: forth.
+        // Travel while the waveform rests counts with the forward stroke.
         travel: Real(account.travel[side] + if side == forth { account.travel[2] } else { 0.0 }),
     };
     let names: Vec<&str> = job.model.contacts().map(|(name, _)| name).collect();
@@ -141,21 +143,22 @@ pub(super) fn of(
     })
 }
 
-/// Of two ways as slow the rising one is forth where the step is less than this share of what the body goes on both, or leads that way.
+/// Fraction of the travel in both strokes. If both strokes are equally slow, the falling one is the forward stroke only
+/// if the step in its direction exceeds this fraction.
 const STEP: f64 = 1e-3;
 
-/// Which of two ways is forth.
+/// Returns the index of the forward stroke: 0 for the rising one, 1 for the falling one.
 fn forth(account: &Account) -> usize {
     let [rising, falling] = account.time;
     if (rising - falling).abs() > 1e-3 * (rising + falling) {
         return usize::from(falling > rising);
     }
-    // Without a step rounding would say which.
+    // Without a step, rounding would decide.
     let step: f64 = account.travel.iter().sum();
     usize::from(step < -STEP * (account.travel[0].abs() + account.travel[1].abs()))
 }
 
-/// How far a waveform goes on one of its ways.
+/// Returns the travel of the waveform in a stroke.
 fn stroke(phases: &Phases, side: usize) -> f64 {
     let [rise, fall] = phases.ways();
     if side == 0 { rise } else { -fall }
@@ -177,7 +180,7 @@ fn contact(it: &ContactAccount, time: [f64; 2], forth: usize) -> ContactPeriod {
 fn work(account: &Account, load: Option<f64>) -> PeriodWork {
     let [input, kinetic, elastic, friction, damping] = account.energies;
     let step: f64 = account.travel.iter().sum();
-    // A load that pulls along does work on the body: it is no load then.
+    // A load in the direction of the step does work on the body, so the efficiency is absent.
     let load = load.map(|force| -force * step);
     let drive = load.map(|load| input + load);
     let efficiency = load.zip(drive).filter(|(load, drive)| *load > 0.0 && *drive > 0.0);
@@ -192,7 +195,8 @@ fn work(account: &Account, load: Option<f64>) -> PeriodWork {
 }
 
 impl Outcome {
-    /// The last swing of a contact's force while the waveform of the figures went forth in its last whole period: both of its turns.
+    /// Returns both reversals of the last oscillation of the tangential force of a contact in the forward stroke of the
+    /// last whole period.
     #[must_use]
     pub fn last_swing(&self, contact: usize) -> Option<[Extreme; 2]> {
         let account = self.tally.accounts()?.last()?;
@@ -200,8 +204,8 @@ impl Outcome {
     }
 }
 
-/// Constant force along x on the body of the figures, its loads and its weight, N; none where a load on it varies, or where others
-/// bear one.
+/// Returns the constant force along x on the body named in `figures`, from loads and weight, N. Returns `None` if a
+/// load on it varies or if another body is loaded.
 pub fn load(job: &Job) -> Option<f64> {
     let (scene, b) = (&job.scenario.scene, job.scenario.figures.body?);
     let body = &scene.bodies.get(b)?.part;
@@ -213,12 +217,12 @@ pub fn load(job: &Job) -> Option<f64> {
             Varying::Follows(_) => return None,
         }
     }
-    // Another body's load is put in with the drive: it cannot be told from it either.
+    // The input contains the work of loads on other bodies, which cannot be separated.
     let elsewhere = scene.loads.iter().any(|load| load.on != b && load.x != Varying::Constant(0.0));
     (!elsewhere && !has_other_weight(scene, b)).then_some(force)
 }
 
-/// Whether another free body has a weight along x.
+/// Returns whether another free body has a weight along x.
 fn has_other_weight(scene: &Scene, b: usize) -> bool {
     let (along, _) = scene.gravity.components();
     let others = scene.bodies.iter().enumerate().filter(|(k, _)| *k != b);

@@ -1,4 +1,4 @@
-//! The quantities of a drive.
+//! Steps of a drive and their settling.
 
 use super::losses::Losses;
 use super::period::LastPeriod;
@@ -16,77 +16,80 @@ use stickslip_measure::settling::BAND;
 use stickslip_measure::{Bounds, Settling, Steps, Strides};
 use stickslip_quantity::Real;
 
-/// A step below this share of the natural displacement counts as nothing.
+/// A step below this fraction of the natural displacement counts as none.
 const NOTHING: f64 = 1e-2;
-/// Moments of a period at which a waveform is looked at for its way.
+/// Number of samples of a period for the total travel of a waveform.
 const MOMENTS: u32 = 1000;
-/// Global over local error of a run, as comparisons allow it; that of fixed steps, which promise none.
+/// Permitted ratio of the global to the local error of a run with a tolerance.
 const GLOBAL: f64 = 100.0;
 const FIXED: f64 = 1e-9;
-/// Share by which a step that is made of fixed steps may be off, and still be of the motion that is found directly.
+/// Largest relative distance between the step of a run with fixed time steps and the step of the periodic orbit to
+/// which it belongs.
 const COARSE: f64 = 0.1;
-/// Share of the time in which all contacts of a body are open that hops.
+/// Fraction of the time with all contacts open above which a body counts as hopping.
 const FLIES: f64 = 0.01;
-/// What a note begins with that says why there are no steps.
+/// Beginning of a note about the reason for missing steps.
 pub(super) const NO_STEP: &str = "no step reported";
-/// A step below this share of how far the body goes in a period is rounding.
+/// A step below this fraction of the motion of the body in a period is rounding.
 const ROUNDING: f64 = 1e-9;
 
-/// Steps of the body named in `figures`, over the whole periods of the waveform named there.
+/// Steps of the body over the whole periods of the waveform, both named in `figures`.
 #[derive(Debug, Serialize, JsonSchema)]
 pub struct DriveSummary {
-    /// the body that steps
+    /// name of the body whose steps are evaluated
     body: String,
-    /// the waveform whose periods make the steps
+    /// name of the waveform whose periods define the steps
     waveform: String,
-    /// period T of the waveform
+    /// period T of the waveform that defines the steps
     #[serde(rename = "period_s")]
     period: Real,
-    /// number of steps, one for each whole period; steps.csv has every one of them
+    /// number of whole periods, that is of steps. steps.csv lists all steps.
     periods: usize,
-    /// length of the last: x at the end of its period minus x at the start
+    /// step length in the last whole period: x at its end minus x at its start
     #[serde(rename = "last_m")]
     last: Real,
-    /// largest magnitude of the length of a step
+    /// largest magnitude of the step lengths
     #[serde(rename = "longest_m")]
     longest: Real,
-    /// `settled`, `not_settled`, `irregular`, `drifts` or `oscillates`: what the lengths of the steps do
+    /// trend of the step lengths: `settled`, `not_settled` (approach a limit, or too few steps), `irregular`, `drifts`
+    /// (no limit) or `oscillates`
     pub settling: SettlingSummary,
-    /// The step that they have settled to; none where they have not.
+    /// Steady step length. Absent unless the steps have settled.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub steady: Option<Steady>,
-    /// way in the whole periods over their time
+    /// mean velocity: displacement in all whole periods divided by their duration
     #[serde(rename = "mean_speed_m_s")]
     pub mean_speed: Real,
-    /// x at the end of the run minus x at the start; what comes before and after whole periods counts
+    /// net travel: x at the end of the run minus x at its start, including time outside whole periods
     #[serde(rename = "net_travel_m")]
     net_travel: Real,
-    /// What happened in the last whole period.
+    /// Evaluation of the last whole period.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub last_period: Option<LastPeriod>,
-    /// why the last step is as long as it is, in sentences
+    /// sentences that explain the length of the last step
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub why: Vec<String>,
-    /// What fixed steps promise of a step, m; none of a tolerance.
+    /// Error of a step by the accuracy of fixed time steps, m. `None` with a tolerance.
     #[serde(skip)]
     promised: Option<f64>,
 }
 
 impl DriveSummary {
-    /// The sentences of [`Self::why`] where the last period made no step, or one against its slower way; none otherwise.
+    /// Returns the sentences of [`Self::why`] if the last period made no step or one against the forward stroke,
+    /// otherwise none.
     pub fn oddity(&self) -> &[String] {
         let is_odd = self.last_period.as_ref().is_some_and(why::is_odd);
         if is_odd { &self.why } else { &[] }
     }
 
-    /// Length of the last step, m.
+    /// Returns the length of the last step, m.
     pub fn last(&self) -> Real {
         self.last
     }
 
-    /// Compares a settled step with that of the motion that was found directly: what fades slowly hides behind what fades fast, and
-    /// steps do not tell of it, nor of what fixed steps miss. One that is farther away than settled steps are from their limit, and fixed
-    /// steps from what they are to be, is of another motion.
+    /// Widens the error of a settled step to its distance from the step of a stable periodic orbit. Step lengths do not
+    /// show slow decay behind fast decay, nor the error of fixed time steps. A distance above 0.1 %, or 10 % with fixed
+    /// time steps, means another motion and has no effect.
     pub(super) fn compare(&mut self, motion: &Repetition) {
         let Some(steady) = &mut self.steady else { return };
         let apart = (steady.step.0 - motion.step.0 / motion.periods as f64).abs();
@@ -97,76 +100,76 @@ impl DriveSummary {
     }
 }
 
-/// What the lengths of the steps do from period to period. Lengths are in m, changes and growth are those of one period.
+/// Trend of the step lengths. Lengths are in m, changes and growth per period.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
 #[serde(tag = "state", rename_all = "snake_case")]
 pub enum SettlingSummary {
-    /// They stay what they are: the steady step says more.
+    /// Constant; the steady step length is available.
     Settled,
-    /// They are on their way, or too few to tell.
+    /// Approaching a limit, or too few for a decision.
     NotSettled {
-        /// their change per period, at the end
+        /// change of the step length per period, at the end of the run
         #[serde(skip_serializing_if = "Option::is_none")]
         change_m: Option<Real>,
-        /// where they lead
+        /// extrapolated limit of the step lengths. Absent if there is none.
         #[serde(skip_serializing_if = "Option::is_none")]
         limit_m: Option<Real>,
-        /// how far off that may be
+        /// uncertainty of the extrapolated limit
         #[serde(skip_serializing_if = "Option::is_none")]
         limit_error_m: Option<Real>,
     },
-    /// They change without a pattern, half of the last half of them by more than this to either side.
+    /// Changing without a pattern.
     Irregular {
-        /// half of what lies between the longest and the shortest
+        /// half of the range of the step lengths
         spread_m: Real,
     },
-    /// They change in one direction, to no limit that could be told.
+    /// Changing in one direction without a limit.
     Drifts {
-        /// their change per period, at the end
+        /// change of the step length per period, at the end of the run
         change_m: Real,
     },
-    /// They swing about a mean.
+    /// Oscillating about a mean.
     #[serde(rename = "oscillates")]
     Beats {
-        /// drive periods of one oscillation
+        /// period of the oscillation of the step lengths, in drive periods
         periods: Real,
-        /// share by which the oscillation grows per period; below 0 it decays
+        /// relative growth of the oscillation per period, below 0 if it decays
         #[serde(skip_serializing_if = "Option::is_none")]
         growth: Option<Real>,
-        /// mean of the oscillation
+        /// mean of the oscillation of the step lengths
         mean_m: Real,
-        /// its amplitude at the end
+        /// amplitude of the oscillation of the step lengths at the end of the run
         amplitude_m: Real,
     },
 }
 
-/// The step of a drive that has settled.
+/// Steady step length of a drive.
 #[derive(Debug, Serialize, JsonSchema)]
 pub struct Steady {
-    /// period, from 0, from which on every step lies within a thousandth of the limit
+    /// first period, counted from 0, from which all step lengths are within 0.1 % of the limit
     #[serde(rename = "from_period")]
     pub from: usize,
-    /// number of the last steps that the steady step is the mean of
+    /// number of last steps of which step_m is the mean
     periods: usize,
-    /// the steady step: their mean
+    /// steady step length: mean of the last steps
     #[serde(rename = "step_m")]
     pub step: Real,
-    /// how far the mean of all later steps may lie from it; at least as far as it is from the steady motion found directly,
-    /// where that is stable and within a thousandth, of fixed steps within a tenth; with `frames` at least what may be lost of
-    /// a stroke. What fixed steps miss by their length is not in it where no steady motion was found, nor what a tolerance
-    /// allows
+    /// uncertainty of the steady step length: possible difference between step_m and the mean of all later steps. At
+    /// least the distance from the periodic orbit, if this is stable and within 0.1 % (10 % with fixed time steps).
+    /// With `frames`, at least their specified error of a stroke. Not included: the integration error within the
+    /// tolerance, and the error of fixed time steps if no orbit was found.
     #[serde(rename = "error_m")]
     pub error: Real,
-    /// standard deviation of those steps
+    /// standard deviation of the last steps, of which step_m is the mean
     #[serde(rename = "repeatability_m", skip_serializing_if = "Option::is_none")]
     pub repeatability: Option<Real>,
-    /// What a step loses.
+    /// Losses of a step.
     #[serde(flatten)]
     pub losses: Losses,
 }
 
 impl Steady {
-    /// Widens the error of the step.
+    /// Increases the error of the step to at least `error`, m.
     fn widen(&mut self, error: f64) {
         self.error = Real(self.error.0.max(error));
         if self.step.0.abs() <= self.error.0 {
@@ -175,7 +178,7 @@ impl Steady {
     }
 }
 
-/// Periods after which a run ended before its time without a fault.
+/// Returns the number of periods after which `run.until_steady` ended a run.
 pub(super) fn steady_after(job: &Job, outcome: &Outcome) -> Option<usize> {
     let plan = &job.scenario.plan;
     let asked = plan.until_steady.filter(|_| outcome.error.is_none())?;
@@ -184,7 +187,7 @@ pub(super) fn steady_after(job: &Job, outcome: &Outcome) -> Option<usize> {
     Periods::until(&waveform.part, end).map(|periods| periods.count)
 }
 
-/// The steps of a run; none, with a note where that needs one, if there are no whole periods or no free body.
+/// Returns the steps of a run. Returns `None`, with a note if necessary, without whole periods or a free body.
 pub(super) fn of(
     job: &Job,
     outcome: &Outcome,
@@ -197,10 +200,10 @@ pub(super) fn of(
     let waveform = scene.waveforms.get(figures.waveform?)?;
     let period = waveform.part.period()?;
     if body.part.x.freedom != Freedom::Free {
-        // Where no body is free nobody asked for steps.
+        // A note is necessary only if some body is free.
         if let Some(free) = scene.bodies.iter().find(|body| body.part.x.freedom == Freedom::Free) {
             notes.push(format!(
-                "no steps: x of \"{}\", the body of figures, is not free; \"{}\" is one that is",
+                "no steps: x of \"{}\", the body of figures, is not free; x of \"{}\" is free",
                 body.name, free.name
             ));
         }
@@ -219,13 +222,13 @@ pub(super) fn of(
         return None;
     };
     let bounds = match flight(job, outcome) {
-        // Nothing holds it any more: whatever it does in a period is no step.
+        // Without contact no motion counts as a step.
         Some(_) => Bounds { most: 0.0, ..step_bounds(job) },
-        // What flies a part of each period may come down anywhere.
+        // A hopping body has no upper bound of its steps.
         None if hops(job, outcome) => Bounds { most: f64::INFINITY, ..step_bounds(job) },
         None => step_bounds(job),
     };
-    // Without contacts nothing tells what a step is but how far the body goes in a period.
+    // Without contacts, the travel in a period is the only scale.
     let reach = strides.part(0..strides.count()).map(|stride| stride.most - stride.least).fold(0.0, f64::max);
     let bounds = Bounds { least: bounds.least.max(ROUNDING * reach), ..bounds };
     let steps = Steps::of_strides(strides, period, outcome.tally.net_travel(), bounds);
@@ -246,7 +249,8 @@ pub(super) fn of(
     Some(summary)
 }
 
-/// That a scene of several free bodies has no step reported, for it does not say of which; none where there is nothing to choose.
+/// Returns the note that `figures` must name a body or waveform, if there are several free bodies or periodic waveforms
+/// and `figures` names none.
 fn unchosen(job: &Job) -> Option<String> {
     let (scene, figures) = (&job.scenario.scene, job.scenario.figures);
     let free = scene.bodies.iter().filter(|body| body.part.x.freedom == Freedom::Free);
@@ -262,7 +266,8 @@ fn unchosen(job: &Job) -> Option<String> {
     Some(format!("{NO_STEP}: name a {key} in figures, one of {}", names.join(", ")))
 }
 
-/// Since when all contacts of the body of the figures are open, s, where that is a whole period of their waveform and more.
+/// Returns the time, s, since which all contacts of the body named in `figures` have been open, if that is at least one
+/// whole period.
 pub(crate) fn flight(job: &Job, outcome: &Outcome) -> Option<f64> {
     let (scene, figures) = (&job.scenario.scene, job.scenario.figures);
     let (body, waveform) = (figures.body?, scene.waveforms.get(figures.waveform?)?);
@@ -274,7 +279,7 @@ pub(crate) fn flight(job: &Job, outcome: &Outcome) -> Option<f64> {
     (since <= last).then_some(since)
 }
 
-/// Whether the body of the figures is in the air for a good part of the time: one of its contacts, and all that there are.
+/// Returns whether all contacts of the body named in `figures` are open for a considerable part of the time.
 fn hops(job: &Job, outcome: &Outcome) -> bool {
     let Some(body) = job.scenario.figures.body else { return false };
     let touching = job.scenario.scene.contacts.iter().enumerate();
@@ -283,10 +288,11 @@ fn hops(job: &Job, outcome: &Outcome) -> bool {
     own.peek().is_some() && own.all(|(c, _)| flies(c).is_some_and(|share| share > FLIES))
 }
 
-/// What is known of a step before any is made.
+/// Returns bounds for steps, independent of the run.
 ///
-/// A step below a hundredth of the natural displacement of the contacts is none; none is longer than twice the stroke, or than all strokes of a burst
-/// to and fro, without being carried away; each may be off by the error that the stepper promises.
+/// * A step below 1 % of the natural displacement counts as none.
+/// * A step above twice the stroke, or above the total travel of a burst, means that the body slides away.
+/// * The error of a step is at least that of the stepper.
 #[must_use]
 pub fn step_bounds(job: &Job) -> Bounds {
     let natural = (0..job.scenario.scene.contacts.len()).filter_map(|c| job.model.contact_natural(c));
@@ -299,7 +305,8 @@ pub fn step_bounds(job: &Job) -> Bounds {
     Bounds { least: NOTHING * natural, most, error: promised * natural }
 }
 
-/// What fixed steps promise of a step, m: of frames what may be lost of a stroke, of others nothing is known; none of a tolerance.
+/// Returns the error of a step by the accuracy of the stepper, m: of `frames` the error per stroke, of other fixed time
+/// steps 0. Returns `None` with a tolerance.
 fn promised(job: &Job) -> Option<f64> {
     match job.model.effective(job.scenario.plan.stepper).accuracy() {
         Accuracy::Tolerance(_) => None,
@@ -308,7 +315,7 @@ fn promised(job: &Job) -> Option<f64> {
     }
 }
 
-/// Stroke of the waveform of the figures, where it is a length: one that a body or an actuator follows.
+/// Returns the stroke of the waveform named in `figures`, if a body or an actuator follows it.
 pub(super) fn stroke(job: &Job) -> Option<f64> {
     let (scene, waveform) = (&job.scenario.scene, job.scenario.figures.waveform?);
     let is_here = |signal: usize| scene.waveform_of(signal) == Some(waveform);
@@ -319,7 +326,8 @@ pub(super) fn stroke(job: &Job) -> Option<f64> {
     (followed || drives).then_some(high - low)
 }
 
-/// All the way to and fro of the waveform of the figures in a period, m, as it looks at some moments: a burst goes several times.
+/// Returns the total travel of the waveform named in `figures` in a period, m, from samples. A burst moves back and
+/// forth several times.
 fn way(job: &Job) -> Option<f64> {
     let waveform = &job.scenario.scene.waveforms.get(job.scenario.figures.waveform?)?.part;
     let (period, delay) = (waveform.period()?, waveform.timing().delay);

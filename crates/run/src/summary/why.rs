@@ -1,4 +1,4 @@
-//! Why a step is as long as it is, in sentences with numbers.
+//! Sentences that explain the length of a step.
 
 use super::drivers::DriverSummary;
 use super::losses::FootMotion;
@@ -9,15 +9,15 @@ use stickslip_drive::facts::zero_step_stroke;
 use stickslip_quantity::Real;
 use stickslip_quantity::quantity;
 
-/// A step below this share of the stroke is none.
+/// A step below this fraction of the stroke counts as none.
 const NOTHING: f64 = 0.01;
 
-/// Whether a period made no step, or one against its slower way.
+/// Returns whether a period made no step, or one against the forward stroke.
 pub(super) fn is_odd(last: &LastPeriod) -> bool {
     last.forth.stroke.is_some_and(|stroke| last.step.0 * stroke.0.signum() <= NOTHING * stroke.0.abs())
 }
 
-/// The sentences of a period.
+/// Returns the sentences about a period.
 pub(super) fn of(job: &Job, drivers: &Parts<DriverSummary>, last: &LastPeriod) -> Vec<String> {
     let mut lines = Vec::new();
     lines.extend(way(last));
@@ -37,7 +37,7 @@ fn percent(share: f64) -> String {
     format!("{:.1} %", 100.0 * share)
 }
 
-/// What became of the stroke.
+/// Returns the sentence about stroke, motion of the body and step.
 fn way(last: &LastPeriod) -> Option<String> {
     let stroke = last.forth.stroke?.0;
     let (step, fall) = (last.step.0 * stroke.signum(), last.losses.back_step_length.0);
@@ -69,7 +69,7 @@ fn way(last: &LastPeriod) -> Option<String> {
     })
 }
 
-/// How much of the foot's travel is no step, or why that is not said.
+/// Returns the sentence about the lost stroke, or about the reason why there is none.
 fn lost(last: &LastPeriod) -> Option<String> {
     last.forth.stroke?;
     Some(match (last.losses.lost_stroke, last.foot) {
@@ -83,7 +83,7 @@ fn lost(last: &LastPeriod) -> Option<String> {
     })
 }
 
-/// What a contact did.
+/// Returns the sentence about gross slip and ringing of a contact.
 fn contact_line(name: &str, contact: &ContactPeriod) -> String {
     let share = |share: Option<Real>| share.map_or("0.0 %".to_owned(), |share| percent(share.0));
     let slip = format!(
@@ -115,7 +115,7 @@ fn contact_line(name: &str, contact: &ContactPeriod) -> String {
     format!("{slip}; {ringing}")
 }
 
-/// Whether the stroke is too short to step at all.
+/// Returns a sentence if the stroke is below the zero-step stroke.
 fn short(job: &Job, last: &LastPeriod) -> Option<String> {
     let stroke = last.forth.stroke?.0.abs();
     let laws = job.model.contacts().enumerate();
@@ -127,20 +127,20 @@ fn short(job: &Job, last: &LastPeriod) -> Option<String> {
     let idle = idle.fold(f64::INFINITY, f64::min);
     (idle.is_finite() && stroke < idle).then(|| {
         format!(
-            "the stroke of {} is below the zero-step stroke of {}; without ringing, partial slip takes up so short a stroke completely",
+            "the stroke of {} is below the zero-step stroke of {}; without ringing, partial slip takes up the whole stroke",
             length(stroke),
             length(idle)
         )
     })
 }
 
-/// What is less than this share of the work shows in no per cent.
+/// Smallest fraction of the work that is printed.
 const UNSEEN: f64 = 5e-4;
 
-/// Where the work went.
+/// Returns the sentence about the energy balance of the period.
 fn work(work: &PeriodWork) -> Option<String> {
     let (drive, load) = (work.drive.filter(|drive| drive.0 > 0.0)?, work.load?);
-    // A load that drags the body along puts work in as well.
+    // A load in the direction of the step supplies work.
     let gave = Real((-load.0).max(0.0));
     let share = |part: Real| percent(part.0 / (drive.0 + gave.0));
     let load = if load.0 > 0.0 { format!("; the load received {}", share(load)) } else { String::new() };

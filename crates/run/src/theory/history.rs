@@ -1,32 +1,33 @@
-//! Where a contact is to go: corners of a path in straight lines.
+//! Load history of a contact: corners of a piecewise straight path.
 
 use super::TheoryError;
 use std::path::Path;
 use stickslip_scenario::{Pairs, pairs, quantity};
 
-/// Most corners of a history: each leaves a field and its springs.
+/// Largest number of corners of a history.
 const MOST: usize = 1000;
 
-/// A path in straight lines of the (d, u) plane.
+/// Piecewise straight path in the (d, u) plane.
 ///
-/// Where the first of several corners says what presses the contact and where it is, the path begins there, with springs that
-/// nothing has stretched; else at u = 0, at the normal that the first corner gives or else the one asked for.
+/// If there are several corners and the first one gives a normal value and no tangential force, the path begins there
+/// with unstretched springs. Otherwise it begins at u = 0, with the normal value of the first corner or else the
+/// default.
 #[derive(Debug, Clone, PartialEq)]
 pub struct History {
-    /// Its corners.
+    /// Corners of the path.
     pub corners: Vec<Corner>,
 }
 
 /// A corner of a history.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Corner {
-    /// What presses the contact there; as before where there is none.
+    /// Normal value at the corner. `None` means unchanged.
     pub normal: Option<Normal>,
-    /// Where it is pushed to.
+    /// Tangential value at the corner.
     pub tangential: Tangential,
 }
 
-/// What presses a contact.
+/// Normal value.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Normal {
     /// Indentation d, m.
@@ -35,30 +36,30 @@ pub enum Normal {
     Force(f64),
 }
 
-/// What pushes it sideways.
+/// Tangential value.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Tangential {
     /// Displacement u, m.
     Displacement(f64),
-    /// Tangential force, N: of all displacements that give it the first on the way.
+    /// Tangential force, N. Of several displacements with this force, the first one on the path is used.
     Force(f64),
 }
 
 impl History {
-    /// Reads corners such as `10 nm, -10 nm, 5 nm`, or `2 um : 1 um, 1 um : 1 um`: what presses before the colon, each a length
-    /// or a force.
+    /// Reads corners such as `10 nm, -10 nm, 5 nm`, or `2 um : 1 um, 1 um : 1 um` with the normal value before the
+    /// colon. Each value is a length or a force.
     ///
     /// # Errors
-    /// A text that is none.
+    /// The text is no list of corners.
     pub fn parse(text: &str) -> Result<Self, TheoryError> {
         let corners: Result<Vec<Corner>, String> = text.split(',').map(corner).collect();
         Self::checked(corners.map_err(TheoryError::History)?)
     }
 
-    /// Reads a CSV file with a column `u` or `fx` and, where the load changes, one `d` or `fn`, their units in their heads.
+    /// Reads a CSV file with a column `u` or `fx` and an optional column `d` or `fn`, with units in the header.
     ///
     /// # Errors
-    /// A file that is no such table.
+    /// The file is no such table.
     pub fn read(path: &Path) -> Result<Self, TheoryError> {
         let Pairs { first, second, values } =
             pairs(path, &[("d", "m"), ("fn", "N")], &[("u", "m"), ("fx", "N")])?;
@@ -83,7 +84,7 @@ impl History {
     }
 }
 
-/// A corner as it is written.
+/// Reads one corner.
 fn corner(text: &str) -> Result<Corner, String> {
     let (normal, tangential) = match text.split_once(':') {
         Some((normal, tangential)) => (Some(normal), tangential),
@@ -93,14 +94,14 @@ fn corner(text: &str) -> Result<Corner, String> {
     Ok(Corner { normal, tangential: either(tangential, Tangential::Displacement, Tangential::Force)? })
 }
 
-/// Largest length or force that is taken, in SI, and least that is not 0: contacts of atoms and of mountains lie between.
-// Powers of what lies beyond are infinite or nothing, and quadratures of those do not end.
+/// Smallest magnitude except 0 and largest magnitude of a value, in SI.
+// Powers of other values overflow or underflow, and quadrature does not converge.
 const SIZES: [f64; 2] = [1e-24, 1e12];
 
-/// A quantity of people's: its value in SI, of a size that a contact may have.
+/// Reads a quantity with unit and returns its value in SI.
 ///
 /// # Errors
-/// No quantity of that unit, or one of no such size.
+/// The text is no quantity of that unit, or outside the range of magnitudes.
 pub fn asked(text: &str, unit: &str) -> Result<f64, String> {
     let value = quantity(text, unit)?;
     let [least, most] = SIZES;
@@ -110,12 +111,14 @@ pub fn asked(text: &str, unit: &str) -> Result<f64, String> {
     Err(format!("expected 0 or a size from {least:e} to {most:e} {unit}, got \"{}\"", text.escape_debug()))
 }
 
-/// A length or a force, which its unit tells; a number without is a length.
+/// Reads a length or a force, distinguished by the unit. A number without unit is a length.
 fn either<T>(text: &str, length: fn(f64) -> T, force: fn(f64) -> T) -> Result<T, String> {
     let text = text.trim();
     if text.is_empty() {
-        return Err("expected a length or a force, got nothing\n   help: such as --history \"1 um, -1 um\""
-            .to_owned());
+        return Err(
+            "expected a length or a force, got an empty text\n   help: such as --history \"1 um, -1 um\""
+                .to_owned(),
+        );
     }
     match (asked(text, "m"), asked(text, "N")) {
         (Ok(value), _) => Ok(length(value)),

@@ -1,4 +1,4 @@
-//! One first loading with everything that follows from it.
+//! One first loading of a contact.
 
 use super::state::contact_word;
 use super::{Subject, TheoryError};
@@ -7,34 +7,34 @@ use serde::Serialize;
 use stickslip_contact::{ContactState, FirstLoading, Interface, NormalGiven, Outcome, TangentialGiven};
 use stickslip_quantity::Real;
 
-/// A first loading: two quantities given, the rest follows.
+/// A first loading. Two quantities determine all others.
 #[derive(Debug, Clone, Serialize, JsonSchema)]
 pub struct Loading {
-    /// d, indentation of the first loading asked for
+    /// d, indentation of the first loading
     #[serde(rename = "indentation_m")]
     pub d: Real,
-    /// a, its contact radius
+    /// a, contact radius of the first loading
     #[serde(rename = "contact_radius_m")]
     pub a: Real,
-    /// F_N, its normal force (4.26)
+    /// F_N, normal force of the first loading (4.26)
     #[serde(rename = "normal_force_N")]
     pub normal_force: Real,
-    /// u, its displacement
+    /// u, tangential displacement of the first loading
     #[serde(rename = "displacement_m")]
     pub u: Real,
-    /// c, its stick radius, where u = κ(d - g(c)) (4.27)
+    /// c, stick radius of the first loading, where u = κ(d - g(c)) (4.27)
     #[serde(rename = "stick_radius_m")]
     pub c: Real,
-    /// F_x by superposition: μ[F_N(a) - F_N(c)] (4.38)
+    /// F_x, tangential force by superposition: μ[F_N(a) - F_N(c)] (4.38)
     #[serde(rename = "tangential_force_N")]
     pub tangential_force: Real,
-    /// F_x by the integral of the line load, 2∫₀^a q_x(x) dx (4.39)
+    /// tangential force F_x by integration of the line load: 2∫₀^a q_x(x) dx (4.39)
     #[serde(rename = "tangential_force_by_integral_N")]
     pub by_integral: Real,
-    /// estimated error of that integral
+    /// estimated error of the force by integration
     #[serde(rename = "tangential_force_by_integral_error_N")]
     pub integral_error: Real,
-    /// friction work of the loading (4.42)
+    /// friction work of the first loading (4.42)
     #[serde(rename = "friction_work_J")]
     pub friction_work: Real,
     /// elastic energy of the tangential deformation
@@ -43,15 +43,15 @@ pub struct Loading {
     /// elastic energy of the normal deformation
     #[serde(rename = "normal_energy_J")]
     pub normal_energy: Real,
-    /// `open`, `stick`, `partial` or `slip`
+    /// state of the contact: `open`, `stick`, `partial` or `slip`
     pub state: &'static str,
 }
 
 impl Loading {
-    /// The first loading of a contact with these two quantities.
+    /// Computes the first loading of a contact from two given quantities.
     ///
     /// # Errors
-    /// If a quantity is out of its range, or a radius is given that does not determine a depth.
+    /// A quantity is out of its range, or a given radius does not determine an indentation.
     pub fn solve(
         subject: &Subject<'_>,
         normal: NormalGiven,
@@ -80,7 +80,7 @@ impl Loading {
     }
 }
 
-/// Friction work, J: what sticks as a whole has none, where its sums leave rounding.
+/// Returns the friction work, J. In full stick it is exactly 0.
 pub(super) fn worked(outcome: &Outcome) -> f64 {
     if outcome.state == ContactState::Stick { 0.0 } else { outcome.friction }
 }

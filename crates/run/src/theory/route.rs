@@ -1,13 +1,13 @@
-//! A history as a path in the (d, u) plane: corners that are given by forces are found on the way.
+//! Load history as a path in the (d, u) plane. Displacements of corners with a given force are computed.
 
 use super::TheoryError;
 use super::history::{Corner, History, Normal, Tangential};
 use stickslip_contact::{Apex, Curve, FirstLoadingError, Interface, Memory, NormalGiven, Segment};
 
-/// How near to a force is on it, of the limit: a contact that slips has the limit but for rounding.
+/// Tolerance of a given force relative to the friction limit.
 const ON_IT: f64 = 1e-15;
 
-/// The path as places of the (d, u) plane, its start first.
+/// Returns the points of the path, its start first.
 pub(super) fn route(law: &Interface, pressed: f64, history: &History) -> Result<Vec<Apex>, TheoryError> {
     let corners = &history.corners;
     let depth = |k: usize, normal: Normal| {
@@ -21,7 +21,7 @@ pub(super) fn route(law: &Interface, pressed: f64, history: &History) -> Result<
     let mut first = 0;
     if let Some(Corner { normal: Some(normal), tangential }) = corners.first() {
         at.d = depth(0, *normal)?;
-        // Of one corner alone there would be no way; a force other than none is a way, too.
+        // A single corner, or a force other than 0, needs a section from the start.
         let begins = match *tangential {
             _ if corners.len() == 1 => None,
             Tangential::Displacement(u) => Some(u),
@@ -49,7 +49,8 @@ pub(super) fn route(law: &Interface, pressed: f64, history: &History) -> Result<
     Ok(route)
 }
 
-/// Displacement at which a chord to the indentation d (m) gives the force (N): of several the nearest.
+/// Returns the displacement nearest to the present one at which a straight path to the indentation d (m) gives the
+/// force (N).
 fn push(law: &Interface, memory: &Memory, d: f64, force: f64) -> Result<f64, FirstLoadingError> {
     let from = memory.apex();
     let limit = law.friction() * law.normal_force(d);
@@ -62,7 +63,7 @@ fn push(law: &Interface, memory: &Memory, d: f64, force: f64) -> Result<f64, Fir
         return Ok(from.u);
     }
     let sense = if force > at_rest { 1.0 } else { -1.0 };
-    // Beyond both wedges everything slips.
+    // At this distance the whole contact slips.
     let most = 2.0 * law.gross_slip_displacement(from.d.max(d));
     let is_there = |u: f64| sense * (reached(u) - force) >= -ON_IT * limit;
     let (mut near, mut far) = (from.u, from.u + sense * most);
@@ -75,7 +76,7 @@ fn push(law: &Interface, memory: &Memory, d: f64, force: f64) -> Result<f64, Fir
     }
 }
 
-/// What is wrong with a corner, counted from 1.
+/// Returns the error of a corner, counted from 1.
 pub(super) fn refused(corner: usize, source: FirstLoadingError) -> TheoryError {
     TheoryError::Corner { corner, source }
 }

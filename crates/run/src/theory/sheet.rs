@@ -6,26 +6,26 @@ use serde::Serialize;
 use stickslip_contact::{FirstLoading, Interface, NormalGiven, TangentialGiven};
 use stickslip_quantity::Real;
 
-/// What holds of a contact whatever happens to it, and how it is pressed.
+/// Constants and curves of a contact, and its state under the given load.
 #[derive(Debug, Clone, Serialize, JsonSchema)]
 pub struct Sheet {
     /// name of the scenario
     pub scenario: String,
-    /// SHA-256 of the resolved scenario
+    /// SHA-256 of the complete scenario, with all defaults and --set values
     pub scenario_sha256: String,
-    /// name of the contact; everything is of one of its count
+    /// name of the contact. All values are those of one of the identical contacts.
     pub contact: String,
-    /// What never changes.
+    /// Constants.
     pub constants: Constants,
-    /// As it is pressed.
+    /// State under the given load, without tangential displacement.
     pub pressed: Pressed,
-    /// `F_N`(d) and a(d) up to that (4.26); nothing of an open contact.
+    /// Points of F_N(d) and a(d) up to the given load (4.26). Empty if the contact is open.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub normal: Vec<NormalRow>,
-    /// The universal curve (4.37) and what goes with it; nothing of an open contact.
+    /// Points of the universal curve (4.37). Empty if the contact is open.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub universal: Vec<UniversalRow>,
-    /// The first loading that was asked for.
+    /// First loading to given tangential and normal values. `None` if none are given.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub loading: Option<Loading>,
 }
@@ -33,42 +33,45 @@ pub struct Sheet {
 /// Constants of a contact.
 #[derive(Debug, Clone, Serialize, JsonSchema)]
 pub struct Constants {
-    /// names of the materials
+    /// names of the materials of the first and second body
     pub materials: [String; 2],
-    /// word for the profile
+    /// type of the profile, such as `sphere`
     pub profile: String,
-    /// f(r), height of the profile, where it has a formula
+    /// f(r), formula of the profile. Absent for a profile given by numbers.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub f: Option<&'static str>,
-    /// g(x) = |x|∫₀^|x| f′(r)/√(x² - r²) dr (4.20), where it has a formula
+    /// g(x), formula of the substitute profile: `g(x) = |x|∫₀^|x| f′(r)/√(x² - r²) dr` (4.20). Absent for a profile
+    /// given by numbers.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub g: Option<&'static str>,
-    /// whether it has a shape in three dimensions, and so fields
+    /// whether the profile has an axisymmetric shape, so that stresses and displacements can be computed
     pub axisymmetric: bool,
-    /// E*, effective modulus: 1/E* = (1-ν₁²)/E₁ + (1-ν₂²)/E₂ (4.13)
+    /// E*, effective modulus: `1/E* = (1-ν₁²)/E₁ + (1-ν₂²)/E₂` (4.13)
     #[serde(rename = "normal_modulus_Pa")]
     pub normal_modulus: Real,
-    /// G*, effective shear modulus: 1/G* = (2-ν₁)/(4G₁) + (2-ν₂)/(4G₂), G = E/(2(1+ν)) (4.13)
+    /// G*, effective shear modulus: `1/G* = (2-ν₁)/(4G₁) + (2-ν₂)/(4G₂)`, with G = E/(2(1+ν)) (4.13)
     #[serde(rename = "tangential_modulus_Pa")]
     pub tangential_modulus: Real,
     /// μ, coefficient of friction
     pub friction: Real,
-    /// κ = μE*/G*
+    /// κ, tangential displacement at the onset of slip divided by the indentation of a spring: `κ = μE*/G*`
     pub stick_slope: Real,
-    /// β, [Dundurs' second constant](figures.md#similarity)
+    /// β, Dundurs' constant, a measure of the [neglected coupling](theory/contact_mechanics.md#elastic-similarity). 0
+    /// for elastically similar bodies.
     pub dundurs_beta: Real,
-    /// whether β is 0, which makes the theory exact
+    /// whether the bodies are elastically similar, β = 0. Then the theory is exact.
     pub elastically_similar: bool,
-    /// artanh(β)/β - 1, [what the theory leaves out](figures.md#similarity) at most
+    /// largest relative amount by which the normal stiffness at a given contact radius is too low, because of the
+    /// [neglected coupling](theory/contact_mechanics.md#elastic-similarity): artanh(β)/β - 1
     pub neglected_stiffness: Real,
-    /// both in words
+    /// sentence about dundurs_beta and neglected_stiffness
     pub similarity: String,
 }
 
-/// A contact at an indentation. Of one contact, however many identical ones the scenario has.
+/// State of one contact at an indentation, without tangential displacement.
 #[derive(Debug, Clone, Serialize, JsonSchema)]
 pub struct Pressed {
-    /// d, indentation; at most 0: nothing touches
+    /// d, indentation. The contact is open if it is 0 or negative.
     #[serde(rename = "indentation_m")]
     pub d: Real,
     /// a, contact radius, where g(a) = d (4.26)
@@ -77,19 +80,20 @@ pub struct Pressed {
     /// F_N, normal force: 2E*∫₀^a (d - g(x)) dx (4.26)
     #[serde(rename = "normal_force_N")]
     pub normal_force: Real,
-    /// u_c = κd (4.28)
+    /// u_c, gross slip displacement: u_c = κd (4.28)
     #[serde(rename = "gross_slip_displacement_m")]
     pub gross_slip: Real,
-    /// μF_N, its maximum tangential force; with damping F_x may be larger while it moves, by up to βG*m(c)|u̇|
+    /// μF_N, friction limit. With contact damping β, |F_x| may exceed it in motion, by up to 2βG*c|u̇| for a convex
+    /// profile.
     #[serde(rename = "limit_force_N")]
     pub limit_force: Real,
-    /// p_max, largest pressure; infinite at tips and edges, left out for a list of springs
+    /// p_max, largest pressure. Infinite at tips and sharp edges. Absent for lists of springs.
     #[serde(rename = "peak_pressure_Pa", skip_serializing_if = "Option::is_none")]
     pub peak_pressure: Option<Real>,
-    /// 2G*a, ∂F_x/∂u where all of it sticks
+    /// tangential stiffness ∂F_x/∂u in full stick: 2G*a
     #[serde(rename = "tangential_stiffness_N_m")]
     pub tangential_stiffness: Real,
-    /// 2E*a, ∂F_N/∂d
+    /// normal stiffness ∂F_N/∂d: 2E*a
     #[serde(rename = "normal_stiffness_N_m")]
     pub normal_stiffness: Real,
     /// elastic energy of the normal deformation: ∫₀^d F_N dd
@@ -97,45 +101,45 @@ pub struct Pressed {
     pub normal_energy: Real,
 }
 
-/// A point of the normal contact (4.26).
+/// Point of the normal contact (4.26).
 #[derive(Debug, Clone, Copy, Serialize, JsonSchema)]
 pub struct NormalRow {
-    /// d, of a point of F_N(d); eleven up to the load asked for
+    /// d, indentation at a point of F_N(d), one of eleven up to the given load
     #[serde(rename = "indentation_m")]
     pub d: Real,
-    /// a there
+    /// a, contact radius at the point of F_N(d)
     #[serde(rename = "contact_radius_m")]
     pub a: Real,
-    /// F_N there (4.26)
+    /// F_N, normal force at the point of F_N(d) (4.26)
     #[serde(rename = "normal_force_N")]
     pub normal_force: Real,
-    /// ∂F_N/∂d there: 2E*a
+    /// normal stiffness ∂F_N/∂d at the point of F_N(d): 2E*a
     #[serde(rename = "normal_stiffness_N_m")]
     pub normal_stiffness: Real,
-    /// u_c there
+    /// u_c, gross slip displacement at the point of F_N(d)
     #[serde(rename = "gross_slip_displacement_m")]
     pub gross_slip: Real,
 }
 
-/// A point of the first loading at this indentation, over its share of stick.
+/// Point of the universal curve: first loading at constant indentation.
 #[derive(Debug, Clone, Serialize, JsonSchema)]
 pub struct UniversalRow {
-    /// c/a, of a point of the first loading under this load
+    /// c/a, stick radius divided by contact radius, at one of the points of the first loading under the given load
     pub stick_share: Real,
-    /// u/u_c there
+    /// u/u_c, tangential displacement divided by the gross slip displacement
     pub displacement_share: Real,
-    /// F_x/(μF_N) there (4.37)
+    /// F_x/(μF_N), tangential force divided by the friction limit (4.37)
     pub force_share: Real,
-    /// The loading itself.
+    /// The first loading.
     #[serde(flatten)]
     pub loading: Loading,
 }
 
 impl Sheet {
-    /// Constants of a contact, and its curves where something presses it, at so many points.
+    /// Computes the constants of a contact and, unless it is open, its curves at a number of points.
     ///
     /// # Errors
-    /// An indentation that the profile does not reach, or a loading that does not fit.
+    /// The profile does not reach the indentation, or the first loading is impossible.
     pub fn of(
         subject: &Subject<'_>,
         normal: NormalGiven,
@@ -163,13 +167,13 @@ impl Sheet {
         })
     }
 
-    /// The same without its curves.
+    /// Returns a copy without the curves.
     #[must_use]
     pub fn without_curves(&self) -> Self {
         Self { normal: Vec::new(), universal: Vec::new(), ..self.clone() }
     }
 
-    /// Whether anything touches.
+    /// Returns whether the bodies touch.
     pub fn touches(&self) -> bool {
         self.pressed.a.0 > 0.0
     }
@@ -227,11 +231,11 @@ impl NormalRow {
 }
 
 impl UniversalRow {
-    /// From full stick (`share` 0) to the onset of gross slip (1): by the radius that has slipped, or by the displacement where a
-    /// radius does not determine one.
+    /// Computes the point at a fraction between full stick (0) and the onset of gross slip (1). The fraction is that of
+    /// the slipped radius or, for profiles that are not strictly convex, of the displacement.
     fn at(law: &Interface, d: f64, share: f64) -> Result<Self, TheoryError> {
         let a = law.profile().radius(d);
-        // Full stick is nothing but pressed: by its radius it would come out but for rounding.
+        // Full stick is given by the displacement 0, which is exact.
         let asked = if share > 0.0 && law.profile().is_strictly_convex() {
             TangentialGiven::StickRadius((1.0 - share) * a)
         } else {

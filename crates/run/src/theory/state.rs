@@ -1,22 +1,22 @@
-//! Springs of a contact with what they carry, and the word for its state.
+//! Springs of a contact with their forces, and the word for the state of a contact.
 
 use stickslip_contact::{ContactState, Interface, Memory, Spring, Springs};
 
-/// A spring and what it carries.
+/// A spring with its forces.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LoadedSpring {
-    /// Where it is and what it does.
+    /// Position, stretch and state.
     pub spring: Spring,
-    /// Normal force, N (4.23); 0 where it does not touch.
+    /// Normal force, N (4.23). 0 without contact.
     pub normal_force: f64,
     /// Tangential force, N (4.23).
     pub tangential_force: f64,
-    /// The most that it can be, μ times the normal force, N (4.22).
+    /// Friction limit of the tangential force, N (4.22).
     pub limit: f64,
 }
 
 impl LoadedSpring {
-    /// The springs of `grid` in a contact as it stands; none where g is beyond the profile.
+    /// Returns the springs of `grid` in the present state of a contact, without those outside the profile.
     pub fn of(law: &Interface, memory: &Memory, grid: &Springs) -> Vec<Self> {
         let d = memory.apex().d;
         let springs = memory.springs(law, grid).filter(|spring| spring.height.is_finite());
@@ -29,7 +29,7 @@ impl LoadedSpring {
     }
 }
 
-/// Word for the state of a contact: that of its code in `trace.csv`.
+/// Returns the word for a contact state in `trace.csv`.
 pub fn contact_word(state: ContactState) -> &'static str {
     match state {
         ContactState::Open => "open",

@@ -1,4 +1,4 @@
-//! The contact that is asked about.
+//! Selection of the contact to be solved.
 
 use crate::job::Job;
 use std::io;
@@ -6,77 +6,77 @@ use stickslip_contact::{FirstLoadingError, Interface, NormalGiven};
 use stickslip_scenario::{ScenarioError, suggestion};
 use thiserror::Error;
 
-/// A contact of a job, by itself.
+/// One contact of a job.
 #[derive(Clone)]
 pub struct Subject<'a> {
-    /// The scenario.
+    /// Job with the scenario.
     pub job: &'a Job,
-    /// Its name.
+    /// Name of the contact.
     pub name: &'a str,
-    /// Its constants: those of one of its identical members.
+    /// Contact law of one of the identical contacts.
     pub law: &'a Interface,
-    /// Indentation at t = 0, m; negative: open.
+    /// Indentation at t = 0, m. Negative if the contact is open.
     pub start: f64,
-    /// Names of its materials.
+    /// Names of the materials.
     pub materials: [String; 2],
-    /// Word for its profile.
+    /// Type of the profile.
     pub profile: String,
 }
 
-/// Why there is no answer.
+/// Error in the solution of a contact.
 #[derive(Debug, Error)]
 pub enum TheoryError {
-    /// A scenario without contacts.
+    /// The scenario has no contacts.
     #[error("{0}: the scenario has no contacts")]
     NoContacts(String),
-    /// A name that no contact has.
+    /// No contact has the given name.
     #[error("--contact {asked}  there is no contact \"{}\"{help}", .asked.escape_debug())]
     Unknown {
-        /// The name.
+        /// Given name.
         asked: String,
-        /// What was meant, perhaps; on a line of its own.
+        /// Suggestion, on a line of its own.
         help: String,
     },
-    /// More than one contact and no name.
-    #[error("{file}: expected --contact, for the scenario has {count}\n   help: name one of them: {names}")]
+    /// The scenario has several contacts, and no name was given.
+    #[error("{file}: expected --contact, because the scenario has {count}\n   help: contacts: {names}")]
     Several {
         /// Name of the scenario.
         file: String,
-        /// How many.
+        /// Number of contacts.
         count: usize,
-        /// Their names.
+        /// Names of the contacts.
         names: String,
     },
-    /// No first loading fits.
+    /// The first loading is impossible.
     #[error("{option}{error}", option = option(.0), error = .0)]
     Loading(FirstLoadingError),
-    /// A corner of a history that cannot be reached.
+    /// A corner of the history cannot be reached.
     #[error("corner {corner} of the history: {source}")]
     Corner {
-        /// Which, from 1.
+        /// Number of the corner, from 1.
         corner: usize,
-        /// Why.
+        /// Reason.
         source: FirstLoadingError,
     },
-    /// A history that is none.
+    /// The history is invalid.
     #[error("--history  {0}")]
     History(String),
-    /// A table of a history.
+    /// The table of the history cannot be read.
     #[error(transparent)]
     Table(#[from] ScenarioError),
-    /// The files.
+    /// The files cannot be written.
     #[error("{path}: the results cannot be written: {words}")]
     Write {
-        /// Where to.
+        /// Path of the folder.
         path: String,
-        /// What the system says.
+        /// Message of the operating system.
         words: String,
-        /// The same.
+        /// Error of the operating system.
         source: io::Error,
     },
 }
 
-/// What asked for it, as the options of the program are named.
+/// Returns the command line option whose value caused the error.
 fn option(error: &FirstLoadingError) -> &'static str {
     match error {
         FirstLoadingError::Indentation(_) => "--indentation  ",
@@ -96,10 +96,10 @@ impl From<FirstLoadingError> for TheoryError {
 }
 
 impl<'a> Subject<'a> {
-    /// The contact of a name, or the only one.
+    /// Returns the contact with the given name, or the only contact.
     ///
     /// # Errors
-    /// No contact, none of that name, or several and no name.
+    /// There is no contact, none with that name, or several and no name.
     pub fn find(job: &'a Job, name: Option<&str>) -> Result<Self, TheoryError> {
         let contacts = &job.scenario.scene.contacts;
         let place = match (name, contacts.len()) {
@@ -132,12 +132,12 @@ impl<'a> Subject<'a> {
         })
     }
 
-    /// What presses it unless something else is asked for: the scenario's indentation at t = 0.
+    /// Returns the default normal value: the indentation of the scenario at t = 0.
     pub fn pressed(&self) -> NormalGiven {
         NormalGiven::Indentation(self.start)
     }
 
-    /// Formulas of f(r) and g(x), by the name of the profile; none of a profile that is given by numbers.
+    /// Returns the formulas of f(r) and g(x) for the type of the profile, or `None` for a profile given by numbers.
     pub fn formulas(&self) -> Option<[&'static str; 2]> {
         Some(match self.profile.as_str() {
             "flat" => ["0, r < b", "0, x < b"],

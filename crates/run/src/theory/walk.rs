@@ -1,4 +1,4 @@
-//! A contact led along a history.
+//! Solution of a contact along a load history.
 
 use super::history::History;
 use super::loading::worked;
@@ -14,59 +14,59 @@ use stickslip_measure::Warning;
 use stickslip_quantity::Real;
 use stickslip_quantity::quantity;
 
-/// Displacement in contact radii from which on a unit was forgotten: strokes of fretting in gross slip are a few of them.
+/// Displacement in contact radii above which a forgotten unit is likely.
 const FAR: f64 = 100.0;
-/// Rows of a leg.
+/// Rows per section between two corners.
 const ROWS: usize = 64;
-/// Steps of a leg in the map of friction work.
+/// Steps per section for the friction work per area.
 const STEPS: usize = 24;
-/// Radii of the fields, out to [`BEYOND`] of the largest contact.
+/// Number of radii of the fields, up to [`BEYOND`] times the largest contact radius.
 const RADII: usize = 241;
-/// Radii of the map of friction work.
+/// Number of radii for the friction work per area.
 const MAP_RADII: usize = 81;
-/// A value below this share of the largest on the way is rounding.
+/// A value below this fraction of the largest one of the history is rounding.
 const ROUNDING: f64 = 1e-12;
-/// A stick radius that misses the contact radius by less than this share of it is all of it.
+/// Relative difference of stick radius and contact radius below which both are equal.
 const AT_EDGE: f64 = 1e-9;
-/// Frames of a leg, and legs that have any: the last ones.
+/// Frames of the animation per section, and number of last sections with frames.
 const FRAMES: usize = 12;
 const FRAMED: usize = 5;
-/// Springs of the row, out to as much.
+/// Number of springs of the row, with the same extent as the fields.
 const SPRINGS: usize = 121;
 
-/// What happened on the way.
+/// Solution along a load history.
 #[derive(Debug, Clone)]
 pub struct Walk {
-    /// From the start to the last corner, so many between two corners.
+    /// Points from the start to the last corner, a fixed number per section.
     pub stops: Vec<Stop>,
-    /// The start and the corners.
+    /// Start and corners.
     pub moments: Vec<Moment>,
-    /// The springs on the last legs, step by step, where they were asked for.
+    /// States of the springs in the last sections for an animation. Empty unless requested.
     pub frames: Vec<Frame>,
-    /// Where friction did its work; none for a list of springs.
+    /// Friction work per area. `None` for lists of springs.
     pub friction: Option<FrictionCourse>,
-    /// Largest indentation on the way, m.
+    /// Largest indentation of the history, m.
     pub deepest: f64,
 }
 
-/// A place on the way.
+/// Point of the history.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Stop {
-    /// Number of the corner that the leg leads to; 0 at the start.
+    /// Number of the corner at the end of the section, 0 for the start.
     pub corner: usize,
-    /// Share of the leg behind.
+    /// Completed fraction of the section.
     pub share: f64,
-    /// Where the contact stands.
+    /// Indentation and displacement.
     pub apex: Apex,
     /// Normal force, N.
     pub normal_force: f64,
-    /// `F_x`, N.
+    /// Tangential force, N.
     pub force: f64,
     /// Contact radius, m.
     pub a: f64,
-    /// Radius inside which no spring is at its limit, m.
+    /// Stick radius, m.
     pub c: f64,
-    /// State of the whole contact.
+    /// State of the contact.
     pub state: ContactState,
     /// Elastic energy of the tangential deformation, J.
     pub elastic: f64,
@@ -74,57 +74,57 @@ pub struct Stop {
     pub friction: f64,
 }
 
-/// A contact at a corner.
+/// State of a contact at a corner.
 #[derive(Debug, Clone)]
 pub struct Moment {
-    /// Its last stop.
+    /// Forces, radii and energies.
     pub stop: Stop,
-    /// Fields from the centre outwards; none for a list of springs.
+    /// Fields from the centre outwards. Empty for lists of springs.
     pub fields: Vec<Field>,
-    /// Its rings.
+    /// Rings of stick and slip.
     pub zones: Vec<Zone>,
-    /// The row of springs.
+    /// Row of springs.
     pub springs: Vec<LoadedSpring>,
-    /// Corners (h, p) of the memory curve, m, from the centre to the edge; none while open.
+    /// Corners (h, p) of the memory curve, m, from the centre to the edge. Empty while the contact is open.
     pub knots: Vec<(f64, f64)>,
 }
 
-/// The springs of a contact on the way.
+/// Springs of a contact at a point of the history.
 #[derive(Debug, Clone)]
 pub struct Frame {
-    /// Where the contact stands.
+    /// Point of the history.
     pub stop: Stop,
-    /// The row of springs.
+    /// Row of springs.
     pub springs: Vec<LoadedSpring>,
 }
 
-/// Friction work by place, along the way.
+/// Friction work per area along the history.
 #[derive(Debug, Clone)]
 pub struct FrictionCourse {
     /// Distances from the axis, m.
     pub radii: Vec<f64>,
-    /// So many in each leg.
+    /// Points of the history, a fixed number per section.
     pub steps: Vec<FrictionStep>,
 }
 
-/// Friction work by place, so far.
+/// Friction work per area up to a point of the history.
 #[derive(Debug, Clone)]
 pub struct FrictionStep {
-    /// Number of the corner that the leg leads to.
+    /// Number of the corner at the end of the section.
     pub corner: usize,
-    /// Share of the leg behind.
+    /// Completed fraction of the section.
     pub share: f64,
-    /// Friction work per area, J/m².
+    /// Friction work per area at each radius, J/m².
     pub work: Vec<f64>,
-    /// Way that the surfaces have slid over each other, m.
+    /// Slip path at each radius, m.
     pub way: Vec<f64>,
 }
 
 impl Walk {
-    /// Leads a contact that is pressed so, and was never pushed, along a history; with frames for those who animate them.
+    /// Computes a contact along a history from a given normal value. `has_frames` adds the states for an animation.
     ///
     /// # Errors
-    /// A corner that cannot be reached, or more springs at more corners than fit in the memory.
+    /// A corner cannot be reached, or the springs at all corners exceed the memory limit.
     pub fn of(
         subject: &Subject<'_>,
         normal: NormalGiven,
@@ -166,7 +166,7 @@ impl Walk {
             }
             let done = memory.commit(law, Segment::Straight(pair[1]));
             friction += done.map_err(|_| refused(corner, FirstLoadingError::Displacement(pair[1].u)))?;
-            // As committed: a preview knows no state of a move that is none.
+            // A preview of a path of length 0 has no state.
             let stop = Stop::at(law, &memory, pair[1], (corner, 1.0, friction));
             if let Some(last) = stops.last_mut() {
                 *last = stop;
@@ -179,9 +179,9 @@ impl Walk {
 }
 
 impl Walk {
-    /// What is said of a history that leads farther than a contact is wide: its bodies would have left each other.
+    /// Returns a warning if a displacement is much larger than the contact, so that a unit may be missing.
     pub fn warning(&self, law: &Interface) -> Option<Warning> {
-        // Of several the first.
+        // The first one of several.
         let stops = self.moments.iter().rev().map(|moment| moment.stop);
         let farthest = stops.max_by(|a, b| a.apex.u.abs().total_cmp(&b.apex.u.abs()))?;
         let (way, radius) = (farthest.apex.u.abs(), law.profile().radius(self.deepest));
@@ -190,17 +190,17 @@ impl Walk {
         }
         let (times, [way, radius]) = (way / radius, [way, radius].map(|length| quantity(Real(length), "m")));
         let message = format!(
-            "corner {} of the history is at a displacement of {way}, {times:.0} contact radii of {radius}, beyond {FAR}: no contact \
-             goes so far in one place",
+            "corner {} of the history is at a displacement of {way}, {times:.0} contact radii of {radius}: \
+             the limit of a plausible displacement is {FAR}",
             farthest.corner
         );
         Some(
             Warning::new("displacement", message)
-                .help("a bare number is in m: twenty micrometres are \"20 um\""),
+                .help("a number without a unit is in m; for twenty micrometres write \"20 um\""),
         )
     }
 
-    /// A quantity of a stop as people are told it: 0 where it is rounding beside the largest on the way.
+    /// Returns a quantity of a point for output: 0 if it is only rounding compared with the largest one of the history.
     pub fn told(&self, stop: &Stop, of: fn(&Stop) -> f64) -> f64 {
         let largest = self.stops.iter().map(|stop| of(stop).abs()).fold(0.0, f64::max);
         let value = of(stop);
@@ -208,17 +208,18 @@ impl Walk {
     }
 }
 
-/// So many places from 0 to an end, m.
+/// Returns equidistant values from 0 to `end`, m.
 fn grid(end: f64, count: usize) -> Vec<f64> {
     (0..count).map(|k| end * k as f64 / (count - 1) as f64).collect()
 }
 
-/// Middles of so many rings up to a radius, m: neither the tip nor the edge, where pressures may have no bound, is one.
+/// Returns the mid radii of `count` rings up to a radius, m. They exclude the centre and the edge, where pressures may
+/// be infinite.
 fn rings(radius: f64, count: usize) -> Vec<f64> {
     (0..count).map(|k| radius * (k as f64 + 0.5) / count as f64).collect()
 }
 
-/// A point of a leg.
+/// Returns the point at a fraction of a section.
 fn between(from: Apex, to: Apex, share: f64) -> Apex {
     if share == 1.0 {
         return to;
@@ -226,7 +227,7 @@ fn between(from: Apex, to: Apex, share: f64) -> Apex {
     Apex { d: from.d + (to.d - from.d) * share, u: from.u + (to.u - from.u) * share }
 }
 
-/// The springs at stops of a leg, on a memory of their own.
+/// Computes the springs at points of a section, on a copy of the memory.
 fn framed(
     law: &Interface,
     memory: &Memory,
@@ -235,14 +236,14 @@ fn framed(
 ) -> Vec<Frame> {
     let mut memory = memory.clone();
     let frame = |stop: Stop| {
-        // The leg itself is committed after this, and says what is wrong with it.
+        // The caller commits the section afterwards and reports errors.
         memory.commit(law, Segment::Straight(stop.apex)).ok()?;
         Some(Frame { stop, springs: LoadedSpring::of(law, &memory, row?) })
     };
     stops.filter_map(frame).collect()
 }
 
-/// Follows a leg in steps, on a memory of its own.
+/// Follows a section in steps, on a copy of the memory, and passes the friction work after each step to `told`.
 fn follow(
     law: &Interface,
     memory: &Memory,
@@ -255,7 +256,7 @@ fn follow(
         let share = step as f64 / STEPS as f64;
         let segment = Segment::Straight(between(leg[0], leg[1], share));
         map.follow(law, &memory, segment);
-        // The leg itself is committed after this, and says what is wrong with it.
+        // The caller commits the section afterwards and reports errors.
         if memory.commit(law, segment).is_err() {
             return;
         }
@@ -264,7 +265,8 @@ fn follow(
 }
 
 impl Stop {
-    /// Where a chord from the memory leads; `friction` (J) is the work before it.
+    /// Computes the point at the end of a straight path from the memory. `friction` (J) is the friction work before
+    /// this path.
     fn at(
         law: &Interface,
         memory: &Memory,
@@ -273,7 +275,7 @@ impl Stop {
     ) -> Self {
         let outcome = memory.preview(law, apex);
         let a = law.profile().radius(apex.d);
-        // Where springs that slipped are about to lose their contact, rounding leaves some of them.
+        // Springs that slipped and are about to lift off may remain by rounding.
         let sticks = outcome.state == ContactState::Partial && outcome.stick_radius >= (1.0 - AT_EDGE) * a;
         Self {
             corner,
@@ -319,8 +321,8 @@ mod tests {
     use crate::job::Job;
     use stickslip_scenario::Scenario;
 
-    /// Pulled, and relieved of nearly all its load together with its force: it ends without either, at u = 0. Forces and places of 1e-17
-    /// were told, and partial slip of a contact that sticks out to its edge.
+    /// After a history that ends without force at u = 0, force and displacement are exactly 0. A contact that sticks up
+    /// to its edge is in full stick.
     #[test]
     fn rounding_is_no_value_and_no_slip() {
         let text = include_str!("../../../../scenarios/fretting_sphere.json");

@@ -1,4 +1,4 @@
-//! What was found of a contact as files, published together.
+//! Output files of the solution of a contact.
 
 use super::state::contact_word;
 use super::{Sheet as Constants, Walk};
@@ -11,9 +11,9 @@ use serde::Serialize;
 use std::io;
 use stickslip_quantity::{Columns, Real, columns};
 
-/// All numbers; written last, with rows and SHA-256 of every table.
+/// File with all numbers. It is written last and has row counts and SHA-256 of the tables.
 pub const CONTACT: &str = "contact.json";
-/// The tables; `contact: history.csv` is written as `history.csv`.
+/// Tables. `contact: history.csv` is written as `history.csv`.
 pub const TABLES: [Columns; 6] = [
     columns::CONTACT_HISTORY,
     columns::CONTACT_FIELDS,
@@ -22,29 +22,29 @@ pub const TABLES: [Columns; 6] = [
     columns::CONTACT_NORMAL,
     columns::CONTACT_UNIVERSAL,
 ];
-/// Numbers and words of a line of a spring.
+/// Number of columns of `line.csv`.
 pub(crate) const LINE_WIDTH: usize = columns::CONTACT_LINE.names.len();
 
-/// Names of the files of the tables.
+/// Returns the file names of the tables.
 pub fn table_files() -> [&'static str; 6] {
     TABLES.map(|table| table.file.trim_start_matches("contact: "))
 }
 
-/// What goes beside the tables.
+/// Files and notes in addition to the tables.
 #[derive(Debug, Default)]
 pub struct Beside<'a> {
-    /// Names and bytes of pictures.
+    /// Names and contents of plots.
     pub pictures: &'a [(String, Vec<u8>)],
-    /// Names of files of before that go.
+    /// Names of files of an earlier call that are deleted.
     pub stale: Vec<String>,
-    /// What is to be known of the rest.
+    /// Notes for `contact.json`.
     pub notes: Vec<String>,
 }
 
-/// Fills a table.
+/// Function that fills a table.
 type Fill<'a> = &'a dyn Fn(&mut Sheet);
 
-/// All numbers, as `contact.json` has them; without what is empty.
+/// All numbers in `contact.json`. Empty parts are absent.
 #[derive(Serialize, JsonSchema)]
 pub(super) struct Report<'a> {
     #[serde(flatten)]
@@ -53,61 +53,61 @@ pub(super) struct Report<'a> {
     corners: Vec<CornerReport>,
     #[serde(skip_serializing_if = "Vec::is_empty")]
     tables: Vec<TableReport>,
-    /// files beside contact.json
+    /// names of the files in the same folder
     #[serde(skip_serializing_if = "Vec::is_empty")]
     files: Vec<String>,
-    /// what is missing, and why
+    /// missing results with the reason
     #[serde(skip_serializing_if = "Vec::is_empty")]
     notes: Vec<String>,
 }
 
 #[derive(Serialize, JsonSchema)]
 struct CornerReport {
-    /// d, at a corner of the history; the first is where it begins
+    /// d, indentation at a corner of the history. The first entry is the start.
     #[serde(rename = "indentation_m")]
     d: Real,
-    /// u, at it
+    /// u, tangential displacement at the corner of the history
     #[serde(rename = "displacement_m")]
     u: Real,
-    /// F_N, at it
+    /// F_N, normal force at the corner of the history
     #[serde(rename = "normal_force_N")]
     normal_force: Real,
-    /// F_x, at it
+    /// F_x, tangential force at the corner of the history
     #[serde(rename = "tangential_force_N")]
     force: Real,
-    /// a, at it
+    /// a, contact radius at the corner of the history
     #[serde(rename = "contact_radius_m")]
     a: Real,
-    /// c, at it: within it no spring slips
+    /// c, stick radius at the corner of the history: springs within it do not slip
     #[serde(rename = "stick_radius_m")]
     c: Real,
-    /// `open`, `stick`, `partial` or `slip`, at it
+    /// state of the contact at the corner of the history: `open`, `stick`, `partial` or `slip`
     state: &'static str,
-    /// elastic energy of the tangential deformation, at it
+    /// elastic energy of the tangential deformation at the corner of the history
     #[serde(rename = "tangential_energy_J")]
     elastic: Real,
-    /// friction work since the history began (4.40)
+    /// friction work from the start of the history to the corner (4.40)
     #[serde(rename = "friction_work_J")]
     friction: Real,
 }
 
 #[derive(Serialize, JsonSchema)]
 struct TableReport {
-    /// a table beside contact.json
+    /// name of a table in the same folder
     name: &'static str,
-    /// its lines, without its head
+    /// number of rows of the table, without the header
     rows: u64,
-    /// its SHA-256
+    /// SHA-256 of the table
     sha256: String,
 }
 
-/// All numbers on one line of JSON; the curves only where there is no history.
+/// Returns all numbers in one line of JSON. The curves are included only without a history.
 pub fn json(constants: &Constants, walk: Option<&Walk>) -> String {
     let (constants, corners) = match walk {
         Some(walk) => (&constants.without_curves(), corners(walk)),
         None => (constants, Vec::new()),
     };
-    // Numbers and strings only: there is nothing that JSON could refuse.
+    // Numbers and strings only: serialisation cannot fail.
     let report = Report { constants, corners, tables: Vec::new(), files: Vec::new(), notes: Vec::new() };
     serde_json::to_string(&report).unwrap_or_default()
 }
@@ -116,11 +116,12 @@ fn corners(walk: &Walk) -> Vec<CornerReport> {
     walk.moments.iter().map(|moment| CornerReport::of(&moment.stop)).collect()
 }
 
-/// Writes the tables, `contact.json` and the pictures given into a folder; files of before that are not among them go.
-/// Returns the names.
+/// Writes the tables, the plots and `contact.json` into a folder. Deletes files of an earlier call that are not among
+/// them. Returns the names.
 ///
 /// # Errors
-/// What the system says; nothing that was there is gone then, unless it says so while names are given.
+/// Error of the operating system. Existing files remain, unless the error occurs while the new files receive their
+/// names.
 pub fn write(
     mut folder: Folder,
     constants: &Constants,
@@ -144,7 +145,7 @@ pub fn write(
             return Err(failure);
         }
         let Seal { rows, sha256 } = written.seal;
-        // What a contact does not have, such as the fields of a list of springs, leaves no file.
+        // Empty tables, such as the fields of a list of springs, are not written.
         if rows > 0 {
             folder.stage(name, written.file)?;
             reports.push(TableReport { name, rows, sha256 });

@@ -1,15 +1,13 @@
-//! Scenes whose events accumulate: they used to stop or to hang, and fixed steps run them through.
+//! Models whose events accumulate in time. They must run to their end and agree with fixed time steps.
 //!
-//! * `ball_at_rest`: a ball set down without anything but its weight. Where it turns, its contact neither slides nor sticks: the
-//!   same reversal fired for ever at one moment.
-//! * `lift_off_and_touch`: a flat foot that opens and closes in the last bit of time.
-//! * `flat_damped`: a damped contact dragged back under a falling load, along the line on which stick and slip take turns.
-//! * `back_and_forth`: the apex of a shrinking contact goes across its old curve and back twice within a hundredth of a period. The
-//!   second time was not seen in every other period, 3e-4 u_c at any tolerance.
-//! * `hang`: a touch at t = 1e-20 s, after which steps of 1e-28 s followed one another.
-//! * `behind_a_driver`, `rests_behind_a_driver`: the same as elsewhere, but with a driver on the stack: no detour was tried then.
-//! * `walk_damped_heights`: nothing is free, and a flyback of a nanosecond; steps fell to last places of t where damped springs slip.
-//! * `walk_overloaded`: a load that outgrows friction, at a tolerance near rounding: a step too small was told.
+//! * `ball_at_rest`: a ball placed on the ground with its weight only. At a reversal its contact neither slips nor sticks.
+//! * `lift_off_and_touch`: a flat foot that opens and closes within the last bit of time.
+//! * `flat_damped`: a damped contact moved back under a decreasing load, at the boundary between stick and slip.
+//! * `back_and_forth`: a shrinking contact whose state crosses its old memory curve twice within a hundredth of a period.
+//! * `hang`: a touch at t = 1e-20 s.
+//! * `behind_a_driver`, `rests_behind_a_driver`: similar models with a driver on the stack.
+//! * `walk_damped_heights`: prescribed motion of damped springs with a flyback of a nanosecond.
+//! * `walk_overloaded`: a load that exceeds the friction limit, at a tolerance near rounding.
 
 use std::path::Path;
 use stickslip_drive::{RunError, State};
@@ -29,7 +27,7 @@ fn event(name: &str, tolerance: f64) -> (Job, Outcome) {
     (job, outcome)
 }
 
-/// Places of all bodies along x and z at the end, in natural displacements of the first contact.
+/// Returns the final positions of all bodies along x and z, relative to the natural displacement of the first contact.
 fn places(job: &Job, state: &State) -> Vec<f64> {
     use stickslip_drive::scene::Axis;
     let unit = job.model.contact_natural(0).unwrap().displacement;
@@ -42,8 +40,9 @@ fn off(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).fold(0.0, |most, (a, b)| f64::max(most, (a - b).abs()))
 }
 
-/// Against classical Runge–Kutta at two steps, whose difference is its own error. Nothing in these scenes makes more of a change than it was:
-/// where the local errors of all steps and events add up there is a tolerance for each, and never more than so many `within`.
+/// Compares with the classical Runge–Kutta method at two time steps, whose difference estimates its error.
+///
+/// The deviation must be below `within` tolerances.
 fn against_fixed_steps(name: &str, steps: [&str; 2], tolerances: &[f64], within: f64) {
     let fixed = steps.map(|step| {
         let job = job(name, &format!(r#"{{"rk4": {{"step": "{step}"}}}}"#));
@@ -64,7 +63,7 @@ fn against_fixed_steps(name: &str, steps: [&str; 2], tolerances: &[f64], within:
 
 #[test]
 fn a_ball_set_down_under_its_weight_alone_goes_on() {
-    // It bounces 30 nm deep, which is four of its u_c.
+    // It bounces to an indentation of 30 nm, four times its u_c.
     against_fixed_steps("ball_at_rest", ["40 ns", "20 ns"], &[1e-4, 1e-6, 1e-8, 1e-10, 1e-12], 1e3);
 }
 
@@ -73,13 +72,13 @@ fn a_foot_that_opens_in_the_last_bit_of_time_is_open() {
     against_fixed_steps("lift_off_and_touch", ["40 ns", "20 ns"], &[1e-4, 1e-6, 1e-8, 1e-10, 1e-12], 1e3);
 }
 
-/// Stick and slip take turns along the line: detours take what they come to on average.
+/// Stick and slip alternate at the boundary. The detour steps use the average motion.
 #[test]
 fn a_damped_contact_slides_along_the_line_between_stick_and_slip() {
     against_fixed_steps("flat_damped", ["20 ns", "10 ns"], &[1e-3, 1e-4, 1e-6, 1e-8, 1e-10], 100.0);
 }
 
-/// Both edges of a contact stand still where its ball turns: one event, and not two that chase each other.
+/// Both edges of the stick area are at rest where the ball reverses. This is one event, not two alternating ones.
 #[test]
 fn events_of_one_moment_are_one() {
     for tolerance in [1e-4, 1e-6, 1e-8, 1e-10, 1e-12] {
@@ -103,14 +102,14 @@ fn a_touch_at_the_very_start_does_not_hang() {
     against_fixed_steps("hang", ["10 ns", "5 ns"], &[1e-6, 1e-8, 1e-10, 1e-12], 100.0);
 }
 
-/// At 1e-6 the old curve is too coarse to be crossed twice: it is kept in straight pieces.
+/// At 1e-6 the old memory curve is too coarse to be crossed twice, because it consists of straight segments.
 #[test]
 fn an_apex_that_crosses_its_old_curve_back_and_forth_is_seen() {
     against_fixed_steps("back_and_forth", ["200 ns", "100 ns"], &[1e-7, 1e-8, 1e-10, 1e-12], 100.0);
 }
 
-/// Behind a driver whose voltage is off where steps are cut stick and slip push each other back, and took a detour or two at each of these
-/// tolerances. Where it belongs five of six masses 2e-15 apart take one at 1e-5 or 1e-6, and none at the others.
+/// A driver must not cause detours at these tolerances. Without one, five of six masses that differ by 2e-15 need one detour at 1e-5 or
+/// 1e-6.
 #[test]
 fn a_scene_with_a_driver_needs_no_detours() {
     let places_at = |tolerance: f64| {

@@ -1,30 +1,29 @@
-//! A run that a caller holds allocates nothing once it goes: not per step, not per frame, by any stepper, also where it was
-//! taken up from bytes.
+//! A run that a caller advances allocates no memory, per time step or per frame, for all integrators, also after a restart from bytes.
 //!
-//! The exception told of in [`Run`]: a memory that grows deeper than it ever was makes itself room. It starts with room for
-//! 256 knots, copied or restored as well; of these drives the stage alone needs more, and doubles it a few times.
+//! Exception, described in [`Run`]: a slip memory that becomes deeper than before allocates memory. It starts with a capacity of 256 knots.
+//! Of these drives only the stage needs more.
 
 use crate::shared::{Stage, frames, rk4, verlet};
 use stickslip_contact::Memory;
 use stickslip_drive::{Event, Plan, Record, Run, State, Stepper, UntilSteady};
 
-/// Drives with the period of their waveforms, s.
+/// Drives with the periods of their waveforms, s.
 const DRIVES: [(&str, f64); 4] = [
     ("p1.json", 1e-3),
     ("piezo_stack.json", 1e-3),
     ("three_ball_stage.json", 2e-3),
     ("walking_drive.json", 2e-3),
 ];
-/// Lengths of frames, s; the last is several periods.
+/// Frame lengths, s; the last one is several periods.
 const FRAMES: [f64; 4] = [20e-6, 3.7e-6, 91.3e-6, 5e-3];
-/// Periods before anything is counted, and counted ones of each frame.
+/// Numbers of periods before and during the counting.
 const WARM: f64 = 3.0;
 const COUNTED: f64 = 3.0;
-/// Room of a memory at the start, knots.
+/// Initial capacity of a slip memory, in knots.
 const ROOM: usize = 256;
-/// Bytes of a knot.
+/// Size of a knot, in bytes.
 const KNOT: usize = 72;
-/// How often a memory can double its room: it keeps 16 384 knots at most.
+/// Maximum number of doublings of the capacity, whose maximum is 16 384 knots.
 const DOUBLINGS: u64 = 6;
 
 fn steppers(stage: &Stage) -> Vec<Stepper> {
@@ -33,7 +32,7 @@ fn steppers(stage: &Stage) -> Vec<Stepper> {
     located.into_iter().chain(fixed).chain([frames(20e-6)]).collect()
 }
 
-/// Most knots that a memory has.
+/// Returns the largest number of knots of a slip memory.
 fn depth(state: &State) -> usize {
     let knots = |memory: &Memory| match memory {
         Memory::Curve(curve) => curve.knot_count(),
@@ -42,7 +41,7 @@ fn depth(state: &State) -> usize {
     state.memories().iter().map(knots).max().unwrap_or(0)
 }
 
-/// Counts what is written, without keeping it.
+/// A record that counts rows and events.
 #[derive(Default)]
 struct Written {
     rows: u64,
@@ -59,18 +58,18 @@ impl Record for Written {
     }
 }
 
-/// What was allocated after a warm-up.
+/// Allocations after a warm-up.
 #[derive(Debug, Default)]
 struct Allocated {
-    /// Not by a memory.
+    /// Not by slip memories.
     plain: u64,
-    /// By memories that grew deeper than they ever were.
+    /// By slip memories that became deeper than before.
     deeper: u64,
-    /// Most knots at the end of a frame.
+    /// Largest number of knots at the end of a frame.
     deepest: usize,
 }
 
-/// Allocations of frames after a warm-up.
+/// Returns the allocations of frames after a warm-up.
 fn counted(run: &mut Run<'_>, period: f64, row: &mut Vec<f64>) -> Allocated {
     let (mut allocated, mut written) = (Allocated::default(), Written::default());
     let mut advance = |run: &mut Run<'_>, until: f64, counts: bool| {
@@ -79,7 +78,7 @@ fn counted(run: &mut Run<'_>, period: f64, row: &mut Vec<f64>) -> Allocated {
             run.row(row);
         });
         if counts && info.count_total > 0 {
-            // A memory that was deeper within the frame is known by the size of what it takes: twice the room, or more.
+            // A temporary growth within the frame is recognised by the size of the allocation: at least twice the capacity.
             let is_deeper = info.bytes_total >= info.count_total * (2 * ROOM * KNOT) as u64;
             let book = if is_deeper { &mut allocated.deeper } else { &mut allocated.plain };
             *book += info.count_total;
@@ -122,11 +121,11 @@ fn frames_and_steps_allocate_nothing() {
     }
 }
 
-/// Nor where a run looks at the end of each period whether the steps of the drive are constant.
+/// Checking for constant steps at each period end allocates no memory.
 #[test]
 fn looking_for_constant_steps_allocates_nothing() {
     let (stage, period) = (Stage::example("p1.json"), 1e-3);
-    // Never constant enough: the run looks at every period.
+    // The limit is never reached, so every period end is checked.
     let until_steady = Some(UntilSteady { waveform: 0, body: 1, change: 1e-300 });
     for stepper in steppers(&stage) {
         let plan = Plan { every: Some(7e-6), until_steady, ..stage.plan(stepper, 1.0) };

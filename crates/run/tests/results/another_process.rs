@@ -1,9 +1,8 @@
-//! A run that was put down is taken up in another process and comes to the same bits: state, rows, events and, where it stops
-//! itself, the error.
+//! A run that is saved and continued in another process gives identical states, rows, events and errors.
 //!
-//! Examples and variants of them at random, by all steppers that can be held, put down at drawn moments, in frames, or after
-//! a drawn number of steps; against the run that was never put down. The other process is this program, started anew: it
-//! reads scenario and bytes from files and shares nothing else. `STICKSLIP_PAIRS` says how many.
+//! Random variants of the examples are saved at random times, in frames or between time steps, with all supported integrators. They are
+//! compared with uninterrupted runs. The other process is this program, started again. It reads only the scenario and the bytes from files.
+//! `STICKSLIP_PAIRS` is the number of pairs.
 
 use crate::shared::{Lottery, Stage, drawn, example, frames, rk4, scenarios, verlet};
 use serde::{Deserialize, Serialize};
@@ -14,17 +13,17 @@ use std::time::Instant;
 use stickslip_drive::{Limits, Method, Plan, Run, RunError, State, Stepper, Trace};
 use stickslip_scenario::Scenario;
 
-/// Names the folder of what was put down; without it the other process has nothing to do.
+/// Environment variable with the folder of the saved runs. The other process needs it.
 const FOLDER: &str = "STICKSLIP_PUT_DOWN";
-/// Pairs of a scenario and a moment, unless told otherwise.
+/// Default number of pairs of a scenario and a time.
 const PAIRS: usize = 300;
-/// Latest moment, and how far the run goes on from it at most, in parts of the scenario's duration: a period or two.
+/// Latest time of saving, and longest continuation, relative to the duration of the scenario.
 const LATEST: f64 = 0.2;
 const BEYOND: f64 = 0.1;
-/// Guards; a run that comes to them is as good as any.
+/// Limits of a run. Reaching them is no failure.
 const LIMITS: Limits = Limits { steps: 20_000, events: 5_000, wall: None };
 
-/// All that the other process is told besides the bytes.
+/// Data for the other process, in addition to the bytes.
 #[derive(Debug, Serialize, Deserialize)]
 struct Pair {
     file: String,
@@ -50,7 +49,7 @@ impl Pair {
     }
 }
 
-/// What a run came to: its error, its state, rows and events after the first so many.
+/// Returns the results of a run: its error, its state, and its rows and events after given numbers of them.
 fn told(
     outcome: &Result<(), RunError>,
     bytes: &[u8],
@@ -69,13 +68,13 @@ fn told(
     told
 }
 
-/// A run that stands somewhere, and what the one that is never put down comes to from there.
+/// A saved run with the results of its uninterrupted continuation.
 struct PutDown {
     state: State,
     comes_to: Vec<u8>,
 }
 
-/// Stands at a moment, to which several advances have led, and goes on itself.
+/// Saves a run at a random time after several calls of `advance`.
 fn at_a_moment(stage: &Stage, plan: &Plan, lottery: &mut Lottery) -> Option<PutDown> {
     let model = &stage.job.model;
     let mut run = Run::new(model, plan, stage.start(plan)?).ok()?;
@@ -90,7 +89,7 @@ fn at_a_moment(stage: &Stage, plan: &Plan, lottery: &mut Lottery) -> Option<PutD
     Some(PutDown { state, comes_to: told(&outcome, &bytes, &trace, (0, 0)) })
 }
 
-/// Stands between two steps of any kind, accepted or rejected; the whole run is another one.
+/// Saves a run between two time steps, accepted or rejected.
 fn after_steps(stage: &Stage, plan: &Plan, lottery: &mut Lottery) -> Option<PutDown> {
     let (model, start) = (&stage.job.model, stage.start(plan)?);
     let mut whole = Run::new(model, plan, start.clone()).ok()?;
@@ -109,13 +108,13 @@ fn after_steps(stage: &Stage, plan: &Plan, lottery: &mut Lottery) -> Option<PutD
     Some(PutDown { state: first.into_state(), comes_to: told(&outcome, &bytes, &trace, written) })
 }
 
-/// A variant of an example with an engine, a stepper and an end; none where it makes no scene.
+/// Returns a random variant of an example. Returns `None` if it is invalid.
 fn draw(files: &[std::path::PathBuf], lottery: &mut Lottery) -> Option<(Pair, Stage)> {
     let file = &files[lottery.draw(files.len())];
     let base = Scenario::load(file).unwrap();
     let mut set = if lottery.draw(2) == 0 { Vec::new() } else { drawn(&base, lottery) };
     if lottery.draw(3) == 0 {
-        // Rows of springs have no memory curve to draw or to write down.
+        // Spring rows have no memory curve to write or draw.
         set.extend(
             [("plots", "[]"), ("output", r#"{"every":"1 s"}"#)].map(|(k, v)| (k.to_owned(), v.to_owned())),
         );
@@ -144,9 +143,9 @@ fn draw(files: &[std::path::PathBuf], lottery: &mut Lottery) -> Option<(Pair, St
     Some((pair, stage))
 }
 
-/// What kinds of states there were.
+/// Counts the kinds of states that occurred.
 fn count(kinds: &mut BTreeMap<String, usize>, pair: &Pair, stage: &Stage, state: &State) {
-    // What a run has under way is nobody's business but its own; a test may look.
+    // The internal state is read here for the test only.
     let inside = format!("{state:?}");
     let contacts = || stage.job.scenario.scene.contacts.iter().map(|contact| &contact.part);
     let walks = state.tally().steps(Method::Walk) > 0;
@@ -171,7 +170,7 @@ fn count(kinds: &mut BTreeMap<String, usize>, pair: &Pair, stage: &Stage, state:
 fn another_process_comes_to_the_same_bits() {
     let pairs = std::env::var("STICKSLIP_PAIRS").map_or(PAIRS, |pairs| pairs.parse().unwrap());
     let folder = tempfile::tempdir().unwrap();
-    // A new example draws other pairs: take a seed that draws enough of every kind asked for below.
+    // After a change of the examples, use a seed that gives enough states of every required kind.
     let (files, mut lottery, mut kinds) = (scenarios(), Lottery(0x02e4_0e60), BTreeMap::new());
     let (mut comes_to, mut told_of, began) = (Vec::new(), Vec::new(), Instant::now());
     while comes_to.len() < pairs {
@@ -216,7 +215,7 @@ fn another_process_comes_to_the_same_bits() {
     }
 }
 
-/// The other process: takes up what the first has put down.
+/// The other process: continues the saved runs.
 #[test]
 fn the_other_process() {
     let Some(folder) = std::env::var_os(FOLDER) else { return };
@@ -236,8 +235,7 @@ fn the_other_process() {
     }
 }
 
-/// What a save and a restore cost. Bytes are those of what a state holds and nothing else: eight of each number, of a contact
-/// with a row those of its springs that touch.
+/// Size and cost of saving and restoring. Each number takes eight bytes. Of a spring row, only touching springs are stored.
 #[test]
 fn a_state_is_small_and_quickly_saved() {
     let row = [("contacts.ball.engine", r#"{"springs":{"count":1000}}"#), ("plots", "[]")];

@@ -1,13 +1,13 @@
-//! Loops between rows: what is drawn of a run is what a hundred times more rows would show.
+//! Paths between rows: a drawn path agrees with one from a hundred times as many rows.
 
 use std::path::Path;
 use stickslip_run::{Job, Periods, Trail, contact_path};
 
-/// A picture's frame, px, and half the width of its lines.
+/// Size of the plot and half the line width, in pixels.
 const FRAME: (f64, f64) = (1400.0, 760.0);
 const HALF_WIDTH: f64 = 1.8;
 
-/// The last period of every contact of an example, with rows so far apart: what is drawn, and the rows alone.
+/// Returns the last period of every contact of an example, as drawn and as rows only. `every` is the row interval.
 fn loops(name: &str, every: &str) -> Vec<[Trail; 2]> {
     let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenarios").join(format!("{name}.json"));
     let set = [("run.cycles", "3"), ("output.every", every)].map(|(k, v)| (k.to_owned(), v.to_owned()));
@@ -23,7 +23,7 @@ fn loops(name: &str, every: &str) -> Vec<[Trail; 2]> {
     (0..job.model.contacts().count()).map(of).collect()
 }
 
-/// Points in pixels of the picture that holds a trail.
+/// Returns the points of a path in pixels of the plot.
 fn pixels(trail: &Trail, frame: &Trail) -> Vec<(f64, f64)> {
     let ends = |values: &[f64]| values.iter().fold((f64::MAX, f64::MIN), |(l, h), &v| (l.min(v), h.max(v)));
     let (x, y) = (ends(&frame.x), ends(&frame.y));
@@ -31,7 +31,7 @@ fn pixels(trail: &Trail, frame: &Trail) -> Vec<(f64, f64)> {
     points.map(|(u, f)| (FRAME.0 * (u - x.0) / (x.1 - x.0), FRAME.1 * (f - y.0) / (y.1 - y.0))).collect()
 }
 
-/// The farthest that a point of a trail lies from another trail as it goes on at that moment, px.
+/// Returns the largest distance of the points of a path from another path at the same time, in pixels.
 fn farthest(of: (&Trail, &[(f64, f64)]), from: (&Trail, &[(f64, f64)]), near: f64) -> f64 {
     let from_piece = |(x, y): (f64, f64), pair: &[(f64, f64)]| {
         let ((x0, y0), (x1, y1)) = (pair[0], pair[1]);
@@ -62,7 +62,7 @@ fn loops_have_no_corners_that_more_rows_would_not_show() {
         for (c, ([drawn, rows], [_, dense])) in coarse.iter().zip(&loops(name, fine)).enumerate() {
             let [line, chords, points] = [drawn, rows, dense].map(|trail| pixels(trail, dense));
             assert!(points.len() > 20_000, "{}", points.len());
-            // Either way: nothing is missed, and nothing is made up.
+            // In both directions: no part is missing and none is invented.
             let missed = farthest((dense, &points), (drawn, &line), every / 2.0);
             let made_up = farthest((drawn, &line), (dense, &points), every / 2.0);
             let by_rows = farthest((dense, &points), (rows, &chords), every / 2.0);

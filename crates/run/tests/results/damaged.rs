@@ -1,8 +1,7 @@
-//! Damaged states: a typed error, or a state that a run goes on from or refuses with an error; never a panic, never for ever.
+//! Damaged states give an error, or a state from which a run continues or stops with an error. They never cause a panic or an endless run.
 //!
-//! States of all examples, of both engines and all steppers, in frames and between them, are flipped, cut, stretched and
-//! shuffled. With the checksum they had, all are refused. With one made right again only the words can tell: what is still
-//! taken for a state is run on, within limits, and watched. `STICKSLIP_DAMAGES` says how many of each.
+//! States of all examples, both engines and all integrators are randomly changed. With the old checksum all are rejected. With a corrected
+//! checksum, accepted states are run on within limits. `STICKSLIP_DAMAGES` is the number of changes of each kind.
 
 use crate::shared::{Lottery, Stage, rk4, scenarios, verlet};
 use std::collections::BTreeMap;
@@ -11,16 +10,16 @@ use std::sync::{Arc, Mutex};
 use std::time::{Duration, Instant};
 use stickslip_drive::{BytesError, Limits, Plan, Run, RunError, State, Stepper};
 
-/// Damages of each kind, unless told otherwise.
+/// Default number of changes of each kind.
 const DAMAGES: usize = 6000;
-/// Guards of a run from a forged state.
+/// Limits of a run from a changed state.
 const LIMITS: Limits = Limits { steps: 3000, events: 1000, wall: Some(1.0) };
-/// No damage takes longer, s.
+/// Maximum duration of one case, s.
 const PATIENCE: u64 = 20;
-/// Bytes before the words of a state, and of its magic, version and key.
+/// Number of bytes before the words of a state.
 const HEAD: usize = 56;
 
-/// A state put down.
+/// A saved state.
 struct Saved {
     stage: Arc<Stage>,
     title: String,
@@ -28,7 +27,7 @@ struct Saved {
     bytes: Vec<u8>,
 }
 
-/// States of all examples, by three steppers and both engines.
+/// Returns states of all examples, with three integrators and both engines.
 fn saved() -> Vec<Saved> {
     let mut all = Vec::new();
     for (k, file) in scenarios().iter().enumerate() {
@@ -46,7 +45,7 @@ fn saved() -> Vec<Saved> {
                 let duration = stage.job.scenario.plan.duration;
                 let plan = Plan { limits: LIMITS, ..stage.plan(stepper, 0.3 * duration) };
                 let mut run = Run::new(&stage.job.model, &plan, stage.start(&plan).unwrap()).unwrap();
-                // Mostly in the middle of a leap or a step.
+                // Usually within a leap or a time step.
                 let _ = run.advance((0.11 + 0.003 * k as f64) * duration, &mut ());
                 let bytes = run.state().to_bytes(&stage.job.model, &stage.key);
                 let title = format!("{} {set:?} {stepper:?} at {:e} s", file.display(), run.state().time());
@@ -57,7 +56,7 @@ fn saved() -> Vec<Saved> {
     all
 }
 
-/// A word that somebody might put in the place of another.
+/// Returns a word that replaces another one.
 fn word(lottery: &mut Lottery, bytes: &[u8], old: u64) -> u64 {
     let random = lottery.bits();
     match lottery.draw(9) {
@@ -79,7 +78,7 @@ fn word(lottery: &mut Lottery, bytes: &[u8], old: u64) -> u64 {
     }
 }
 
-/// Damages bytes once, anywhere; tells how.
+/// Changes bytes at a random position and returns a description.
 fn damage(lottery: &mut Lottery, bytes: &mut Vec<u8>, from: usize) -> String {
     if bytes.len() <= from {
         return "nothing left".to_owned();
@@ -125,7 +124,7 @@ fn damage(lottery: &mut Lottery, bytes: &mut Vec<u8>, from: usize) -> String {
     }
 }
 
-/// Makes count and checksum right again, of whole words.
+/// Corrects the count and the checksum of whole words.
 fn repair(bytes: &mut Vec<u8>) {
     bytes.truncate(bytes.len() - bytes.len() % 8);
     bytes.resize(bytes.len().max(HEAD + 8), 0);
@@ -139,7 +138,7 @@ fn damages() -> usize {
     std::env::var("STICKSLIP_DAMAGES").map_or(DAMAGES, |damages| damages.parse().unwrap())
 }
 
-/// The kind of an error, or "Ok".
+/// Returns the kind of an error, or "Ok".
 fn kind<T: std::fmt::Debug>(outcome: &Result<(), T>) -> String {
     let told = outcome.as_ref().map_or_else(|error| format!("{error:?}"), |()| "Ok".to_owned());
     told.split(|letter: char| !letter.is_alphabetic()).next().unwrap_or_default().to_owned()
@@ -165,7 +164,7 @@ fn damaged_bytes_are_refused() {
     assert!(kinds.len() >= 4, "{kinds:?}");
 }
 
-/// Reads forged bytes and runs on from what is taken for a state.
+/// Reads changed bytes and continues the run from an accepted state.
 fn run_on(saved: &Saved, bytes: &[u8]) -> Option<Result<(), RunError>> {
     let (model, key) = (&saved.stage.job.model, &saved.stage.key);
     let state = match State::from_bytes(model, key, bytes) {
@@ -181,12 +180,12 @@ fn run_on(saved: &Saved, bytes: &[u8]) -> Option<Result<(), RunError>> {
     let mut row = Vec::new();
     let outcome = run.advance(until, &mut ()).and_then(|()| run.finish(&mut ()));
     run.row(&mut row);
-    // What came of it can be put down, too.
+    // The resulting state can be saved, too.
     let _ = run.state().to_bytes(model, key);
     Some(outcome)
 }
 
-/// Ends the program where a damage takes too long, and says which.
+/// Ends the program if a case takes too long, and prints it.
 fn watchdog() -> Arc<Mutex<(Instant, String)>> {
     let present = Arc::new(Mutex::new((Instant::now(), String::new())));
     let watched = Arc::downgrade(&present);
@@ -211,7 +210,7 @@ fn forged_states_are_refused_or_run() {
     for k in 0..damages() {
         let one = &saved[k % saved.len()];
         let mut forged = one.bytes.clone();
-        // What lies in the words, without their checksum.
+        // The words without their checksum.
         forged.truncate(forged.len() - 8);
         let told: Vec<String> =
             (0..=lottery.draw(2)).map(|_| damage(&mut lottery, &mut forged, HEAD)).collect();

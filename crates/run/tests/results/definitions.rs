@@ -1,4 +1,4 @@
-//! Whatever is written has its definition.
+//! Every written value has a definition.
 
 use serde_json::Value;
 use std::collections::BTreeSet;
@@ -32,12 +32,12 @@ fn every_channel_of_every_example_is_defined() {
     assert!(lacking.is_empty(), "{lacking:?}");
 }
 
-/// Keys that hold values, as paths; names of parts stay what they are.
+/// Collects the paths of all keys with values. Names of parts are kept.
 fn keys(value: &Value, here: &str, found: &mut BTreeSet<String>) {
     match value {
         Value::Object(entries) => {
             for (key, inner) in entries {
-                // The dot of a file's name is none of a path.
+                // The dot in a file name does not separate keys.
                 let key = key.replace('.', " ");
                 keys(inner, &if here.is_empty() { key } else { format!("{here}.{key}") }, found);
             }
@@ -58,7 +58,7 @@ fn every_key_of_every_golden_summary_is_defined() {
         }
     }
     assert!(found.len() > 100, "{}", found.len());
-    // What golden results leave out of a summary, or add to it, is theirs: also the steps, whose table they have not.
+    // Golden results omit and add some keys, such as the steps without their table.
     let is_theirs = |name: &str| name.starts_with("excerpt") || name == "steps.lengths_m";
     let lacking: Vec<_> =
         found.iter().filter(|name| !is_theirs(name) && !defined("summary.json", name)).collect();

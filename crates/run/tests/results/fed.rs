@@ -1,8 +1,6 @@
-//! An input that is fed what a waveform does is the waveform: rows and events to the bit, whether each piece comes when the
-//! run stands at its beginning or one piece ahead.
+//! An input that receives the pieces of a waveform gives identical rows and events as the waveform itself.
 //!
-//! The quick start with its sawtooth, and with a triangle: their waveforms know all their pieces, the input is told of one, or
-//! two, at a time.
+//! The quickstart runs with a sawtooth and with a triangle. The input receives one or two pieces in advance.
 
 use crate::shared::{Stage, example, frames, rk4, verlet};
 use stickslip_drive::{Event, EventKind, Plan, Run, Stepper, Trace};
@@ -10,32 +8,32 @@ use stickslip_drive::{Event, EventKind, Plan, Run, Stepper, Trace};
 const STROKE: f64 = 200e-9;
 const PERIOD: f64 = 10e-3;
 const PERIODS: u32 = 6;
-/// An input in place of the waveform.
+/// Input that replaces the waveform.
 const INPUT: &str = r#"{"input":{"initial":"0 nm","range":["-1 um","1 um"],"interpolation":"linear"}}"#;
 
-/// When a caller supplies a piece.
+/// Time at which the caller supplies a piece.
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum Supply {
-    /// When the run stands where it begins.
+    /// At the start of the piece.
     Late,
-    /// When the run stands where the one before it begins.
+    /// At the start of the previous piece.
     Ahead,
 }
 
-/// The quick start with another drive.
+/// Returns the quickstart with another drive.
 fn driven_by(waveform: &str) -> Stage {
     let overrides = [("waveforms.drive", waveform), ("output", r#"{"every":"0.13 ms"}"#), ("plots", "[]")];
     let overrides = overrides.map(|(key, value)| (key.to_owned(), value.to_owned()));
     Stage::of(&example("quickstart.json"), &overrides).unwrap()
 }
 
-/// The plan, to a moment shortly after the last corner.
+/// Returns a plan that ends shortly after the last corner.
 fn plan(stage: &Stage, stepper: Stepper) -> Plan {
     let duration = f64::from(PERIODS) * PERIOD + 1e-9;
     Plan { every: stage.job.scenario.plan.every, ..stage.plan(stepper, duration) }
 }
 
-/// Ends and values of the pieces: those of the corners that a run of the waveform tells of, beyond its end as well.
+/// Returns the ends and values of the pieces from the corner events of the waveform, including one piece beyond the end.
 fn pieces(stage: &Stage) -> Vec<(f64, f64)> {
     let duration = f64::from(PERIODS + 1) * PERIOD + 1e-9;
     let plan = stage.plan(Stepper::Event { tolerance: 1e-4 }, duration);
@@ -46,7 +44,7 @@ fn pieces(stage: &Stage) -> Vec<(f64, f64)> {
     corners.zip([STROKE, 0.0].iter().cycle()).map(|((event, _), value)| (event.t, *value)).collect()
 }
 
-/// The run of the waveform; steps that see no corners are cut at them, as an input cuts them.
+/// Runs the waveform. Fixed time steps are cut at corners, as an input cuts them.
 fn known(stage: &Stage, plan: &Plan, pieces: &[(f64, f64)]) -> Trace {
     let model = &stage.job.model;
     let (mut run, mut trace) =
@@ -59,7 +57,7 @@ fn known(stage: &Stage, plan: &Plan, pieces: &[(f64, f64)]) -> Trace {
     trace
 }
 
-/// The run of the input, fed.
+/// Runs the input with supplied pieces.
 fn fed(stage: &Stage, plan: &Plan, pieces: &[(f64, f64)], supply: Supply) -> Trace {
     let model = &stage.job.model;
     let (mut run, mut trace) =
@@ -84,12 +82,12 @@ fn fed(stage: &Stage, plan: &Plan, pieces: &[(f64, f64)], supply: Supply) -> Tra
     trace
 }
 
-/// Events with what they leave.
+/// Returns the events with the states after them.
 fn events(trace: &Trace) -> Vec<(Event, Vec<f64>)> {
     trace.events().map(|(event, after)| (*event, after.to_vec())).collect()
 }
 
-/// Compares a waveform of the quick start with an input that is fed its pieces.
+/// Compares a waveform of the quickstart with an input that receives its pieces.
 fn compare(waveform: &str) {
     let (stage, input) = (driven_by(waveform), driven_by(INPUT));
     let pieces = pieces(&stage);
@@ -99,8 +97,7 @@ fn compare(waveform: &str) {
     for stepper in located.into_iter().chain(in_frames).chain(fixed) {
         let plan = plan(&stage, stepper);
         let whole = known(&stage, &plan, &pieces);
-        // Steps that see no corners turn to the next piece with the step into it: where the run stands at one, the piece ahead is
-        // still there, and no other is taken.
+        // Fixed time steps switch to the next piece with the step into it. At a corner the next piece is already known.
         let supplies: &[_] =
             if stepper.ends_at_corners() { &[Supply::Late, Supply::Ahead] } else { &[Supply::Late] };
         for &supply in supplies {

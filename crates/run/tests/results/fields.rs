@@ -1,4 +1,4 @@
-//! Fields and friction maps of runs: what a run writes of the insides of its contacts adds up to its own forces and friction.
+//! Fields and friction maps of runs: their integrals equal the forces and the friction work of the run.
 
 use std::collections::BTreeMap;
 use std::f64::consts::PI;
@@ -6,10 +6,10 @@ use std::path::Path;
 use stickslip_run::folder::Folder;
 use stickslip_run::{Job, Recorder};
 
-/// A table: its rows by the names of the columns.
+/// Rows of a table by column name.
 type Rows = Vec<BTreeMap<String, String>>;
 
-/// Runs an example with overrides; its tables by name.
+/// Runs an example with overrides and returns its tables by name.
 fn tables(name: &str, set: &[(&str, &str)]) -> BTreeMap<&'static str, Rows> {
     let root = tempfile::tempdir().unwrap();
     let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenarios").join(name);
@@ -32,7 +32,7 @@ fn number(row: &BTreeMap<String, String>, column: &str) -> f64 {
     row[column].parse().unwrap()
 }
 
-/// 2π ∫ f r dr of the last moment of a contact, by trapezia: even radii.
+/// Returns 2π ∫ f r dr at the last time of a contact, by the trapezoidal rule with equal radii.
 fn over_area(rows: &Rows, contact: &str, column: &str) -> f64 {
     let last = number(rows.last().unwrap(), "time_s");
     let rows = rows.iter().filter(|row| row["contact"] == contact && number(row, "time_s") == last);
@@ -44,10 +44,10 @@ fn over_area(rows: &Rows, contact: &str, column: &str) -> f64 {
     points.windows(2).map(ring).sum()
 }
 
-/// An example, its contact, how many that is, and what of it is set otherwise.
+/// An example, its contact, the number of identical contacts, and overrides.
 type Case = (&'static str, &'static str, f64, &'static [(&'static str, &'static str)]);
 
-/// Quasi-static and dynamic, curve and row, constant and varying load, long ways: examples with a ball each.
+/// Examples with a ball: quasi-static and dynamic, memory curve and spring row, constant and varying load, long displacements.
 const CASES: [Case; 6] = [
     ("fretting_sphere", "800 nm", 1.0, &[]),
     ("quickstart", "ball", 3.0, &[("run.duration", "30 ms")]),

@@ -1,32 +1,28 @@
-//! A run advanced in frames is the whole run: each frame cuts a step, and what that costs stays within ten tolerances.
+//! A run advanced in frames agrees with an uninterrupted run. Each frame end cuts a time step, which may cost up to ten tolerances.
 //!
-//! Compared are all places of bodies and contacts, x, z, u and d, in units of the smallest natural length u_c, on the rows of
-//! sixteen common moments and at the end; frames are short and long against steps, and odd. P1 and the quick start leap, and
-//! a leap that is cut stays under way: they are the same to the bit. The stage and the impact drive step, and what they lose
-//! in each step adds up, framed or not: over a period or two, and an impact, frames take the run no more than ten tolerances
-//! farther from one at 1e-12 than it is, over the whole of their scenarios no farther apart than ten times that distance, where it
-//! is larger than the tolerance. (Ten tolerances would not hold there: 13.8 came of the stage at 1e-10, 93 of the impact drive,
-//! whose whole run is 55 away from the exact one. From a whole run that is 11.8 away from it, as that of the impact at 1e-10, one
-//! in frames may well be 14.1 away, and 2.3 from the exact one.)
+//! All positions x, z, u and d at sixteen common times and at the end are compared, in units of the smallest u_c. P1 and the quickstart use
+//! closed-form leaps and are identical. The stage and the impact drive use time steps, whose errors add up. Over a period or two, frames
+//! may increase the distance from a run at 1e-12 by ten tolerances. Over the whole scenario, the allowed distance is ten times that of the
+//! uninterrupted run.
 
 use crate::shared::{Stage, verlet};
 use stickslip_drive::{Accuracy, EventKind, Plan, Run, Stepper, Trace};
 
-/// Lengths of frames, s.
+/// Frame lengths, s.
 const FRAMES: [f64; 5] = [1e-6, 20e-6, 500e-6, 3.7e-6, 91.3e-6];
-/// Tolerances besides the scenario's own.
+/// Tolerances in addition to that of the scenario.
 const TOLERANCES: [f64; 2] = [1e-3, 1e-10];
-/// What stands in for the exact motion.
+/// Tolerance of the reference.
 const EXACT: f64 = 1e-12;
-/// What frames may cost, in tolerances.
+/// Allowed error of frames, in tolerances.
 const MOST: f64 = 10.0;
 
-/// Whether a channel is a place, m.
+/// Returns whether a channel is a position, m.
 fn is_place(name: &str) -> bool {
     [".x_m", ".z_m", ".u_m", ".d_m"].iter().any(|end| name.ends_with(end))
 }
 
-/// The run in frames, or whole.
+/// Runs in frames, or uninterrupted.
 fn rows(stage: &Stage, plan: &Plan, frame: Option<f64>) -> Trace {
     let model = &stage.job.model;
     let (mut run, mut trace) =
@@ -44,7 +40,7 @@ fn rows(stage: &Stage, plan: &Plan, frame: Option<f64>) -> Trace {
     trace
 }
 
-/// Largest distance of all places on all rows that are at the same time, and at the end; in natural lengths.
+/// Returns the largest distance of all positions in rows at equal times and at the end, in natural lengths.
 fn apart(stage: &Stage, a: &Trace, b: &Trace) -> f64 {
     let model = &stage.job.model;
     let scales = (0..).map_while(|c| model.contact_natural(c)).map(|scale| scale.displacement);
@@ -52,7 +48,7 @@ fn apart(stage: &Stage, a: &Trace, b: &Trace) -> f64 {
     let channels = model.channels();
     let at = |trace: &Trace| -> Vec<Vec<f64>> {
         let mut rows: Vec<Vec<f64>> = trace.rows().map(<[f64]>::to_vec).collect();
-        // Where frames end on the last row there may be two of it.
+        // If frames end at the last row, it may occur twice.
         rows.dedup_by(|a, b| a[0] == b[0]);
         rows
     };
@@ -67,7 +63,7 @@ fn apart(stage: &Stage, a: &Trace, b: &Trace) -> f64 {
     most
 }
 
-/// Compares all frames of one example, which ends at some time, s; whether errors that the motion multiplies are allowed for.
+/// Compares all frame lengths of an example up to a time, s. `is_long` allows for errors that the motion amplifies.
 fn compare(name: &str, end: f64, is_long: bool) {
     let stage = Stage::example(name);
     let Accuracy::Tolerance(own) = stage.job.scenario.plan.stepper.accuracy() else { unreachable!() };
@@ -76,7 +72,7 @@ fn compare(name: &str, end: f64, is_long: bool) {
     for tolerance in [own, TOLERANCES[0], TOLERANCES[1]] {
         let whole = at(tolerance, None);
         let inherent = apart(&stage, &exact, &whole);
-        // Over long, errors that the motion multiplies may take either run away from the exact one.
+        // Over long times, errors that the motion amplifies may move either run away from the exact one.
         let (from, allowed) = if is_long {
             (&whole, MOST * tolerance.max(inherent))
         } else {
@@ -111,7 +107,7 @@ fn frames_are_the_whole_run() {
     }
 }
 
-/// Cut leaps are the leaps themselves: no bit of a single slider's motion tells of frames.
+/// Closed-form leaps that are cut remain identical, so the motion of a single slider does not depend on frames.
 #[test]
 fn cut_leaps_are_whole_leaps() {
     for name in ["p1.json", "quickstart.json"] {
@@ -127,8 +123,8 @@ fn cut_leaps_are_whole_leaps() {
     }
 }
 
-/// Steps without located events notice them for whoever watches: one who begins to in the middle of a run sees the events from
-/// there on, and no touch of what has been in contact all along.
+/// Fixed time steps detect events only for an observer. One that starts within a run receives the events from then on, and no touch of
+/// contacts that were closed before.
 #[test]
 fn who_watches_late_sees_what_happens_from_there_on() {
     let stage = Stage::example("p1.json");

@@ -14,14 +14,13 @@ fn job(name: &str) -> Arc<Job> {
     Arc::new(Job::prepare(&example(name), &[], Path::new("")).unwrap())
 }
 
-/// All rows and events of a job's run.
+/// Returns all rows and events of a job.
 fn table(job: &Job) -> Table {
     let mut table = Table::new(&job.model);
     stickslip_drive::run(&job.model, &job.scenario.plan, &mut job.start.clone(), &mut table).unwrap();
     table
 }
 
-/// A walking drive's was off in the last digits of what its start leaves open.
 #[test]
 fn the_row_before_the_first_advance_is_the_first_that_is_written() {
     for entry in std::fs::read_dir(example("p1").parent().unwrap()).unwrap() {

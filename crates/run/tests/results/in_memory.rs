@@ -1,4 +1,4 @@
-//! Runs without a file, a progress bar or a terminal.
+//! Runs without files, progress bars and terminals.
 
 use std::cell::{Cell, RefCell};
 use stickslip_drive::RunError;
@@ -13,7 +13,7 @@ fn quickstart(overrides: &[(&str, &str)]) -> Job {
     Job::new(scenario, "quickstart".to_owned(), "".into()).unwrap()
 }
 
-/// A summary without what differs from run to run.
+/// Returns a summary without values that differ from run to run.
 fn figures(job: &Job, outcome: &stickslip_run::Outcome) -> serde_json::Value {
     let mut summary = serde_json::to_value(Summary::new(job, outcome)).unwrap();
     summary.as_object_mut().unwrap().remove("timing");
@@ -33,12 +33,12 @@ fn a_run_in_memory_is_the_run_that_writes_tables() {
     assert_eq!((in_memory.rows, &in_memory.state), (written.rows, &written.state));
     assert_eq!(in_memory.kept.series, written.kept.series);
     assert_eq!(figures(&job, &in_memory), figures(&job, &written));
-    // The folder is still without a name for any of it, and the working directory has nothing new.
+    // The folder contains none of the files yet, and nothing was written to the working directory.
     drop(drafts);
     assert_eq!(std::fs::read_dir(root.path()).unwrap().count(), 0);
 }
 
-/// JSON has no such numbers, and strings once stood in their place.
+/// JSON has no representation of such numbers.
 #[test]
 fn a_summary_notes_which_numbers_are_not_finite() {
     let job = quickstart(&[("run.duration", "30 ms")]);
@@ -66,7 +66,7 @@ fn events_have_their_names_where_a_picture_of_them_is_wanted() {
     assert_eq!(nameless.kept.series.time(), named.kept.series.time());
 }
 
-/// Ends a run at a time, s, and remembers what it was told.
+/// A watcher that ends a run at a time, s, and records its calls.
 struct Impatient {
     until: f64,
     now: Cell<f64>,
@@ -91,10 +91,10 @@ fn a_watcher_is_told_how_far_a_run_has_come_and_may_end_it() {
     let outcome = job.run(&watcher);
     assert!(matches!(outcome.error, Some(RunError::Interrupted { .. })), "{:?}", outcome.error);
     let end = outcome.state.time();
-    // It is asked now and then, not at every step.
+    // The watcher is asked at intervals, not at every time step.
     assert!((0.03..0.1).contains(&end), "{end}");
     let told = watcher.told.into_inner();
     assert!(told.len() > 100 && told.iter().all(|t| (0.0..=end).contains(t)), "{}", told.len());
-    // What was computed until then is there.
+    // The results computed before are available.
     assert_eq!(outcome.kept.series.time().last(), Some(&end));
 }

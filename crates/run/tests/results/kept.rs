@@ -1,4 +1,4 @@
-//! What stays in memory of a run does not grow with it, and a limit holds.
+//! The memory of a run does not grow with its duration, and the memory limit is applied.
 
 use std::path::Path;
 use stickslip_run::folder::Folder;
@@ -11,7 +11,7 @@ fn job(name: &str, set: &[(&str, &str)]) -> Job {
     Job::prepare(&file, &set, Path::new("")).unwrap()
 }
 
-/// Runs a job with tables in a folder of their own; returns the number of lines of one as well.
+/// Runs a job with tables in a temporary folder. Also returns the number of lines of one table.
 fn written(job: &Job, table: &str) -> (Outcome, usize) {
     let root = tempfile::tempdir().unwrap();
     let folder = Folder::make(root.path()).unwrap();
@@ -23,7 +23,6 @@ fn written(job: &Job, table: &str) -> (Outcome, usize) {
     (outcome, text.lines().count() - 1)
 }
 
-/// Events, marks and steps once stayed: 153 MB after 100 000 periods of P1 of which two rows were asked for.
 #[test]
 fn ten_times_the_periods_keep_no_more() {
     let bytes = [10_000, 100_000].map(|periods: u32| {
@@ -32,14 +31,13 @@ fn ten_times_the_periods_keep_no_more() {
         let tolerance = ("run.stepper.event.tolerance", "1e-6");
         let (outcome, steps) = written(&job("p1", &[set[0], set[1], set[2], tolerance]), "steps.csv");
         assert_eq!(steps, periods as usize);
-        // Most of the events are thinned out, some of the last among them.
+        // Most events are thinned out, including some of the last ones.
         assert!(outcome.events.taken < 260_000 && outcome.events.seen >= 6 * u64::from(periods));
         outcome.bytes
     });
     assert!(bytes[1] <= bytes[0] + bytes[0] / 10 && bytes[1] < 1_000_000, "{bytes:?}");
 }
 
-/// Cycles stayed as well.
 #[test]
 fn thousands_of_cycles_are_not_kept() {
     let bytes = [500, 5000].map(|periods: u32| {
@@ -51,11 +49,11 @@ fn thousands_of_cycles_are_not_kept() {
         assert_eq!(outcome.events.taken, 0);
         outcome.bytes
     });
-    // All cycles would be 2 MB. What a walk may be behind, 16 384 moments of a contact, is not reached by either run.
+    // All cycles would take 2 MB. Neither run reaches the 16 384 samples by which a replay may lag behind.
     assert!(bytes.iter().all(|bytes| *bytes < 100_000), "{bytes:?}");
 }
 
-/// In memory cycles are kept, to be read; they are those of the table.
+/// In memory the cycles are stored and equal those of the table.
 #[test]
 fn a_run_in_memory_has_the_cycles_of_the_table() {
     let job = job("fretting_sphere", &[("plots", "[]")]);
@@ -68,15 +66,15 @@ fn a_run_in_memory_has_the_cycles_of_the_table() {
 #[test]
 fn a_run_that_keeps_too_much_stops_and_says_what_to_change() {
     let mut job = job("p1", &[("run.cycles", "2000"), ("output.every", "\"20 us\"")]);
-    // Less than its pictures take: the estimate beforehand would have refused it.
+    // This is less than its plots need, so the estimate would have rejected the run.
     job.scenario.memory_limit = Some(1e6);
     let outcome = job.run(&());
     let excess = outcome.excess.unwrap();
     assert!(excess.kept > 1e6 && excess.kept < 3e6 && excess.t < 1.0, "{excess:?}");
     let summary = Summary::new(&job, &outcome);
     let (message, advice) = summary.stop().unwrap();
-    assert!(message.contains("more than the 1.000 MB of run.limits.memory"), "{message}");
-    assert!(advice.contains("raise run.limits.memory"));
+    assert!(message.contains("more than run.limits.memory, 1.000 MB"), "{message}");
+    assert!(advice.contains("increase run.limits.memory"));
     assert_eq!(summary.status, stickslip_run::summary::Status::Stopped);
 }
 
@@ -86,20 +84,19 @@ fn a_run_that_would_keep_too_much_is_refused() {
     let limit = ("run.limits.memory".to_owned(), "\"500 kB\"".to_owned());
     let error = Job::prepare(&file, std::slice::from_ref(&limit), Path::new("")).err().unwrap().to_string();
     assert!(error.contains("run.limits.memory: the run would keep 736.6 kB in memory"), "{error}");
-    assert!(error.contains("for its pictures (loop, trajectory, events)"), "{error}");
-    // Without them nothing grows.
+    assert!(error.contains("for its plots (loop, trajectory, events)"), "{error}");
+    // Without plots the memory does not grow.
     let none = ("plots".to_owned(), "[]".to_owned());
     assert!(Job::prepare(&file, &[limit, none], Path::new("")).is_ok());
 }
 
-/// Without events the estimate was no number, and every run refused.
 #[test]
 fn a_run_without_events_has_an_estimate() {
     let limit = ("run.limits.memory", "\"512 MB\"");
     job("p1", &[("output.events", "\"off\""), limit]);
 }
 
-/// The picture of the events has a time of each, which nothing counted.
+/// The plot of the events stores the time of each event.
 #[test]
 fn moments_of_events_are_in_the_estimate() {
     let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenarios/p1.json");
@@ -111,10 +108,10 @@ fn moments_of_events_are_in_the_estimate() {
     ];
     let set = set.map(|(key, value)| (key.to_owned(), value.to_owned()));
     let error = Job::prepare(&file, &set, Path::new("")).err().unwrap().to_string();
-    assert!(error.contains("for its pictures (events)"), "{error}");
+    assert!(error.contains("for its plots (events)"), "{error}");
 }
 
-/// What a fingerprint needs does not grow, and no limit is asked for it: that of the run bounds what its pictures need.
+/// The memory for a fingerprint does not grow, and the memory limit does not apply to it.
 #[test]
 fn a_fingerprint_alone_needs_no_room() {
     let mut job = job("p1", &[("run.cycles", "2000"), ("output.every", "\"20 us\"")]);

@@ -1,11 +1,11 @@
-//! The account of the last period of a drive against rows a hundred to a thousand times as dense as its events.
+//! The evaluation of the last period, compared with rows that are a hundred to a thousand times denser than the events.
 
 use serde_json::Value;
 use std::path::Path;
 use stickslip_drive::{Trace, Waveform};
 use stickslip_run::{Job, Summary};
 
-/// Rows of a run, by the names of their columns.
+/// Rows of a run by column name.
 struct Rows {
     names: Vec<String>,
     trace: Trace,
@@ -18,7 +18,7 @@ impl Rows {
         self.trace.column(place).collect()
     }
 
-    /// Those of the last period, and the first after it.
+    /// Returns the row indices of the last period and of the first row after it.
     fn last_period(&self, steps: &Value) -> std::ops::Range<usize> {
         let [from, to] = ["/last_period/from_s", "/last_period/to_s"].map(|key| number(steps, key));
         let (hair, t) = (1e-9 * (to - from), self.column("time_s"));
@@ -27,7 +27,7 @@ impl Rows {
     }
 }
 
-/// An example with its account, and its rows.
+/// Returns the evaluation and the rows of an example.
 fn account(name: &str, set: &[(&str, &str)]) -> (Value, Rows) {
     let crates = Path::new(env!("CARGO_MANIFEST_DIR"));
     let files = ["../../scenarios", "tests/data"].map(|it| crates.join(it).join(name).with_extension("json"));
@@ -53,7 +53,7 @@ fn near(got: f64, want: f64, within: f64, what: &str) {
     assert!((got - want).abs() <= within, "{what}: {got:e}, not {want:e}");
 }
 
-/// Holds an account against rows: ways of body and foot, energies, and time in the state of gross slip.
+/// Compares the evaluation with rows: travel of body and foot, energies, and time in gross slip.
 fn check(name: &str, body: &str, contact: &str, set: &[(&str, &str)]) -> Value {
     let (steps, series) = account(name, set);
     let rows = series.last_period(&steps);
@@ -62,7 +62,7 @@ fn check(name: &str, body: &str, contact: &str, set: &[(&str, &str)]) -> Value {
     let (mut travel, mut time, mut slip) = ([0.0; 2], [0.0; 2], [0.0; 2]);
     let states = series.column(&format!("{contact}.state"));
     for i in rows.clone() {
-        // The way of the drive in the middle between two rows.
+        // Displacement of the drive between two rows.
         let side = usize::from(rate(0.5 * (t[i] + t[i + 1])) < 0.0);
         travel[side] += x[i + 1] - x[i];
         time[side] += t[i + 1] - t[i];
@@ -76,11 +76,11 @@ fn check(name: &str, body: &str, contact: &str, set: &[(&str, &str)]) -> Value {
         .fold(0.0, |most: f64, v| most.max(v.abs()));
     for (way, side) in [("forward", forth), ("return", 1 - forth)] {
         let of = |key: &str| number(&steps, &format!("/last_period/{way}/{key}"));
-        // A turn lies somewhere between two rows, at which the body is no faster than at its fastest.
+        // A reversal is between two rows, where the body is at most as fast as its maximum velocity.
         near(of("time_s"), time[side], 2.0 * row, "time");
         near(of("travel_m"), travel[side], 2.0 * row * fastest, "travel");
         let share = number(&steps, &format!("/last_period/contacts/{contact}/slip_share_{way}"));
-        // Of each stretch of slip both ends lie between two rows.
+        // Both ends of each slip interval are between two rows.
         near(share, slip[side] / time[side], 2.0 * row * (1.0 + stretches) / time[side], "slip");
     }
     let grown = |name: &str| {
@@ -107,17 +107,17 @@ fn a_sawtooth_on_three_balls() {
         "ball",
         &[("run.duration", "\"50 ms\""), ("output.every", "\"0.1 us\""), ("plots", "[]")],
     );
-    // A load of 0.02 N is lifted by the step.
+    // The step lifts a load of 0.02 N.
     let step = number(&steps, "/last_period/step_m");
     near(number(&steps, "/last_period/work/load_J"), 0.02 * step, 1e-12 * step, "load");
-    // 812 reversals in ten periods, nearly all of them of the ringing: 4.15 kHz turns twice a period, for 9.99 ms.
+    // 812 reversals in ten periods, nearly all from ringing: at 4.15 kHz two per period, for 9.99 ms.
     near(
         number(&steps, "/last_period/contacts/ball/reversals_forward"),
         2.0 * 4.15e3 * 9.99e-3,
         4.0,
         "reversals",
     );
-    // The ways, the lost stroke, the ball, the work.
+    // Travel, lost stroke, ball, work.
     assert_eq!(steps["why"].as_array().unwrap().len(), 4);
 }
 
@@ -128,7 +128,7 @@ fn bodies_that_swing_and_slip_under_a_moving_normal() {
     check("impact_drive", "carrier", "rear", &dense);
 }
 
-/// The turns of harmonics are no corners: the account asks for rows of its own there.
+/// The turning points of harmonics are not corners, so the evaluation samples them.
 #[test]
 fn a_drive_that_turns_on_a_curve() {
     let terms = r#"{"harmonics": {"period": "1 ms", "terms": [
@@ -142,7 +142,7 @@ fn a_drive_that_turns_on_a_curve() {
     check("quickstart", "slider", "ball", &set);
 }
 
-/// A flyback that is limited in its rate begins the next period: the first period has none of it.
+/// A flyback with limited rate extends into the next period. The first period has none.
 #[test]
 fn a_flyback_that_is_late() {
     let saw = r#"{"sawtooth": {"stroke": "200 nm", "period": "1 ms", "rate": "0.6 mm/s"}}"#;
@@ -153,12 +153,12 @@ fn a_flyback_that_is_late() {
         ("plots", "[]"),
     ];
     let steps = check("quickstart", "slider", "ball", &set);
-    // Falling at 0.6 mm/s it meets the rise of 0.2 mm/s after s = S/(0.6 + 0.2) mm/s: 0.25 ms.
+    // Falling at 0.6 mm/s, it meets the rise of 0.2 mm/s after S/(0.6 + 0.2) mm/s = 0.25 ms.
     near(number(&steps, "/last_period/return/time_s"), 0.25e-3, 1e-9, "time");
     near(number(&steps, "/last_period/return/stroke_m"), -150e-9, 1e-15, "stroke");
 }
 
-/// With a damper to ground ringing falls below 5 % of the limit of friction long before the flyback.
+/// With a damper to the ground, the ringing decays below 5 % of the friction limit long before the flyback.
 #[test]
 fn ringing_settles_when_the_extremes_of_the_rows_say_so() {
     let set = [
@@ -170,7 +170,7 @@ fn ringing_settles_when_the_extremes_of_the_rows_say_so() {
     let rows = series.last_period(&steps);
     let (t, force) = (series.column("time_s"), series.column("ball.fx_N"));
     let flyback = number(&steps, "/last_period/from_s") + number(&steps, "/last_period/forward/time_s");
-    // Extremes of the force on the way forth, the limit with which it begins among them; μF_N = 0.18 N.
+    // Extremes of the force in the forward stroke, including the friction limit at its start; μF_N = 0.18 N.
     let mut extreme = force[rows.start];
     let mut last = None;
     for i in rows.start + 1..rows.end {
@@ -186,7 +186,7 @@ fn ringing_settles_when_the_extremes_of_the_rows_say_so() {
     assert!(number(&steps, "/last_period/contacts/ball/ringing_left") < 0.05);
 }
 
-/// A stroke that the contacts take up makes no step, and the summary says so.
+/// A stroke that the contacts take up gives no step, and the summary states this.
 #[test]
 fn a_stroke_below_the_zero_step_stroke_is_called_that() {
     let set = [("waveforms.drive.sawtooth.stroke", "\"20 nm\""), ("plots", "[]"), ("loads", "[]")];
@@ -196,7 +196,7 @@ fn a_stroke_below_the_zero_step_stroke_is_called_that() {
     assert!(why.contains("no step") && why.contains("below the zero-step stroke of 29.38 nm"), "{why}");
 }
 
-/// Turns of u on the way forth by rows, and half of the last swing of the force between two of them over the mean limit of friction.
+/// Returns the number of reversals of u in the forward stroke from rows, and the relative amplitude of the last force oscillation.
 fn turns(series: &Rows, steps: &Value, contact: &str, friction: f64) -> (f64, f64) {
     let rows = series.last_period(steps);
     let column = |quantity: &str| series.column(&format!("{contact}.{quantity}"));
@@ -211,14 +211,14 @@ fn turns(series: &Rows, steps: &Value, contact: &str, friction: f64) -> (f64, f6
     (forth.len() as f64, 0.5 * (force[last] - force[before]).abs() / limit)
 }
 
-/// A slider pressed by a foot that moves up and down turns half of its swings in full stick, where there is no event: it was said
-/// not to ring at all. A row of springs has a reversal at each.
+/// A slider pressed by a vertically moving foot reverses in full stick, without an event, at half of its oscillations. A spring row has an
+/// event at each.
 #[test]
 fn turns_in_full_stick_are_turns() {
     let name = "swings_under_a_moving_foot";
     let springs = r#"{"springs": {"count": 400}}"#;
     for engine in [r#""curve""#, springs] {
-        // At 1e-5 two turns lie in one step, which sees neither.
+        // At 1e-5 two reversals are within one time step, which detects neither.
         for tolerance in ["1e-7", "1e-8", "1e-10"] {
             let set = [
                 ("contacts.c.engine", engine),
@@ -229,14 +229,14 @@ fn turns_in_full_stick_are_turns() {
             let (count, swing) = turns(&series, &steps, "c", 0.25);
             let of = |key: &str| number(&steps, &format!("/last_period/contacts/c/{key}"));
             assert!(count >= 2.0 && of("reversals_forward") == count, "{engine}: {steps}");
-            // Half a row from a turn the force is off by its square.
+            // Half a row from a reversal, the force error is quadratic.
             near(of("ringing_left"), swing, 1e-3 * swing, "swing");
             assert!(steps.pointer("/last_period/contacts/c/settling_s").is_none(), "{steps}");
         }
     }
 }
 
-/// Turns of all swings of the run, at steps of a given length as well.
+/// Fixed time steps count the same reversals.
 #[test]
 fn a_fixed_step_counts_the_same_turns() {
     let set = [("run.stepper", r#"{"rk4": {"step": "0.2 us"}}"#), ("output.every", "\"1 us\"")];
@@ -247,8 +247,7 @@ fn a_fixed_step_counts_the_same_turns() {
     near(of("ringing_left"), swing, 1e-2 * swing, "swing");
 }
 
-/// |F_x| ≤ μF_N at both ends of a swing bounds it by their mean. By the limit at its end alone it came to 856 %, where that was
-/// nearly nothing.
+/// Since |F_x| ≤ μF_N at both extremes, the relative amplitude is at most 1.
 #[test]
 fn no_swing_is_more_than_its_limit() {
     for cycles in ["2", "3", "4"] {
@@ -260,7 +259,7 @@ fn no_swing_is_more_than_its_limit() {
     }
 }
 
-/// 0.2 N against 50 N s/m: 4 mm/s once friction is overcome on the mean, ten times the stroke in a period.
+/// 0.2 N against 50 N s/m gives 4 mm/s once friction is overcome on average, ten strokes per period.
 #[test]
 fn what_is_pulled_along_drifts() {
     let (steps, _) = account("pulled_along", &[("output.every", "\"1 ms\"")]);
@@ -268,7 +267,7 @@ fn what_is_pulled_along_drifts() {
     assert!(steps.get("steady").is_none() && number(&steps, "/last_m").abs() > 2.0 * 200e-9);
 }
 
-/// Set down 50 µm too deep it flies off for good: no step, however even.
+/// A body with an initial indentation of 50 µm is thrown off and makes no steps.
 #[test]
 fn what_flies_off_has_no_steps() {
     let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/data/thrown_off.json");
@@ -278,7 +277,7 @@ fn what_flies_off_has_no_steps() {
     assert_eq!(summary["steps"]["settling"]["state"], "drifts");
     let flight = |it: &&Value| it["kind"] == "flight";
     assert!(summary["warnings"].as_array().unwrap().iter().any(|it| flight(&it)), "{}", summary["warnings"]);
-    // At rest on its foot it is told nothing of the kind.
+    // At rest on its foot, no such state is reported.
     let set =
         [("bodies.s", r#"{"mass": "20 g", "x": "free", "z": "free"}"#), ("run.start", "\"equilibrium\"")];
     let set = set.map(|(key, value)| (key.to_owned(), value.to_owned()));
@@ -287,7 +286,7 @@ fn what_flies_off_has_no_steps() {
     assert!(!summary["warnings"].as_array().unwrap().iter().any(|it| flight(&it)), "{}", summary["warnings"]);
 }
 
-/// Without friction nothing holds: it slides all the time, and its foot leaves it where it is.
+/// Without friction the slider slips all the time and does not follow its foot.
 #[test]
 fn a_contact_without_friction_slides() {
     let (steps, series) = account("without_friction", &[("run.cycles", "3")]);
@@ -298,7 +297,7 @@ fn a_contact_without_friction_slides() {
     assert!(series.column("c.state").iter().all(|state| *state == 3.0));
 }
 
-/// Steps of a body that follows a waveform are none, and a note says so where another body is free.
+/// A body that follows a waveform makes no steps. A note states this if another body is free.
 #[test]
 fn the_body_of_figures_must_be_free() {
     let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/data/without_friction.json");
@@ -313,8 +312,9 @@ fn the_body_of_figures_must_be_free() {
     );
 }
 
-/// After gross slip the force of a flat punch swings back to its very limit, and rounding says of that turn that all slips. By Verlet's
-/// method, whose states of slip are read off every step of the last period.
+/// After gross slip, the force of a flat punch returns to its limit at a reversal. By rounding alone this could count as slip.
+///
+/// The reference is Verlet's method with the slip states of all time steps of the last period.
 #[test]
 fn a_force_that_comes_back_to_its_limit_does_not_slip_until_the_next_event() {
     for friction in ["0.2", "0.20001", "0.1999", "0.2003"] {
@@ -340,7 +340,7 @@ fn a_force_that_comes_back_to_its_limit_does_not_slip_until_the_next_event() {
     }
 }
 
-/// A row of springs slips as the exact curve does, and says so.
+/// A spring row slips as long as the exact memory curve.
 #[test]
 fn a_row_of_springs_slips_for_as_long_as_the_curve() {
     let engine = ("contacts.ball.engine", r#"{"springs":{"count":1001}}"#);
@@ -353,7 +353,7 @@ fn a_row_of_springs_slips_for_as_long_as_the_curve() {
     }
 }
 
-/// Without a step no way of a sine is the one that leads there: the rising one is forth, whatever rounding makes of the step.
+/// Without a step, the rising stroke of a sine is the forward stroke, whatever the rounding of the step.
 #[test]
 fn without_a_step_the_rising_way_is_forth() {
     for amplitude in ["0.4 um", "0.4000001 um", "0.401 um", "0.39 um"] {
@@ -363,7 +363,7 @@ fn without_a_step_the_rising_way_is_forth() {
     }
 }
 
-/// Fixed steps end beside the flyback's ends; how long it takes is the waveform's own.
+/// Fixed time steps miss the ends of the flyback. Its duration is taken from the waveform.
 #[test]
 fn fixed_steps_know_how_long_a_flyback_takes() {
     let steppers = [
@@ -379,7 +379,7 @@ fn fixed_steps_know_how_long_a_flyback_takes() {
     }
 }
 
-/// Frames that may lose a thousandth of a stroke do not know their step to a hundredth of a nanometre of 200.
+/// Frames with an error of a thousandth of a stroke determine the step of 200 nm only to this accuracy.
 #[test]
 fn a_step_of_frames_is_not_told_more_exactly_than_they_promise() {
     let set = [

@@ -1,4 +1,4 @@
-//! Scenarios as linear systems, against the closed form of one slider.
+//! Linear state-space models of scenarios, compared with the closed form of one slider.
 
 use std::f64::consts::TAU;
 use std::path::{Path, PathBuf};
@@ -11,7 +11,7 @@ fn job(name: &str, set: &[(&str, &str)]) -> Job {
     Job::prepare(&file, &set, Path::new("")).unwrap()
 }
 
-/// m ẍ = k (w - x) + c (ẇ - ẋ): with v = ẋ - (c/m) w no rate of the input is left.
+/// m ẍ = k (w - x) + c (ẇ - ẋ). With v = ẋ - (c/m) w, the input rate disappears.
 #[test]
 fn a_slider_on_a_driven_foot_is_an_oscillator() {
     let beta = 2e-6;
@@ -43,7 +43,7 @@ fn what_has_no_linear_system_says_why() {
     assert!(error.to_string().contains("fretting_force"), "{error}");
 }
 
-/// Rows in memory with all that a summary needs are those of a bare run, and so are its events.
+/// Rows in memory of a run with a summary equal those of a bare run, and so do the events.
 #[test]
 fn rows_beside_a_summary_are_those_of_a_bare_run() {
     for name in ["quickstart", "rocking_slider", "piezo_stack"] {

@@ -1,11 +1,12 @@
-//! Rows of springs under moving normals that travel far: their changes used to accumulate where rounding of time or of the
-//! way left 3e-19 m to go, in detours without end (`vertical_climber`) or a stop after 73 periods (`impact_drive`).
+//! Spring rows under varying normal loads with long travel (`vertical_climber`, `impact_drive`).
+//!
+//! Rounding of time and position must not cause endless detours or stops.
 
 use std::path::Path;
 use stickslip_drive::{Counts, Run};
 use stickslip_run::Job;
 
-/// What was done after half and after all of `cycles` periods, with every contact a row of 64 springs.
+/// Returns the work after half and after all of `cycles` periods, with a row of 64 springs in every contact.
 fn halves(name: &str, cycles: u32) -> [Counts; 2] {
     let file =
         Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenarios").join(name).with_extension("json");
@@ -40,8 +41,9 @@ fn a_climber_on_rows_costs_the_same_all_along() {
     costs_the_same_all_along("vertical_climber", 100);
 }
 
-/// Two bodies set down 4 µm above where springs of 98 and 67 N/mm hold them: what these have stored goes into one contact after the
-/// other. Rows as wide as each contact's own energy were outgrown after 0.24 ms; a span given by hand stays what it is.
+/// Two bodies start 4 µm above the equilibrium of springs of 98 and 67 N/mm. The spring energy goes into one contact after the other.
+///
+/// The spring rows must be wide enough for this energy. A span given by the user is kept.
 #[test]
 fn rows_hold_what_a_stack_out_of_balance_presses() {
     let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/data/stack_out_of_balance.json");

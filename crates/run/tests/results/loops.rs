@@ -1,4 +1,4 @@
-//! Figures of fretting loops against closed forms, and against other rows.
+//! Results of fretting loops, compared with closed forms and with denser rows.
 
 use std::path::Path;
 use stickslip_measure::Cycle;
@@ -30,8 +30,9 @@ fn near(got: f64, want: f64, within: f64, what: &str) {
     );
 }
 
-/// A paraboloid under a constant load, F = μF_N(1 - (1 - u/u_c)^{3/2}) on first loading (Cattaneo 1938, Mindlin 1949); the
-/// branches of its loop follow by Masing's rule.
+/// A paraboloid under a constant load: F = μF_N(1 - (1 - u/u_c)^{3/2}) on first loading (Cattaneo 1938, Mindlin 1949).
+///
+/// The branches of its loop follow from Masing's rule.
 #[test]
 fn a_loop_of_a_paraboloid_has_its_closed_forms() {
     let profile = r#"{"paraboloid": {"radius": "10 mm"}}"#;
@@ -45,7 +46,7 @@ fn a_loop_of_a_paraboloid_has_its_closed_forms() {
     }
 }
 
-/// The same of a table of points, whose cycles go from one reversal to the next of its kind: every one of them.
+/// The same for a table of points, with a cycle from each reversal to the next one of its kind.
 #[test]
 fn the_loops_of_a_table_have_theirs() {
     let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/data/table_loop.json");
@@ -57,8 +58,7 @@ fn the_loops_of_a_table_have_theirs() {
     found.iter().for_each(|cycle| check_paraboloid(&job, 0, 300e-9, cycle));
 }
 
-/// A triangle from 0 to its stroke and back: the same loop about another middle. Its opening was taken at F_x = 0, and partial slip
-/// called mixed.
+/// A triangle from 0 to its stroke gives the same loop about another middle.
 #[test]
 fn a_loop_about_another_middle_is_the_same_loop() {
     let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/data/table_loop.json");
@@ -70,7 +70,7 @@ fn a_loop_about_another_middle_is_the_same_loop() {
     assert_eq!(contact.fretting.as_ref().and_then(|fretting| fretting.regime), Some("partial"));
 }
 
-/// Nothing is free and nothing swings: 100 000 steps of a walk were called a crawl after 2 037 s.
+/// 100 000 time steps of a prescribed motion must run through.
 #[test]
 fn a_walk_of_many_periods_comes_to_its_end() {
     let job =
@@ -86,11 +86,11 @@ fn check_paraboloid(job: &Job, c: usize, amplitude: f64, found: &CycleFigures) {
     assert!(amplitude < u_c);
     let limit = f64::from(job.count(c)) * job.model.contacts().nth(c).unwrap().1.friction() * normal;
     let force = |u: f64| limit * (1.0 - (1.0 - u / u_c).powf(1.5));
-    // The branch down: F = F(δ) - 2F((δ - u)/2). It vanishes where F(v) = F(δ)/2, v = u_c(1 - (1 - F/2μF_N)^{2/3}).
+    // Unloading branch: F = F(δ) - 2F((δ - u)/2). It is zero where F(v) = F(δ)/2, v = u_c(1 - (1 - F/2μF_N)^{2/3}).
     let top = force(amplitude);
     let half = u_c * (1.0 - (1.0 - 0.5 * top / limit).powf(2.0 / 3.0));
     let opening = amplitude - 2.0 * half;
-    // Area: from the mean of F over the way, ∫₀^δ F dv = μF_N(δ - ⅖u_c(1 - (1 - δ/u_c)^{5/2})).
+    // Area: from the mean of F over the displacement, ∫₀^δ F dv = μF_N(δ - ⅖u_c(1 - (1 - δ/u_c)^{5/2})).
     let under = limit * (amplitude - 0.4 * u_c * (1.0 - (1.0 - amplitude / u_c).powf(2.5)));
     let lost = 8.0 * under - 4.0 * amplitude * top;
     let window = 0.2 * amplitude;
@@ -98,7 +98,7 @@ fn check_paraboloid(job: &Job, c: usize, amplitude: f64, found: &CycleFigures) {
     assert!(is_closed);
     near(cycle.displacement_amplitude, amplitude, 1e-12, "amplitude");
     near(cycle.force_amplitude, top, 1e-12, "force");
-    // Both are small differences of forces: their rounding is that of the loop's height and width.
+    // Both are small differences of forces. Their rounding error is relative to height and width of the loop.
     near(cycle.dissipated, lost, 1e-11, "friction work");
     near(cycle.half_opening.unwrap(), opening, 1e-11, "opening");
     for found in [cycle.stiffness_after_maximum, cycle.stiffness_after_minimum] {
@@ -109,8 +109,7 @@ fn check_paraboloid(job: &Job, c: usize, amplitude: f64, found: &CycleFigures) {
     }
 }
 
-/// Whether all of a contact slides is what its state says, row by row, and not what A, B and D are compared with: worn profiles whose
-/// small loops have a B above its threshold, rows of few springs that begin to slip elsewhere, and a contact without friction.
+/// Gross slip is determined from the states in the rows, not from A, B and D: worn profiles, rows of few springs, no friction.
 #[test]
 fn a_loop_is_gross_where_its_contact_slides() {
     let worn = [
@@ -143,7 +142,7 @@ fn a_loop_is_gross_where_its_contact_slides() {
     assert!(!found.contains(&"mixed"));
 }
 
-/// What a damped contact loses is the area of its loop, friction's part and damping's: E_d left damping out.
+/// The dissipated energy of a damped contact is the area of its loop, including the damping losses.
 #[test]
 fn a_damped_contact_loses_the_area_of_its_loop() {
     let mut set = vec![
@@ -164,14 +163,15 @@ fn a_damped_contact_loses_the_area_of_its_loop() {
     near(found.cycle.energy_ratio().unwrap(), area / found.cycle.enclosing_energy(), 1e-6, "A");
     let undamped = last_cycle(&job, 0);
     assert_eq!((undamped.damping, undamped.dissipated()), (Some(0.0), Some(undamped.friction())));
-    // Two of them: what the run's dampers have taken is not that of either, and E_d is left out.
+    // Two damped contacts: the total damping losses cannot be assigned, so E_d is omitted.
     set.push(("contacts.400 nm.damping", "\"20 ms\""));
     let found = last_cycle(&example("fretting_sphere", &set), 2);
     assert!(found.damping.is_none() && found.dissipated().is_none() && found.friction() > 0.0);
 }
 
-/// Under a load of 10 N ± 6 N the mean is 10 N, however fast; a contact that slides while the load is largest has its peaks at
-/// μ · 16 N; elsewhere they are those of dense rows, no less.
+/// Under a load of 10 N ± 6 N the mean is 10 N at any frequency. A contact that slips at the largest load has force peaks of μ · 16 N.
+///
+/// Elsewhere the peaks are at least those of dense rows.
 #[test]
 fn loops_under_a_load_that_varies_have_their_peaks_and_means() {
     let of = |frequency: &str, amplitude: &str, every: &str| {
@@ -205,9 +205,9 @@ fn loops_under_a_load_that_varies_have_their_peaks_and_means() {
     }
 }
 
-/// A contact that loses 8e-13 J in a cycle, walked beside one that loses 8e-3 J: a row of springs written by others, extrapolated, has
-/// 7.833389e-13 J in its second cycle, and so has the contact alone. Its works were measured by those of the large one: 4e-3 were
-/// missed at 1e-12, more than at 1e-8.
+/// A contact that dissipates 8e-13 J per cycle in a model with one that dissipates 8e-3 J.
+///
+/// An independent spring row program, extrapolated, gives 7.833389e-13 J in the second cycle. The contact alone gives the same value.
 #[test]
 fn a_loop_beside_a_larger_one_is_what_it_is_alone() {
     let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/data/small_beside_large.json");
@@ -218,8 +218,7 @@ fn a_loop_beside_a_larger_one_is_what_it_is_alone() {
     }
 }
 
-/// The work put into a row of springs is what it stores and loses, to within 100 tolerances of μF_N u_c: across its kinks the error
-/// estimate of a step saw next to nothing, and 16 springs at 1e-8 missed 4 700.
+/// The energy input of a spring row equals its stored and dissipated energy within 100 tolerances of μF_N u_c, in spite of its kinks.
 #[test]
 fn the_books_of_a_row_of_springs_close() {
     for (count, tolerance) in [(5, 1e-4), (16, 1e-6), (16, 1e-8), (16, 1e-10), (300, 1e-8)] {
@@ -239,7 +238,7 @@ fn the_books_of_a_row_of_springs_close() {
     }
 }
 
-/// A column of the rows and events of the third second of a run.
+/// Returns a column of the rows and events in the third second of a run.
 fn last_period(job: &Job, name: &str) -> Vec<f64> {
     struct Column(usize, Vec<f64>);
     impl stickslip_drive::Record for Column {
@@ -258,7 +257,7 @@ fn last_period(job: &Job, name: &str) -> Vec<f64> {
     column.1
 }
 
-/// E_d of the table is the difference of the friction work that a run with a row at either end of the cycle writes down.
+/// E_d in the table equals the difference of the friction work in rows at both ends of the cycle.
 #[test]
 fn friction_work_of_a_cycle_is_the_difference_of_the_runs_own() {
     let job = example("fretting_sphere", &[("output.every", "\"1 s\"")]);
@@ -284,7 +283,7 @@ fn friction_work_of_a_cycle_is_the_difference_of_the_runs_own() {
     }
 }
 
-/// Steps and loops, to the bit, under every stepper.
+/// Steps and loops are bit-identical for every integrator.
 #[test]
 fn figures_do_not_depend_on_the_rows() {
     let figures = |name: &str, stepper: &str, every: &str| {
@@ -315,8 +314,7 @@ fn figures_do_not_depend_on_the_rows() {
     assert_eq!(sphere("\"7 ms\""), sphere("1e3"));
 }
 
-/// The contact that holds the vibrated slider never moves: its amplitude, 8e-25 m of a u_c of 6e-8 m, was rounding, and how many
-/// of its cycles came back hung on the tolerance.
+/// The contact that holds the vibrated slider is at rest: its amplitude of 8e-25 m is rounding.
 #[test]
 fn a_contact_at_rest_has_no_loop() {
     let told = |tolerance: &str| {
@@ -334,8 +332,8 @@ fn a_contact_at_rest_has_no_loop() {
     }
 }
 
-/// Two sliders in a row, pressed by a force on a sine: the contact between them has one loop, whichever body the figures are of, and that of
-/// rows a thousandth of a cycle apart.
+/// Two sliders in series under a sinusoidal force: the loop between them does not depend on the stepping body. The reference has a thousand
+/// rows per cycle.
 #[test]
 fn a_loop_between_two_sliders_does_not_depend_on_the_body_of_the_figures() {
     let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/data/two_sliders_in_a_row.json");
@@ -370,7 +368,7 @@ fn a_loop_between_two_sliders_does_not_depend_on_the_body_of_the_figures() {
     near(half_range(column("c1.fx_N")), force(&loops[0]), 1e-3, "force of the rows");
 }
 
-/// A flank in no time leads the contact the straight way: the loop is the one of any other flank. Its opening was half of that.
+/// A jump of the waveform moves the contact along a straight path, so the loop equals that of any other flank.
 #[test]
 fn a_loop_with_a_jump_in_it_is_the_same_loop() {
     let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/data/table_loop.json");
@@ -384,8 +382,7 @@ fn a_loop_with_a_jump_in_it_is_the_same_loop() {
     }
 }
 
-/// A body that a spring holds does not step, and its contact has loops, whichever body the figures name and by fixed steps as well: openings
-/// were told along straight lines from reversal to reversal, B 1.5.
+/// A body held by a spring does not step. Its contact has the same loops whichever body `figures` names, also with fixed time steps.
 #[test]
 fn loops_of_a_body_on_a_spring_do_not_depend_on_the_body_of_the_figures() {
     let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/data/shaken_block.json");
@@ -406,8 +403,7 @@ fn loops_of_a_body_on_a_spring_do_not_depend_on_the_body_of_the_figures() {
     near(fixed.secants[0].unwrap(), located.secants[0].unwrap(), 1e-4, "secant");
 }
 
-/// A table with noise, 1 % of its amplitude: cycles go from crest to crest and not from one wiggle to the next. Of five that were walked
-/// one of 3 ms was told, "1.5 pJ lost".
+/// A table with noise of 1 % of its amplitude: cycles extend from maximum to maximum, not between noise peaks.
 #[test]
 fn noise_on_a_table_makes_no_cycles() {
     let mut seed = 1_u32;
@@ -432,8 +428,7 @@ fn noise_on_a_table_makes_no_cycles() {
     }
 }
 
-/// A ball with little damping, shaken by far more than it sticks: what is left of damping as it begins to slide is no peak beyond the limit of
-/// friction. 6.5 % were.
+/// A slightly damped ball with a large amplitude: the decaying damping force at the onset of slip is no peak beyond the friction limit.
 #[test]
 fn a_damped_contact_that_slides_pulls_by_its_limit() {
     let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/data/table_loop.json");
@@ -442,7 +437,7 @@ fn a_damped_contact_that_slides_pulls_by_its_limit() {
     near(last_cycle(&prepare(&file, &set), 0).cycle.force_amplitude, 5.0, 1e-9, "force");
 }
 
-/// Contacts without friction, without a load, or apart go to and fro with their bodies, and no event tells of it.
+/// Contacts without friction, without load, or open move with their bodies. No event reports this.
 #[test]
 fn what_never_rubs_moves_all_the_same() {
     let job = prepare(&Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/data/never_rubs.json"), &[]);

@@ -1,6 +1,6 @@
-//! Runs of scenarios and what they leave behind: rows, events, figures, warnings and states, against closed forms and other runs.
+//! Tests of runs and their results: rows, events, summaries, warnings and states, compared with closed forms and other runs.
 //!
-//! One binary, linked once. `shared` loads and draws scenes; every other module is a subject. Allocations are counted by thread.
+//! All modules are in one binary. `shared` loads and draws scenarios. Allocations are counted per thread.
 
 #![allow(
     clippy::unwrap_used,

@@ -1,8 +1,7 @@
-//! What is told of a run beforehand is what it does: the methods and the treatments of contacts that
-//! [`stickslip_drive::Model::expected`] names, and `info` prints, hold all that the run counts.
+//! The methods and treatments of contacts that [`stickslip_drive::Model::expected`] names include all that a run uses.
 //!
-//! All examples, and variants of them drawn at random with a fixed seed: profiles, engines, steppers, tolerances, friction,
-//! damping, waveforms, loads, links.
+//! All examples and random variants with a fixed seed are compared: profiles, engines, integrators, tolerances, friction, damping,
+//! waveforms, loads, connections.
 
 use crate::shared::{Lottery, drawn, scenarios};
 use std::path::PathBuf;
@@ -10,10 +9,10 @@ use stickslip_drive::{Limits, Method, Model, Plan, Stepper, Treatment, run};
 use stickslip_scenario::Scenario;
 
 const VARIANTS: usize = 200;
-/// Longest simulated time of a variant, in parts of its own.
+/// Maximum simulated time of a variant, relative to that of the example.
 const PART: f64 = 0.3;
 
-/// Runs a scenario and compares; false where it makes no scene.
+/// Runs a scenario and compares. Returns false if it is invalid.
 fn compare(file: &std::path::Path, set: &[(String, String)], part: f64) -> bool {
     let overrides: Vec<(&str, &str)> =
         set.iter().map(|(key, value)| (key.as_str(), value.as_str())).collect();
@@ -23,7 +22,7 @@ fn compare(file: &std::path::Path, set: &[(String, String)], part: f64) -> bool 
     let plan = Plan { duration: part * scenario.plan.duration, limits, every: None, ..scenario.plan };
     let Ok(mut state) = model.start(&plan) else { return false };
     let expected = model.expected(&state, plan.stepper);
-    // Where a run stops itself, what it has done until then is as good.
+    // If a run stops itself, its results so far are compared.
     let _ = run(&model, &plan, &mut state, &mut ());
     let told = format!("{} {set:?}: {expected:?}, counted {:?}", file.display(), state.tally());
     for method in Method::ALL {
@@ -38,7 +37,7 @@ fn compare(file: &std::path::Path, set: &[(String, String)], part: f64) -> bool 
             );
         }
     }
-    // What is named first does the work, unless all of it was gross slip.
+    // The first named method does most of the work, unless all of it was gross slip.
     let (first, _) = expected.methods[0];
     let done = state.counts().steps == 0
         || [first, Method::Parabola, Method::Brief, Method::BriefNystrom, Method::Graded]
@@ -55,7 +54,7 @@ fn examples_do_what_is_told_of_them() {
     }
 }
 
-/// P1 with a damped contact, below what is stepped over and above it.
+/// P1 with a damped contact, below and above the limit of implicit steps.
 #[test]
 fn what_is_stepped_over_is_told() {
     let file = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../../scenarios/p1.json");
@@ -88,8 +87,7 @@ fn drawn_variants_do_what_is_told_of_them() {
     println!("{ran} ran, {refused} made no scene");
 }
 
-/// What a reader of `info` once was told wrongly: a slider on a vibrating foot is dragged in closed form, too, and a second
-/// ball takes no parabola away.
+/// A slider on a vibrating foot is moved in closed form, too, and a second ball does not prevent this.
 #[test]
 fn closed_forms_are_named_where_they_are_taken() {
     let folder = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../../scenarios");

@@ -1,5 +1,4 @@
-//! Stacks by their data sheets and drivers, in scenarios: against closed forms, against tables worked out by hand, and what `info`
-//! says of them.
+//! Stacks with data sheets and drivers, compared with closed forms, hand-computed tables and the output of `info`.
 
 use serde_json::{Value, json};
 use std::f64::consts::{PI, TAU};
@@ -24,7 +23,7 @@ fn job(scenario: &Value) -> Job {
     Job::new(scenario, "test".to_owned(), PathBuf::new()).unwrap()
 }
 
-/// Rows of a run by their columns, and the places of the bodies at its end.
+/// Rows of a run by column name, and the positions of the bodies at its end.
 struct Rows {
     job: Job,
     trace: Trace,
@@ -51,8 +50,9 @@ fn largest(values: &[f64]) -> f64 {
     values.iter().fold(0.0, |most: f64, value| most.max(value.abs()))
 }
 
-/// 20 µs of flyback would take 43 A, 2 A are there: the voltage falls at 2 A/7.2 µF until it meets the next rise. The same stage on
-/// a table of just that.
+/// A flyback of 20 µs would need 43 A, but the limit is 2 A. The voltage falls at 2 A/7.2 µF until the next rise.
+///
+/// The same stage runs with a table of this voltage.
 #[test]
 fn the_stage_agrees_with_the_table_of_what_its_driver_can_do() {
     let mut driven = value("stage_by_voltage");
@@ -81,7 +81,7 @@ fn the_stage_agrees_with_the_table_of_what_its_driver_can_do() {
     assert!(driven.ends[1] > 2.0 * STROKE, "{:?}", driven.ends);
 }
 
-/// `info` says before the run what the driver cannot follow, and what of the stroke it leaves.
+/// `info` reports before the run what the driver cannot follow, and the remaining stroke.
 #[test]
 fn info_says_which_corner_the_driver_cannot_follow() {
     let info = info::piezos(&job(&value("stage_by_voltage")));
@@ -95,10 +95,10 @@ fn info_says_which_corner_the_driver_cannot_follow() {
     );
     assert_eq!(
         stack.words[0],
-        "stack: going from 120.0 V to 0 V in 20.00 µs needs 43.20 A, and 2.000 A are there: the voltage changes by 0.2778 V/us, all of it would take 432.0 µs"
+        "stack: the change from 120.0 V to 0 V in 20.00 µs needs 43.20 A, but the driver supplies 2.000 A: the voltage changes by 0.2778 V/us, and the whole change takes 432.0 µs"
     );
     assert!(
-        stack.words[1].starts_with("stack: of the 4.600 µm commanded the driver leaves 3.25"),
+        stack.words[1].starts_with("stack: the commanded stroke is 4.600 µm, the driver leaves 3.25"),
         "{:?}",
         stack.words
     );
@@ -108,7 +108,7 @@ fn info_says_which_corner_the_driver_cannot_follow() {
     assert!((stack.coupling.unwrap().0 - coupling).abs() < 1e-12 && (coupling - 0.0204).abs() < 1e-4);
 }
 
-/// At 2 % of the stroke, as in a cryostat, the stage makes no step any more: said before it runs.
+/// At 2 % of the stroke, as in a cryostat, the stage makes no steps. This is reported before the run.
 #[test]
 fn info_says_that_a_stroke_is_below_its_zero_step_stroke() {
     let mut cold = value("stage_by_voltage");
@@ -118,13 +118,14 @@ fn info_says_that_a_stroke_is_below_its_zero_step_stroke() {
     assert_eq!(
         info.0[0].1.words,
         [
-            "stack: its stroke of 92.00 nm is below the zero-step stroke of 114.1 nm of balls: an ideal sawtooth makes no step of it"
+            "stack: the stroke of 92.00 nm is below the zero-step stroke of 114.1 nm of balls: an ideal sawtooth makes no step"
         ]
     );
 }
 
-/// ω² = k/(M + m), m the mass at the free end of a rod that rings at 40 kHz held; the stroke α·V alone and against a spring, none at the
-/// blocking force.
+/// ω² = k/(M + m), where m is the mass at the free end of a rod that rings at 40 kHz when clamped.
+///
+/// The stroke is α·V alone and less against a spring. At the blocking force it is 0.
 #[test]
 fn a_free_stack_rings_stretches_and_blocks_by_closed_forms() {
     let stiffness = 460.0 / STROKE;
@@ -154,8 +155,9 @@ fn a_free_stack_rings_stretches_and_blocks_by_closed_forms() {
     assert!((own * PI * PI / 4.0 / job(&still).scenario.stacks[0].stack.mass - 1.0).abs() < 1e-12);
 }
 
-/// P1's contact and sawtooth on a foot of 5 g and a stack of 20 N/µm, its slider of 20 g against 20 mN, its driver short of current, with
-/// a resistance and a bandwidth.
+/// Returns the contact and the sawtooth of P1 on a foot of 5 g with a stack of 20 N/µm. A slider of 20 g carries a load of 20 mN.
+///
+/// The driver has a current limit, a resistance and a bandwidth.
 fn p1() -> Value {
     let mut scenario = value("stage_by_voltage");
     scenario["materials"] = json!({ "steel": { "youngs_modulus": "210 GPa", "poisson_ratio": 0.3 } });
@@ -197,8 +199,9 @@ fn the_benchmark_on_a_driven_stack_converges_and_its_books_close() {
     assert!(largest(&open) < 1e-8 * largest(&lost), "{:e} of {:e}", largest(&open), largest(&lost));
 }
 
-/// Of 1 ms the stage's driver is at its limit from 980 µs on until it meets the next rise 286 µs later; the source gives CV²/2 less what
-/// is still there.
+/// In a period of 1 ms, the driver is at its limit from 980 µs until it meets the next rise 286 µs later.
+///
+/// The source supplies CV²/2 minus the energy that is still stored.
 #[test]
 fn the_summary_says_what_the_driver_has_done() {
     let job = job(&value("stage_by_voltage"));
@@ -213,14 +216,40 @@ fn the_summary_says_what_the_driver_has_done() {
     assert!((of("/at_limit/current_down") - falling).abs() < 1e-9, "{}", summary["drivers"]);
     let way = 120.0 + 19.0 * 2.0 * (120.0 - low) + fall * 20e-6;
     assert!((of("/mean_current_A") / (7.2e-6 * way / 20e-3) - 1.0).abs() < 1e-6, "{}", summary["drivers"]);
-    // Rising, the source pays for all that is stored; falling it has voltage of its own to give only below zero.
+    // While the voltage rises, the source supplies the stored energy. While it falls, it supplies energy only below zero.
     let stored = |from: f64, to: f64| 0.5 * 7.2e-6 * (to * to - from * from);
     let drawn = stored(0.0, 120.0) + 19.0 * stored(low, 120.0);
     assert!((of("/drawn_J") / drawn - 1.0).abs() < 1e-6, "{} {drawn}", summary["drivers"]);
     assert_eq!(of("/at_limit/window_low") + of("/at_limit/window_high") + of("/at_limit/current_up"), 0.0);
 }
 
-/// A sine of 80 V about 40 V makes the source pay wherever the voltage goes away from zero: C(120² + 40²)/2 a period, at no end of a step.
+/// The summary reports a command that the window clips. A command that only touches its ends is not clipped.
+#[test]
+fn a_window_is_reported_where_it_clips_the_command() {
+    let said = |window: [&str; 2], current: Option<&str>| {
+        let mut scenario = value("stage_by_voltage");
+        scenario["waveforms"]["drive"] = json!({ "sine": { "amplitude": "60 V", "frequency": "1 kHz", "offset": "60 V", "phase": "-90 deg" } });
+        scenario["actuators"]["stack"]["driver"] = json!({ "window": window });
+        if let Some(current) = current {
+            scenario["actuators"]["stack"]["driver"]["current"] = json!(current);
+        }
+        let job = job(&scenario);
+        Summary::new(&job, &job.run(&())).driver_limits().collect::<Vec<_>>()
+    };
+    assert_eq!(said(["0 V", "120 V"], None), Vec::<String>::new());
+    // |sin| > 1/2 on one side of the mean.
+    assert_eq!(
+        said(["0 V", "90 V"], None),
+        ["the driver of stack was 33.3 % of the time at an end of its window: the driver clips its command"]
+    );
+    let both = said(["0 V", "90 V"], Some("2 A"));
+    assert!(
+        both[0]
+            .ends_with("at an end of its window: the stack lags behind its command, which the driver clips")
+    );
+}
+
+/// With a sine of 80 V about 40 V, the source supplies energy whenever the voltage moves away from zero: C(120² + 40²)/2 per period.
 #[test]
 fn what_a_source_gives_is_counted_up_to_where_it_turns() {
     let mut scenario = value("stage_by_voltage");
@@ -239,8 +268,7 @@ fn what_a_source_gives_is_counted_up_to_where_it_turns() {
     }
 }
 
-/// Steps of fixed length go over the corners of the command, where what the source gives ends at once: against the event stepper, which ends
-/// a step there.
+/// Fixed time steps cross the corners of the command, where the power of the source jumps. The reference is the event-driven integrator.
 #[test]
 fn steps_over_corners_give_no_more_than_there_is() {
     let drawn = |stepper: Value| {
@@ -260,7 +288,7 @@ fn steps_over_corners_give_no_more_than_there_is() {
     }
 }
 
-/// Frames of a few microseconds and steps of fixed length come to the stage's steps, too.
+/// Frames of a few microseconds and fixed time steps give the same steps of the stage.
 #[test]
 fn frames_and_fixed_steps_agree() {
     let end = |stepper: Value| {
@@ -277,8 +305,9 @@ fn frames_and_fixed_steps_agree() {
     assert!((x - exact).abs() < 1e-2 * STROKE, "frames: {x:e} {exact:e}");
 }
 
-/// The two stages of `docs/piezo/hobby.json`, 4.6 µm at 120 V, 2.7 N on 50 g, 0.2 of friction, flybacks of 12 and 38 V/µs every 10 ms. Step of
-/// the last two periods of ten, m.
+/// Returns the steps of two stages in the last two of ten periods, m (`docs/piezo/hobby.json`).
+///
+/// Stroke 4.6 µm at 120 V, normal force 2.7 N, mass 50 g, friction coefficient 0.2, flybacks of 12 and 38 V/µs every 10 ms.
 fn hobby(driver: &Value) -> [f64; 2] {
     let text = include_str!("../../../../docs/piezo/hobby.json");
     let mut scenario: Value = serde_json::from_str(text).unwrap();
@@ -297,9 +326,10 @@ fn hobby(driver: &Value) -> [f64; 2] {
     })
 }
 
-/// With an ideal driver both flybacks step by nearly all of the stroke, a foot at 46 000 m/s² against a slider that friction can give
-/// 11 m/s². A driver that makes the slower one too slow makes the faster one just as slow: current, resistance and bandwidth
-/// set the fall of the voltage, and what is commanded within it hardly matters.
+/// With an ideal driver both flybacks give steps of nearly the whole stroke.
+///
+/// The foot accelerates at 46 000 m/s², and friction can accelerate the slider at 11 m/s² only. A driver that slows down the slower flyback
+/// slows down the faster one equally. Current, resistance and bandwidth determine the fall of the voltage, not the command.
 #[test]
 fn a_driver_that_spoils_the_slow_flyback_spoils_the_fast_one() {
     let drivers = [
@@ -327,7 +357,7 @@ fn a_driver_that_spoils_the_slow_flyback_spoils_the_fast_one() {
     }
 }
 
-/// A voltage from an ideal source is a stroke: no block, the same evaluations, the same bits as a foot on a damped spring.
+/// A voltage from an ideal source acts as a stroke, without a block. Results and evaluations equal those of a foot on a damped spring.
 #[test]
 fn a_stack_without_a_driver_costs_what_a_damped_spring_costs() {
     let mut volts = value("stage_by_voltage");

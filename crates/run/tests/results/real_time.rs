@@ -1,14 +1,15 @@
-//! The stepper of frames beside the event stepper: what frames of 1 us to 1 ms lose, that smaller steps lose less, that a jump is
-//! taken, and that a frame's work is bounded whatever comes from outside.
+//! The frames integrator compared with the event-driven one.
+//!
+//! Tested are the error of frames of 1 us to 1 ms, its decrease with the step, jumps, and the bounded work per frame.
 
 use crate::shared::{Lottery, Stage, example, frames};
 use std::path::Path;
 use stickslip_drive::{Plan, Run, Stepper, Trace};
 use stickslip_run::Summary;
 
-/// Frames, s.
+/// Frame lengths, s.
 const FRAMES: [f64; 6] = [1e-6, 5e-6, 20e-6, 50e-6, 200e-6, 1e-3];
-/// Drives, and how many natural lengths u_c a run of at most 0.1 s may be off at 1e-3 and at 1e-4 with frames of any length.
+/// Drives, and the allowed errors of runs of up to 0.1 s, in natural lengths u_c, at the accuracies 1e-3 and 1e-4.
 // Two to six times what was measured (docs/realtime.md). The rocking slider, whose motion is irregular, is left out; the impact
 // drive rings freely between its impacts, and ultrasound drags the vibrated slider by many u_c.
 const DRIVES: [(&str, [f64; 2]); 11] = [
@@ -25,7 +26,7 @@ const DRIVES: [(&str, [f64; 2]); 11] = [
     ("vibrated_slider", [5e-1, 2e-1]),
 ];
 
-/// Rows of a run by a stepper to a time, s.
+/// Returns the rows of a run by an integrator up to a time, s.
 fn rows(stage: &Stage, stepper: Stepper, end: f64) -> Trace {
     let model = &stage.job.model;
     let plan = Plan { until_steady: None, ..stage.plan(stepper, end) };
@@ -35,7 +36,7 @@ fn rows(stage: &Stage, stepper: Stepper, end: f64) -> Trace {
     trace
 }
 
-/// Largest distance of all places x, z on all rows, in the smallest u_c.
+/// Returns the largest distance of all positions x, z in all rows, relative to the smallest u_c.
 fn apart(stage: &Stage, a: &Trace, b: &Trace) -> f64 {
     let model = &stage.job.model;
     let scales = (0..).map_while(|c| model.contact_natural(c)).map(|scale| scale.displacement);
@@ -71,7 +72,7 @@ fn frames_of_any_length_keep_their_accuracy() {
     }
 }
 
-/// Against the 50-digit solution after twenty strokes: 1e-3 of a stroke from one step in a frame of 20 us.
+/// Compared with the 50-digit solution after twenty strokes, one time step per frame of 20 us gives 1e-3 of a stroke.
 #[test]
 fn p1_in_frames_of_20_us_is_a_thousandth_of_a_stroke_off() {
     const EXACT: f64 = 1.008_428_628_032_075e-5;
@@ -88,7 +89,7 @@ fn p1_in_frames_of_20_us_is_a_thousandth_of_a_stroke_off() {
     assert!(loose < 1e-3 && tight < 3e-5, "{loose:e}, {tight:e}");
 }
 
-/// A flyback in no time: a path of its own, straight, at a moment of its own.
+/// An instantaneous flyback is a straight path at its own time.
 #[test]
 fn a_jump_inside_a_frame_is_taken_where_it_is() {
     let set = [
@@ -103,7 +104,7 @@ fn a_jump_inside_a_frame_is_taken_where_it_is() {
         .map(|length| apart(&stage, &exact, &rows(&stage, frames(length), 10e-3)));
     println!("{off:?}");
     assert!(off[0] < 2e-2 && off[3] < 2e-3, "{off:?}");
-    // The books count the jump's work, and close as well as the motion is exact.
+    // The energy balance includes the work of the jump and is as accurate as the motion.
     let channels = stage.job.model.channels();
     let error = channels.iter().position(|channel| channel.name == "energy.error_J").unwrap();
     let input = channels.iter().position(|channel| channel.name == "energy.input_J").unwrap();
@@ -112,8 +113,9 @@ fn a_jump_inside_a_frame_is_taken_where_it_is() {
     assert!(last[error].abs() < 1e-3 * last[input].abs(), "{last:?}");
 }
 
-/// Frames of ten seconds of an input that goes anywhere: no frame takes more than eight steps for each of its own, no memory holds
-/// more than 256 turning points, and what that has cost is booked.
+/// Frames of ten seconds with an arbitrary input. A frame has at most eight times its own number of steps, and a memory at most 256 knots.
+///
+/// The error of merged knots is counted.
 #[test]
 fn work_is_bounded_whatever_comes() {
     let input = r#"{"input":{"initial":0,"range":["-300 nm","300 nm"]}}"#;
@@ -133,9 +135,9 @@ fn work_is_bounded_whatever_comes() {
     let (mut steps, mut touched, mut worst) = (0, 0, [0, 0]);
     let mut value = 0.0;
     for k in 1..=200_000_i32 {
-        // Held, small and large jumps, and now and then rest, so that loops pile up.
+        // Held values, small and large jumps and rest, so that inner loops accumulate.
         if k % 20_000 < 2000 {
-            // A swing that dies out leaves loop within loop.
+            // A decaying oscillation leaves nested loops.
             value = 300e-9 * 0.998_f64.powi(k % 20_000) * if k % 2 == 0 { 1.0 } else { -1.0 };
             run.hold(0, value).unwrap();
         } else if lottery.draw(4) == 0 {
@@ -157,8 +159,7 @@ fn work_is_bounded_whatever_comes() {
     assert!(merged.force < 0.5 * limit, "{merged:?} of {limit:e} N");
 }
 
-/// Drives whose normal a waveform, a body or a lifting foot moves lost 8 to 40 times what was asked, in silence: no step ended where a contact
-/// touches or an edge begins to drag. Now they keep it, or are warned of, by check or by the run.
+/// Drives whose normal load is varied by a waveform, a body or a lifting foot keep the requested accuracy or give a warning.
 #[test]
 fn frames_under_moving_normals_keep_their_accuracy_or_say_so() {
     let scenes = ["under_a_swinging_load", "on_a_rough_line", "on_a_bouncing_slider", "of_lifting_feet"];
@@ -177,17 +178,18 @@ fn frames_under_moving_normals_keep_their_accuracy_or_say_so() {
         let warned: Vec<_> =
             warnings.iter().map(|it| it.kind).filter(|it| it.starts_with("frames")).collect();
         assert!(lost <= accuracy || !warned.is_empty(), "{name}: {lost:e}");
-        // Of feet that lift and touch no number of steps keeps it.
+        // Feet that lift off and touch do not keep it at any number of steps.
         assert!(k == 3 || lost <= accuracy, "{name}: {lost:e}");
-        // No cut makes more than eight of one.
+        // A step is cut into at most eight parts.
         let most = 8.0 * stage.job.model.substeps(length, accuracy) * (plan.duration / length).ceil();
         let steps = outcome.state.counts().steps as f64;
         assert!(k == 3 || steps <= most, "{name}: {steps} steps, {most}");
     }
 }
 
-/// While springs stick their damping pushes with sixty times what friction holds, for the twentieth part of a step: it was a branch of its
-/// own in none, and the first flank alone was half lost.
+/// While the springs of a damped contact stick, their damping force exceeds the friction limit sixty times for a twentieth of a step.
+///
+/// Frames must treat this as a separate branch.
 #[test]
 fn frames_see_a_damped_contact_give_way() {
     let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/data/frames_damped.json");
@@ -203,7 +205,7 @@ fn frames_see_a_damped_contact_give_way() {
         ("\"5 us\"", "\"10.8 us\"", "backward", 1e-3),
         ("\"20 us\"", "\"10.8 us\"", "backward", 1e-3),
         ("\"50 us\"", "\"10.8 us\"", "forward", 1e-3),
-        // Shorter than a step, and faster than the slider settles.
+        // Shorter than a time step, and faster than the slider settles.
         ("\"20 us\"", "\"0.9 us\"", "backward", 1e-3),
         ("\"100 us\"", "\"10.8 us\"", "backward", 1e-2),
     ];
@@ -225,7 +227,7 @@ fn frames_see_a_damped_contact_give_way() {
     }
 }
 
-/// The end of a run a last place beyond the last cycle of its waveform: its row was left out, and friction since the branch before.
+/// The end of the run is one unit in the last place after the last cycle of its waveform. Its row must be written.
 #[test]
 fn an_end_a_last_place_after_a_corner_has_its_row() {
     let set =
@@ -245,7 +247,7 @@ fn an_end_a_last_place_after_a_corner_has_its_row() {
     );
 }
 
-/// A flyback that is shorter than a step of a frame: slip begins in it, and what was put in is known.
+/// A flyback that is shorter than a time step of a frame: slip starts within it, and its energy input is counted.
 #[test]
 fn a_flyback_shorter_than_a_step_is_seen() {
     let set = [
@@ -261,8 +263,7 @@ fn a_flyback_shorter_than_a_step_is_seen() {
     assert!((frames / exact - 1.0).abs() < 0.02, "{frames:e}, {exact:e}");
 }
 
-/// A flank of 1 µs strikes springs damped by 100 µs, pressed by a waveform or by a body: in five strokes a tenth was lost and dampers took 41 % too
-/// little, at any accuracy.
+/// A flank of 1 µs on springs with a damping time of 100 µs: frames must keep their accuracy.
 #[test]
 fn damped_springs_under_a_moving_normal_give_way_in_frames() {
     let scene = |(normal, slider): (&str, &str), rest: &str| {

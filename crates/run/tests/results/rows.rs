@@ -1,12 +1,10 @@
-//! Rows of springs by the event stepper: with normals that moved they came out wrong, and nothing said so.
+//! Spring rows with the event-driven integrator under varying normal loads.
 //!
-//! * `row_coupled`: a slider on a foot that shakes along x and z. At a tolerance of 1e-6 it was 2e-3 to 9e-3 `u_c` off, at 1e-10
-//!   5e-6 to 5e-4: no estimate saw the kinks of single springs, nor the anchors of those that touch inside a step.
-//! * `row_force`: two rows under a force that follows a sine, 3e-5 to 1e-4 `u_c` off at every tolerance.
-//! * `row_at_rest`: a slider that rests under a load while the indentation falls and springs part that bear nothing. At tolerances from
-//!   1e-3 to 1e-8 it was kicked by 2e-3 `u_c`: a spring that parted was taken for one that slips, and the next one was let slip.
+//! * `row_coupled`: a slider on a foot that moves along x and z.
+//! * `row_force`: two rows under a sinusoidal force.
+//! * `row_at_rest`: a slider at rest under a load while the indentation decreases and unloaded springs open.
 //!
-//! The reference is velocity Verlet on the same row, which knows no event, at a step and half of it (Richardson).
+//! The reference is velocity Verlet without events on the same row, with Richardson extrapolation of two time steps.
 
 use serde_json::Value;
 use std::path::Path;
@@ -23,13 +21,13 @@ fn run(name: &str, sets: &[(&str, String)]) -> (Job, Outcome) {
     (job, outcome)
 }
 
-/// Place of the slider along x at the end, in natural displacements of the first contact.
+/// Returns the final position of the slider along x, relative to the natural displacement of the first contact.
 fn place(job: &Job, state: &State) -> f64 {
     let unit = job.model.contact_natural(0).unwrap().displacement;
     state.coordinate(&job.model, 1, Axis::X).unwrap().0 / unit
 }
 
-/// Every tolerance against the fixed steps: within ten times of it, or within their own error.
+/// Compares every tolerance with fixed time steps: within ten tolerances, or within the error of the fixed steps.
 fn against_verlet(name: &str, contacts: &[&str], count: usize, step: f64) {
     let springs: Vec<_> =
         contacts.iter().map(|c| (format!("contacts.{c}.engine.springs.count"), count.to_string())).collect();
@@ -72,7 +70,7 @@ fn a_slider_at_rest_on_a_row_is_not_moved_by_springs_that_part() {
     against_verlet("row_at_rest", &["c"], 64, 40e-6);
 }
 
-/// Its friction is that of the path, not of a chord for every step: what is left of the books follows the tolerance.
+/// The friction work is that of the path, not of one chord per time step. The energy error follows the tolerance.
 #[test]
 fn books_of_rows_under_a_coupled_normal_close() {
     for tolerance in [1e-6, 1e-8, 1e-10] {

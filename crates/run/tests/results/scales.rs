@@ -1,10 +1,9 @@
-//! Parts of a scene that have nothing to do with each other, each in its own scale, and contacts whose strokes or frictions are far
-//! smaller than the rest.
+//! Independent parts of a model with their own scales, and contacts with very small strokes or friction coefficients.
 //!
-//! * `hang_unrelated_masses`: a slider of friction 1e-8 that rests, and two masses on a spring. The work of the masses was asked for to
-//!   the scale of the slider, 16 digits below it: the run stood still.
-//! * `frictionless_stage`, `frictionless_chain`: frictions of 1e-12 among forces of newtons. The same within one part.
-//! * `fretting_small_stroke`, `driven_233`: a contact shaken by parts of a thousandth of u_c, whose work was measured by μF_N u_c.
+//! * `hang_unrelated_masses`: a slider at rest with a friction coefficient of 1e-8, and two masses on a spring. Work must have separate
+//!   scales.
+//! * `frictionless_stage`, `frictionless_chain`: friction coefficients of 1e-12 with forces of newtons.
+//! * `fretting_small_stroke`, `driven_233`: a contact with amplitudes below a thousandth of u_c.
 
 use serde_json::Value;
 use std::f64::consts::TAU;
@@ -12,7 +11,7 @@ use std::path::Path;
 use stickslip_drive::scene::Axis;
 use stickslip_run::{Job, Outcome, Summary};
 
-/// A scene of the data with other values, run to its end in no more than 20 000 steps.
+/// Runs a model of the test data with overrides, in at most 20 000 time steps.
 fn ended(name: &str, set: &[(&str, &str)]) -> (Job, Outcome) {
     let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/data").join(name).with_extension("json");
     let changes = set.iter().chain(&[("run.limits.steps", "20000")]);
@@ -41,8 +40,8 @@ fn tiny_frictions_stall_nothing_beside_them() {
     }
 }
 
-/// Two masses on a spring, one of them pushed by F sin ωt from rest: their centre goes as t - sin(ωt)/ω, what the spring stretches as
-/// sin ωt - (ω/Ω) sin Ωt.
+/// Two masses on a spring, one of them driven by F sin ωt from rest. Their centre moves as t - sin(ωt)/ω, the spring as sin ωt - (ω/Ω) sin
+/// Ωt.
 #[test]
 fn masses_swing_beside_a_contact_of_tiny_friction_as_alone() {
     let [m0, m1, stiffness, force, omega] = [2e-3, 3e-3, 1.4e6, 1.0, TAU / 1.2e-3];
@@ -63,8 +62,9 @@ fn masses_swing_beside_a_contact_of_tiny_friction_as_alone() {
     }
 }
 
-/// E_d/(4μF_N u_c) = Ũ + Ũ(1-Ũ)ᵖ - 2/(p+1) (1-(1-Ũ)ᵖ⁺¹), p = 3/2, of a ball in partial slip (Cattaneo and Mindlin), as the series in which
-/// nothing cancels: the sum over j ≥ 2 of (-1)ʲ (p over j) (j-1)/(j+1) Ũʲ⁺¹.
+/// Returns E_d/(4μF_N u_c) = Ũ + Ũ(1-Ũ)ᵖ - 2/(p+1) (1-(1-Ũ)ᵖ⁺¹) with p = 3/2 for a ball in partial slip (Cattaneo and Mindlin).
+///
+/// The series has no cancellation: the sum over j ≥ 2 of (-1)ʲ (p over j) (j-1)/(j+1) Ũʲ⁺¹.
 fn lost_by_a_loop(part: f64) -> f64 {
     let (mut binomial, mut sum) = (1.0, 0.0);
     for j in 1..400 {
@@ -75,7 +75,7 @@ fn lost_by_a_loop(part: f64) -> f64 {
     sum
 }
 
-/// Between the ends of two periods the loop is closed: what is put in is what is lost. 3 nm are 0.4 % of u_c.
+/// Between the ends of two periods the loop is closed, so the energy input equals the loss. 3 nm are 0.4 % of u_c.
 #[test]
 fn work_put_into_small_strokes_follows_the_tolerance() {
     for (amplitude, metres) in [("500 nm", 5e-7), ("100 nm", 1e-7), ("10 nm", 1e-8), ("3 nm", 3e-9)] {
@@ -112,7 +112,7 @@ fn books_of_a_small_stroke_close_at_the_tolerance() {
         let books = energy(&ended("driven_233", &set), "largest_error_relative");
         assert!(books < 100.0 * tolerance.parse::<f64>().unwrap(), "{tolerance}: {books:e}");
     }
-    // The same through a compliant rig: places without mass are held at 1e-10.
+    // The same with a compliant rig: massless positions are solved with a tolerance of 1e-10.
     let rig = [
         ("bodies.end", r#"{"x": "balanced"}"#),
         ("contacts.c.between", r#"["end", "ground"]"#),
@@ -126,7 +126,7 @@ fn books_of_a_small_stroke_close_at_the_tolerance() {
     }
 }
 
-/// 10 N beside 3e-14 N: a mass of 1 kg goes as without the contact, F/(mω²)(ωt - sin ωt).
+/// With 10 N and a friction of 3e-14 N, a mass of 1 kg moves as without the contact: F/(mω²)(ωt - sin ωt).
 #[test]
 fn friction_below_the_rounding_of_forces_is_none() {
     let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/odd/friction_of_rounding.json");

@@ -1,4 +1,4 @@
-//! What the steps of drives do, named, and how long it holds.
+//! Convergence of the step lengths of drives, and the validity of steady step lengths.
 
 use serde_json::Value;
 use std::path::{Path, PathBuf};
@@ -10,12 +10,12 @@ fn example(name: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenarios").join(name).with_extension("json")
 }
 
-/// A stage of 100 g on three balls, a foot of 5 g on a stack: 5 N, 1 ms, 4.6 µm.
+/// Returns a stage of 100 g on three balls with a foot of 5 g on a stack: 5 N, 1 ms, 4.6 µm.
 fn stage() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/data/stage.json")
 }
 
-/// What the summary says of the steps, with the length of each.
+/// Returns the steps part of the summary, with all step lengths.
 fn steps(file: &Path, cycles: usize, set: &[(&str, &str)]) -> Value {
     let set = set.iter().copied().chain([("output.every", "1e3"), ("plots", "[]")]);
     let set: Vec<_> = set.map(|(key, value)| (key.to_owned(), value.to_owned())).collect();
@@ -45,7 +45,7 @@ fn mean(values: &[f64]) -> f64 {
     values.iter().sum::<f64>() / values.len() as f64
 }
 
-/// The settled step is the mean of 10 000 further periods, within its error.
+/// The steady step length agrees with the mean of 10 000 further periods within its error.
 #[test]
 #[ignore = "takes long: .ci/full"]
 fn settled_steps_hold_for_ten_thousand_periods() {
@@ -63,7 +63,7 @@ fn settled_steps_hold_for_ten_thousand_periods() {
     }
 }
 
-/// At 20 kHz a step grows for thousands of periods; after 100 it said 259 nm. Where it goes is known long before.
+/// At 20 kHz the step length increases over thousands of periods. Its limit can be extrapolated early.
 #[test]
 fn a_step_on_its_way_is_not_settled_and_its_limit_is_foreseen() {
     let fast = [("waveforms.drive.sawtooth.period", "\"50 us\"")];
@@ -72,7 +72,7 @@ fn a_step_on_its_way_is_not_settled_and_its_limit_is_foreseen() {
     assert!(short.get("steady").is_none());
     let last = lengths(&short)[98..].to_vec();
     assert_eq!(number(&short, "/settling/change_m"), last[1] - last[0]);
-    // Farther than it has come: nothing is foreseen.
+    // The remaining change exceeds the change so far, so no limit is extrapolated.
     assert!(short["settling"].get("limit_m").is_none());
     let long = lengths(&steps(&stage(), 6000, &fast));
     let later = steps(&stage(), 1000, &fast);
@@ -81,7 +81,7 @@ fn a_step_on_its_way_is_not_settled_and_its_limit_is_foreseen() {
     assert!((limit - long[5999]).abs() < error, "{limit:e} ± {error:e}, {:e}", long[5999]);
 }
 
-/// A load of 0.5 N against 0.45 N of friction runs away; it said -13.82 µm ± 2.7 µm.
+/// A load of 0.5 N exceeds the friction limit of 0.45 N, so the stage drifts.
 #[test]
 fn a_load_that_runs_away_drifts() {
     let set = [("contacts.balls.normal.force", "\"1 N\""), ("loads", r#"[{"on":"stage","x":"-0.5 N"}]"#)];
@@ -90,7 +90,7 @@ fn a_load_that_runs_away_drifts() {
     assert!(found.get("steady").is_none());
 }
 
-/// Without damping the stack rings on for two hundred periods; it said -110 nm beside a mean speed of +1.38 mm/s.
+/// Without damping the stack rings for two hundred periods.
 #[test]
 fn an_undamped_stack_is_on_its_way_for_long() {
     let set = [("actuators.stack.damping", "0")];
@@ -103,7 +103,7 @@ fn an_undamped_stack_is_on_its_way_for_long() {
     assert!((limit - step).abs() < error, "{limit:e} ± {error:e}, {step:e}");
 }
 
-/// Beats of the examples: one fades by 0.33 % a period, one grows by 0.1 %.
+/// Oscillations of the examples: one decays by 0.33 % per period, one grows by 0.1 %.
 #[test]
 fn beats_fade_or_grow() {
     let impact = steps(&example("impact_drive"), 100, &[]);
@@ -116,7 +116,7 @@ fn beats_fade_or_grow() {
     assert!((0.0005..0.002).contains(&number(&climber, "/settling/growth")), "{}", climber["settling"]);
 }
 
-/// A slider that rocks without end, and what is read off any forty of its periods: seldom a pattern, which there is not.
+/// A slider with chaotic rocking. Forty of its periods rarely give a pattern, and there is none.
 #[test]
 fn chaos_is_said_to_have_no_pattern() {
     let set = [("run.stepper.event.tolerance", "1e-6")];
@@ -131,8 +131,8 @@ fn chaos_is_said_to_have_no_pattern() {
     assert!(patterns <= parts.len() / 30, "{patterns} patterns in {} parts", parts.len());
 }
 
-/// What fades slowly hides behind what fades fast: steps that have settled are as far off as they are from the motion found directly, if that
-/// is the one they settle on.
+/// Slow decay is hidden by fast decay. The error of a settled step includes the distance from the periodic orbit, if the steps converge to
+/// it.
 #[test]
 fn a_settled_step_is_as_far_off_as_it_is_from_the_steady_motion() {
     let set = [("plots", "[]")].map(|(key, value)| (key.to_owned(), value.to_owned()));
@@ -162,13 +162,13 @@ fn a_settled_step_is_as_far_off_as_it_is_from_the_steady_motion() {
     let own = told(None);
     assert!(own < 1e-6, "{own:e}");
     assert!((told(Some((1e-5, true))) / 1e-5 - 1.0).abs() < 1e-6);
-    // Another motion, or one that runs leave, says nothing of it.
+    // Another orbit, or one that runs leave, does not affect the error.
     for beside in [(1e-2, true), (1e-5, false), (0.0, true)] {
         assert!((told(Some(beside)) / own - 1.0).abs() < 1e-9, "{beside:?}");
     }
 }
 
-/// Six strokes of a burst take a slider farther in a period than twice the stroke, as far in each: that is no drift.
+/// Six strokes of a burst move a slider by more than twice the stroke in each period. This is no drift.
 #[test]
 fn a_burst_steps_farther_than_its_stroke() {
     let burst = r#"{"cycles": 6, "dwell": "1 ms"}"#;

@@ -1,4 +1,4 @@
-//! Examples of the repository and what tests draw of them: variants, engines, steppers, moments.
+//! Examples of the repository and random variants of them: engines, integrators, times.
 
 use std::path::{Path, PathBuf};
 use stickslip_drive::scene::EngineChoice;
@@ -15,7 +15,7 @@ pub(crate) fn scenarios() -> Vec<PathBuf> {
     files
 }
 
-/// Marsaglia's xorshift64.
+/// Marsaglia's xorshift64 generator.
 pub(crate) struct Lottery(pub(crate) u64);
 
 impl Lottery {
@@ -58,7 +58,7 @@ const LINKS: [&str; 3] = [
     r#""stiffness":1e4,"damping":1,"preload":"1 mN""#,
 ];
 
-/// Overrides of one to three things of a scenario.
+/// Returns random overrides of one to three properties of a scenario.
 pub(crate) fn drawn(base: &Scenario, lottery: &mut Lottery) -> Vec<(String, String)> {
     let scene = &base.scene;
     let mut set = Vec::new();
@@ -95,31 +95,31 @@ pub(crate) fn drawn(base: &Scenario, lottery: &mut Lottery) -> Vec<(String, Stri
 }
 
 impl Lottery {
-    /// Any bits.
+    /// Returns random bits.
     pub(crate) fn bits(&mut self) -> u64 {
         self.draw(2);
         self.0
     }
 
-    /// A number from 0 to 1.
+    /// Returns a random number from 0 to 1.
     pub(crate) fn share(&mut self) -> f64 {
         self.draw(1 << 20) as f64 / f64::from(1 << 20)
     }
 }
 
-/// An example of the repository.
+/// Returns the path of an example.
 pub(crate) fn example(name: &str) -> PathBuf {
     PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../../scenarios").join(name)
 }
 
-/// A scenario made ready, and the key of its states.
+/// A prepared scenario with the key of its states.
 pub(crate) struct Stage {
     pub(crate) job: Job,
     pub(crate) key: [u8; 32],
 }
 
 impl Stage {
-    /// Of an example with overrides; none where they make no scene.
+    /// Prepares a scenario with overrides. Returns `None` if it is invalid.
     pub(crate) fn of(file: &Path, set: &[(String, String)]) -> Option<Self> {
         let job = Job::prepare(file, set, Path::new("")).ok()?;
         let mut key = [0; 32];
@@ -129,45 +129,46 @@ impl Stage {
         Some(Self { job, key })
     }
 
-    /// Of an example as it is.
+    /// Prepares an example.
     pub(crate) fn example(name: &str) -> Self {
         Self::of(&example(name), &[]).unwrap()
     }
 
-    /// The example's plan with another stepper and another end, s, and no more rows than these.
+    /// Returns the plan with another integrator and end, s, and sixteen rows.
     pub(crate) fn plan(&self, stepper: Stepper, duration: f64) -> Plan {
         Plan { stepper, duration, every: Some(duration / 16.0), ..self.job.scenario.plan }
     }
 
-    /// The state at the start of a plan; none where it finds none.
+    /// Returns the initial state of a plan. Returns `None` if there is none.
     pub(crate) fn start(&self, plan: &Plan) -> Option<State> {
         self.job.model.start(plan).ok()
     }
 
-    /// A fixed step of `share` of the longest that is stable, s; none where nothing swings.
+    /// Returns an integrator with a fixed time step, as a fraction of the longest stable one. Returns `None` if the model has no
+    /// oscillation.
     pub(crate) fn step(&self, share: f64, make: fn(f64) -> Stepper) -> Option<Stepper> {
         let longest = self.job.model.longest_step(make(0.0))?;
         longest.is_finite().then(|| make(share * longest))
     }
 
-    /// Whether a contact goes by a row of springs.
+    /// Returns whether a contact uses a spring row.
     pub(crate) fn has_rows(&self) -> bool {
         let mut contacts = self.job.scenario.scene.contacts.iter();
         contacts.any(|contact| matches!(contact.part.engine, EngineChoice::Springs { .. }))
     }
 }
 
-/// Velocity Verlet.
+/// Returns the velocity Verlet integrator.
 pub(crate) fn verlet(step: f64) -> Stepper {
     Stepper::Verlet { step }
 }
 
-/// Runge and Kutta's method.
+/// Returns the classical Runge–Kutta integrator.
 pub(crate) fn rk4(step: f64) -> Stepper {
     Stepper::Rk4 { step }
 }
 
-/// Frames of a length, s, at a thousandth of a stroke.
+/// Returns the frames integrator with a frame length, s, and an accuracy of a thousandth of a stroke.
 pub(crate) fn frames(length: f64) -> Stepper {
     Stepper::Frames { length, accuracy: 1e-3 }
 }

@@ -1,9 +1,9 @@
-//! Rows of springs between events, against steps that know of none.
+//! Spring rows between events, compared with time steps without events.
 
 use std::path::Path;
 use stickslip_run::Job;
 
-/// x of the slider at the end, m.
+/// Returns the final x of the slider, m.
 fn ends_at(stepper: &str) -> f64 {
     x_at_the_end("springs_under_force.json", stepper)
 }
@@ -17,9 +17,9 @@ fn x_at_the_end(name: &str, stepper: &str) -> f64 {
     outcome.state.body(&job.model, 1).unwrap().0
 }
 
-/// Where a spring touches, a row that a force presses sinks slower from there on, and what had stuck may slip at once. That was decided by
-/// how fast it had sunk before: below 1e-9 the slip began with the next guard, above it never did, and the slider ended 8e-13 m off.
-/// The reference takes steps of 2 ns over all springs; it is within 4e-14 m.
+/// When a spring touches, a row under a force sinks more slowly, and sticking springs may slip at once.
+///
+/// The reference uses time steps of 2 ns over all springs and is accurate to 4e-14 m.
 #[test]
 fn springs_slip_by_how_a_row_sinks_after_a_spring_has_touched() {
     let stepped = ends_at(r#"{"rk4": {"step": "2 ns"}}"#);
@@ -32,8 +32,9 @@ fn springs_slip_by_how_a_row_sinks_after_a_spring_has_touched() {
     }
 }
 
-/// Steps that ask the whole law which springs stick ask a little ahead, and what has begun to slip until there is taken off again: with
-/// damping of 5 µs they were 9.4e-16 m off, however short. The reference is the event stepper's closed law of the branch.
+/// The full force law of a damped contact uses the slip states at the time of evaluation.
+///
+/// The reference is the closed form of the branch in the event-driven integrator.
 #[test]
 fn damping_by_the_whole_law_is_that_of_the_moment() {
     let located = x_at_the_end("damped_sine.json", r#"{"event": {"tolerance": 1e-12}}"#);

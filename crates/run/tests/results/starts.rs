@@ -1,12 +1,13 @@
-//! Starts in equilibrium.
+//! Initial equilibrium.
 
 use std::path::Path;
 use stickslip_drive::scene::Axis;
 use stickslip_run::Job;
 
-/// A spring takes nearly all of the weight until the contact below is pressed as much as it is stiff: until then friction holds less of
-/// the pull than in the end. The search slid for want of it, and was in balance metres away. What friction holds has slid by less
-/// than u_c = μE*d/G* (Mindlin; E*/G* = (2 - ν)/(2 - 2ν) of equal materials).
+/// A spring carries nearly all of the weight until the contact below is pressed. At first, friction holds less of the tangential load.
+///
+/// The equilibrium must be found near the start. What friction holds has slipped by less than u_c = μE*d/G* (Mindlin; E*/G* = (2 - ν)/(2 -
+/// 2ν) for equal materials).
 #[test]
 fn what_friction_holds_is_found_where_it_began() {
     let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/data/pulled_on_a_spring.json");
@@ -18,7 +19,7 @@ fn what_friction_holds_is_found_where_it_began() {
         let job = Job::prepare(&file, &set, Path::new("")).unwrap();
         let place = |axis| job.start.coordinate(&job.model, 0, axis).unwrap().0;
         let [x, z] = [Axis::X, Axis::Z].map(place);
-        // The more it pulls the farther it slides.
+        // The larger the load, the farther the body slides.
         assert!(before < x && x < friction * ratio * -z, "{pull}: {x:e} m, {z:e} m deep");
         before = x;
     }

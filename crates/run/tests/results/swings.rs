@@ -1,21 +1,19 @@
-//! The benchmark drive with other profiles, by swings from event to event, and on a sine, by slides of one leap, against steps of
-//! a Runge–Kutta–Nyström pair.
+//! The benchmark drive with other profiles and with a sine, by closed-form leaps, compared with a Runge–Kutta–Nyström method.
 
 use std::path::PathBuf;
 use stickslip_drive::{Method, Model, State, run};
 use stickslip_scenario::Scenario;
 
-/// Scenes, and where the slider ends after 20 periods, m. By the version before profiles other than the paraboloid swung: its
-/// Runge–Kutta–Nyström steps at a tolerance of 1e-13, which differ by up to 5e-20 m from those at 1e-12.
+/// Models and the final slider positions after 20 periods, m, computed by Runge–Kutta–Nyström steps at a tolerance of 1e-13.
 const STEPPED: [(&str, f64); 3] = [
     ("p1_cone", 9.64957582475719e-6),
     ("p1_power4", 1.0370759769434074e-5),
     ("p1_sphere", 1.0084259523886863e-5),
 ];
-/// Less than a fifteenth of u_c of these scenes, m: 67, 54 and 63 nm.
+/// Length of less than a fifteenth of u_c of these models, m.
 const LENGTH: f64 = 3e-9;
 
-/// The end of a run at a tolerance, and the slider's place there, m.
+/// Returns the final state of a run at a tolerance, and the slider position, m.
 fn ended(name: &str, tolerance: &str) -> (State, f64) {
     let file = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("tests/data").join(format!("{name}.json"));
     let scenario = Scenario::load_with(&file, &[("run.stepper.event.tolerance", tolerance)]).unwrap();
@@ -26,7 +24,7 @@ fn ended(name: &str, tolerance: &str) -> (State, f64) {
     (state, place)
 }
 
-/// Errors are below a fifteenth of the tolerance in u_c, but for rounding, and every interval is one leap: whoever steps again loosens both.
+/// Errors are below a fifteenth of the tolerance in u_c, except for rounding, and every interval is one leap.
 #[test]
 fn other_profiles_swing_to_where_steps_lead() {
     for (name, stepped) in STEPPED {
@@ -41,10 +39,10 @@ fn other_profiles_swing_to_where_steps_lead() {
     }
 }
 
-/// Where P1 on a sine ends, m, by the version before slides over sines were leaps, at 1e-13: 4e-22 m from its run at 1e-12.
+/// Final slider position of P1 with a sine, m, computed by time steps at a tolerance of 1e-13.
 const SINE: f64 = -1.4017567711419356e-7;
 
-/// Errors are below a fifteenth of the tolerance in u_c, and every slide is one leap.
+/// Errors are below a fifteenth of the tolerance in u_c, and every slip interval is one leap.
 #[test]
 fn slides_over_a_sine_end_where_steps_lead() {
     for (tolerance, allowed) in [("1e-3", 1e-3), ("1e-6", 1e-6), ("1e-9", 1e-9), ("1e-12", 1e-11)] {
@@ -52,7 +50,7 @@ fn slides_over_a_sine_end_where_steps_lead() {
         let off = (place - SINE).abs();
         println!("p1_sine at {tolerance}: {off:e} m");
         assert!(off < allowed * LENGTH, "{tolerance}: {off:e} m");
-        // 41 begin, and the last one has no end.
+        // 41 intervals start, and the last one has no end.
         assert_eq!(state.tally().steps(Method::Parabola), 40, "{tolerance}: {:?}", state.tally());
     }
 }

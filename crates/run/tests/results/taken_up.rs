@@ -1,13 +1,11 @@
-//! A run taken up in the middle of an impact: the memory moves with every step there, and what the solver knows of its start is
-//! older than that.
+//! Resumption of a run during an impact, where the slip memory changes with every time step.
 
 use std::path::Path;
 use stickslip_drive::{Plan, Run, State};
 use stickslip_run::Job;
 use stickslip_run::checkpoint::model_key;
 
-/// From the slip of the rebound to the lift-off every step is left and taken up again; seven of twenty such places went on to
-/// other bits, for the slopes were made anew from memories that had moved.
+/// From the slip of the rebound to the lift-off, the run is saved and resumed at every time step. The results must be identical.
 #[test]
 fn an_impact_taken_up_anywhere_is_the_impact() {
     let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenarios/bouncing_ball.json");

@@ -13,7 +13,7 @@ use std::f64::consts::FRAC_1_SQRT_2;
 
 /// Piezo stack: a spring and a damper with a free stroke s. The stack acts on the second body with the force k(s-e) + c(ṡ-ė). The
 /// elongation e is x(second) - x(first) at the ends of the stack, or z(second) - z(first). Data-sheet values are enough to describe a
-/// stack: see docs/piezo.md.
+/// stack: see docs/how/data_sheet.md.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 #[schemars(transform = stroke_or_voltage)]

@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 use serde_json::json;
 
 /// Rate-independent hysteresis of the free stroke: the input v is the stroke without hysteresis, m; the output is the actual stroke, m. The
-/// hysteresis has no effect on the voltage or on the energy balance: see docs/piezo_material.md.
+/// hysteresis has no effect on the voltage or on the energy balance: see docs/how/hysteresis.md.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub(crate) enum HysteresisForm {

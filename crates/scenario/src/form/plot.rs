@@ -10,7 +10,7 @@ use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use std::borrow::Cow;
 use std::fmt;
 
-/// A picture by name, or one of one's own.
+/// A plot by its name, or a user-defined plot.
 #[derive(Debug, Clone)]
 pub(crate) enum PlotForm {
     Named(PlotName),
@@ -95,7 +95,7 @@ impl JsonSchema for PlotForm {
 
     fn json_schema(generator: &mut SchemaGenerator) -> Schema {
         json_schema!({
-            "description": "A picture by name, or channels over a channel: `xy-1.png`, `xy-2.png` and so on, in their order.",
+            "description": "A plot by its name, or channels over another channel. These plots are written to `xy-1.png`, `xy-2.png` and so on.",
             "anyOf": [generator.subschema_for::<PlotName>(), generator.subschema_for::<OwnPlotForm>()]
         })
     }

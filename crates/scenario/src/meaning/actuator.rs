@@ -1,8 +1,7 @@
-//! Piezo stacks: what is known of each, its command, and what stands between command and stroke.
+//! Piezo stacks: data of each stack, its command, and the signal chain between command and stroke.
 //!
-//! A waveform of volts that a stack follows is read as the free stroke that it commands: its values are multiplied by the stack's
-//! stroke per volt, m/V, where they are read. Lengths are then all that a scene knows, and its natural scales, its warnings
-//! and its figures need no word of volts. Only blocks of the piezo side do, whose columns are volts and amperes.
+//! A voltage waveform is converted to the free stroke of its stack: its values are multiplied by the stroke per volt, m/V. The model
+//! therefore contains lengths only. Only the blocks of the piezo chain know voltages; their columns are in V and A.
 
 use super::Builder;
 use super::ceramic::Ceramic;
@@ -17,35 +16,35 @@ use stickslip_drive::scene::{Actuator, Axis, Direction, Freedom, Named, Side, Va
 use stickslip_piezo::data_sheet::{QUALITY, Stack};
 use stickslip_piezo::driver::Spec;
 
-/// What is known of an actuator beside what the scene holds.
+/// Data of an actuator in addition to those in the model.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Piezo {
-    /// Its name.
+    /// Name.
     pub name: String,
-    /// What its numbers come to.
+    /// Stiffness, stroke per volt, capacitance and mass, from the scenario or the data sheet.
     pub stack: Stack,
-    /// Of its own mass, what each end has been given, kg.
+    /// Shares of the stack's own mass at its two ends, kg.
     pub ends: [f64; 2],
-    /// Quality factor that its damping was derived from, where the scenario does not give the damping.
+    /// Quality factor of the default damping; `None` if the scenario gives the damping.
     pub quality: Option<f64>,
-    /// Its command as a free stroke, m: what it would follow if nothing stood between.
+    /// Command as a free stroke, m, before compensation, driver, hysteresis and creep.
     pub command: Varying,
-    /// Whether that is commanded as a voltage.
+    /// Whether the command is a voltage.
     pub by_voltage: bool,
-    /// What its driver can do, where it has one.
+    /// Limits of the driver, if there is one.
     pub driver: Option<Spec>,
-    /// Voltage for which the data sheet gives its stroke, V.
+    /// Voltage of the stroke in the data sheet, V.
     pub nominal: Option<f64>,
-    /// Smallest step of its voltage, V, where the scenario tells it.
+    /// Voltage resolution, V, if given.
     pub resolution: Option<f64>,
     /// Hysteresis and creep.
     pub ceramic: Ceramic,
-    /// Place of the driver among the blocks of the scene: none where the command is constant.
+    /// Index of the driver among the blocks of the model; `None` without a driver or with a constant command.
     pub block: Option<usize>,
 }
 
 impl Builder<'_> {
-    /// What the numbers of all actuators come to, before anything follows anything.
+    /// Computes the stack data of all actuators, before waveforms are read.
     pub(super) fn stacks(&mut self) -> Result<(), Fault> {
         let form = self.form;
         let root = At::ROOT;
@@ -73,7 +72,7 @@ impl Builder<'_> {
         Ok(())
     }
 
-    /// Stroke per volt by which a named waveform is read, m/V; none where no actuator has it as its voltage.
+    /// Returns the stroke per volt of a named waveform, m/V, or `None` if it is no voltage of an actuator.
     pub(super) fn gain(&self, waveform: &str) -> Option<f64> {
         let commands = |actuator: &ActuatorForm| match &actuator.voltage {
             Some(Moving::Follows(WaveformRef::Name(name))) => name == waveform,
@@ -83,7 +82,7 @@ impl Builder<'_> {
         of.next().and_then(|(_, piezo)| piezo.stack.stroke_per_volt)
     }
 
-    /// All actuators, in the order of the file, each with its command for its stroke.
+    /// Adds all actuators in the order of the file, each with its command as stroke.
     pub(super) fn actuators(&mut self) -> Result<(), Fault> {
         let form = self.form;
         let root = At::ROOT;
@@ -111,7 +110,7 @@ impl Builder<'_> {
         Ok(())
     }
 
-    /// What stands between each command and its stroke. Blocks are counted on from the last waveform: all of those are there now.
+    /// Replaces the command of each actuator by the output of its signal chain. Signals of blocks are numbered after all waveforms.
     pub(super) fn chains(&mut self) -> Result<(), Fault> {
         let form = self.form;
         let root = At::ROOT;
@@ -123,9 +122,10 @@ impl Builder<'_> {
         Ok(())
     }
 
-    /// command → [inverses of creep and hysteresis] → driver → hysteresis → creep → stroke, each a block where the scenario asks for it.
+    /// Builds the signal chain: command → [inverse creep and inverse hysteresis] → driver → hysteresis → creep → stroke. Each element is
+    /// a block and optional.
     ///
-    /// All signals are free strokes, m; one of a volt is `self.stacks[i].stack.stroke_per_volt` (m/V).
+    /// All signals are free strokes, m. One volt corresponds to `self.stacks[i].stack.stroke_per_volt`, m/V.
     fn chain(&mut self, at: &At<'_>, i: usize, actuator: &ActuatorForm) -> Result<Varying, Fault> {
         self.stacks[i].ceramic = self.ceramic(at, i, actuator)?;
         let command = self.compensation(i, self.stacks[i].command);
@@ -136,13 +136,13 @@ impl Builder<'_> {
         Ok(self.response(i, driven))
     }
 
-    /// The command of an actuator as a free stroke.
+    /// Returns the command of an actuator as a free stroke.
     fn command(&mut self, at: &At<'_>, i: usize, actuator: &ActuatorForm) -> Result<Varying, Fault> {
         let (stroke, voltage) = match (&actuator.stroke, &actuator.voltage) {
             (Some(stroke), None) => (Some(stroke), None),
             (None, Some(voltage)) => (None, Some(voltage)),
             (Some(_), Some(_)) => {
-                let fault = at.key("voltage").fault("this actuator follows a stroke already").on_key();
+                let fault = at.key("voltage").fault("this actuator already follows a stroke").on_key();
                 return Err(fault.against_path(at.key("stroke").path()).help("keep one of them"));
             }
             (None, None) => {
@@ -156,7 +156,7 @@ impl Builder<'_> {
                 ("driver", actuator.driver.is_some()),
             ];
             if let Some((key, _)) = electric.iter().find(|(_, given)| *given) {
-                let fault = at.key(key).fault("this actuator follows a stroke: no voltage makes it").on_key();
+                let fault = at.key(key).fault("this actuator follows a stroke, not a voltage").on_key();
                 let fault = fault.against_path(at.key("stroke").path());
                 return Err(fault.help("let a \"voltage\" follow the waveform instead of the \"stroke\""));
             }
@@ -173,8 +173,7 @@ impl Builder<'_> {
         self.commanded(&at.key("voltage"), voltage, gain)
     }
 
-    /// A voltage as the free stroke that it commands. A waveform that stacks of different strokes per volt follow is there once for
-    /// each.
+    /// Returns a voltage as free stroke. A waveform for stacks of different strokes per volt is added once for each.
     fn commanded(
         &mut self,
         at: &At<'_>,
@@ -198,10 +197,10 @@ impl Builder<'_> {
         };
         if let Some(form @ (WaveformForm::Input(_) | WaveformForm::Generator(_))) = form {
             let what = if matches!(form, WaveformForm::Input(_)) { "an input" } else { "a generator" };
-            let fault = follows.fault(format!("a voltage cannot follow {what} in this version"));
+            let fault = follows.fault(format!("in this version a voltage cannot follow {what}"));
             return Err(fault
                 .against(["waveforms"])
-                .help("let a \"stroke\" follow it: stroke per volt times voltage"));
+                .help("let the \"stroke\" follow it: stroke = stroke per volt × voltage"));
         }
         if place.is_some_and(|place| self.courses[place].gain != Some(gain)) {
             place = None;
@@ -218,7 +217,7 @@ impl Builder<'_> {
         Ok(place.map_or(Varying::default(), Varying::Follows))
     }
 
-    /// Gives the ends their share of the stacks' own masses.
+    /// Adds the stacks' own masses to the bodies at their ends.
     fn inertia(&mut self) {
         for (piezo, actuator) in self.stacks.iter_mut().zip(&self.scene.actuators) {
             let is_free = actuator.part.between.map(|side| match side {
@@ -235,12 +234,12 @@ impl Builder<'_> {
         }
     }
 
-    /// Damping of an actuator, given or by the quality factor of what it moves.
+    /// Returns the damping of an actuator: given, or from the quality factor and the moved masses.
     fn damping(&mut self, i: usize, form: &ActuatorForm) -> f64 {
         if let Some(damping) = form.damping {
             return damping.si;
         }
-        // Files that were there before stacks had numbers keep their bits.
+        // An actuator with only a stroke and a stiffness has no damping by default.
         let described = form.data_sheet.is_some() || form.voltage.is_some() || form.mass.is_some();
         if !described {
             return 0.0;

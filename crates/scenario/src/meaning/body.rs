@@ -9,7 +9,7 @@ use stickslip_contact::{Material, MaterialError};
 use stickslip_drive::scene::{Axis, Body, Coordinate, Freedom, Named, Start};
 
 impl Builder<'_> {
-    /// Checks all materials, also those that nothing uses.
+    /// Checks all materials, including unused ones.
     pub(super) fn materials(&self) -> Result<(), Fault> {
         (0..self.form.materials.0.len()).try_for_each(|index| self.material(index).map(|_| ()))
     }
@@ -26,12 +26,12 @@ impl Builder<'_> {
             MaterialError::PoissonRatio(_) => at
                 .key("poisson_ratio")
                 .expected("a number above -1 and up to 0.5")
-                .help("0.2 to 0.35 for most solids, 0.5 for rubber"),
+                .help("typical: 0.2 to 0.35 for solids, 0.5 for rubber"),
             MaterialError::EffectiveModulus(_) => at.fault(error.to_string()),
         })
     }
 
-    /// All bodies, in the order of the file.
+    /// Adds all bodies in the order of the file.
     pub(super) fn bodies(&mut self) -> Result<(), Fault> {
         let form = self.form;
         let root = At::ROOT;
@@ -89,30 +89,30 @@ impl Builder<'_> {
             Err(fault.against_path(body.key(axis.key()).path()))
         };
         if position.is_some() && matches!(freedom, Freedom::Follows(_)) {
-            return refused(key, &format!("{key} follows a waveform, which says where it starts"));
+            return refused(key, &format!("{key} follows a waveform, which determines its start"));
         }
         if position.is_some() && freedom == Freedom::Balanced {
-            return refused(key, &format!("{key} is balanced: forces say where it is"))
-                .map_err(|fault| fault.help("let the load of t = 0 move it there, or remove it"));
+            return refused(key, &format!("{key} is balanced: forces determine its position"))
+                .map_err(|fault| fault.help("remove it, or use a load at t = 0 that moves the body there"));
         }
         if position.is_some() && (axis, freedom) == (Axis::Pitch, Freedom::Fixed) {
-            return refused(key, "pitch is fixed: the body stays as it is drawn")
-                .map_err(|fault| fault.help("make pitch \"free\", or give its points where they are"));
+            return refused(key, "pitch is fixed: the body does not rotate")
+                .map_err(|fault| fault.help("make pitch \"free\", or give the rotated points"));
         }
         if velocity.is_some() && freedom != Freedom::Free {
-            return refused(rate, "only a free coordinate has a velocity of its own at the start");
+            return refused(rate, "only a free coordinate has an initial velocity");
         }
         let settled = self.form.run.start == RunStartForm::Equilibrium && freedom == Freedom::Free;
         for (key, given) in [(key, position), (rate, velocity)] {
             if settled && given.is_some() {
-                return refused(key, "run.start is \"equilibrium\", which says where it starts")
+                return refused(key, "run.start is \"equilibrium\", which determines the start")
                     .map_err(|fault: Fault| fault.against(["run.start"]).help("remove one of the two"));
             }
         }
         Ok((position.unwrap_or(0.0), velocity.unwrap_or(0.0)))
     }
 
-    /// How the free coordinates start.
+    /// Sets the initial state: as given, or an equilibrium.
     pub(super) fn start(&mut self) -> Result<(), Fault> {
         self.scene.start = match self.form.run.start {
             RunStartForm::Given => Start::Given,

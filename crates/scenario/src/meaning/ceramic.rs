@@ -1,4 +1,4 @@
-//! Hysteresis and creep of stacks, and what undoes them.
+//! Hysteresis and creep of piezo stacks, and their compensation.
 
 use super::{Builder, range};
 use crate::fault::Fault;
@@ -15,32 +15,32 @@ use stickslip_piezo::creep::{Creep, CreepBlock, CreepError};
 use stickslip_piezo::driver::Spec;
 use stickslip_piezo::hysteresis::{BoucWen, BoucWenBlock, BoucWenError, PlayBlock, Plays, PlaysError};
 
-/// What a stack makes of its voltage: hysteresis and creep of its ceramic.
+/// Hysteresis and creep of the piezo ceramic.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Ceramic {
     /// Hysteresis.
     pub hysteresis: Option<Hysteresis>,
     /// Creep.
     pub creep: Option<Creep>,
-    /// Whether the command is led through the inverses of both before the driver.
+    /// Whether the command passes the inverses of both before the driver.
     pub compensated: bool,
-    /// Whether both stay out of play: a driver controls the charge.
+    /// Whether both have no effect, because the driver controls the charge.
     pub idle: bool,
 }
 
-/// A law of hysteresis.
+/// Hysteresis law.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Hysteresis {
-    /// Prandtl–Ishlinskii, and the stroke for which it was asked for, m, if it was by its width.
+    /// Prandtl–Ishlinskii operator. If it is defined by a loop width, the second field is the stroke of that loop, m.
     Plays(Plays, Option<f64>),
     /// Bouc–Wen.
     BoucWen(BoucWen),
 }
 
-/// Rate of what no waveform moves, 1/s.
+/// Assumed rate of change of a signal whose rate is unknown, 1/s.
 const UNKNOWN: f64 = 1e3;
 
-/// Where a chain has come to: its signal, and how large and fast that is.
+/// Signal of a chain, with its range (`span`, m) and rates (1/s).
 #[derive(Clone, Copy)]
 struct Leg {
     signal: usize,
@@ -50,7 +50,7 @@ struct Leg {
 }
 
 impl Builder<'_> {
-    /// The laws of a stack's ceramic, whatever it follows.
+    /// Returns hysteresis and creep of the ceramic of an actuator.
     pub(super) fn ceramic(&self, at: &At<'_>, i: usize, form: &ActuatorForm) -> Result<Ceramic, Fault> {
         let hysteresis = match &form.hysteresis {
             Some(hysteresis) => Some(self.hysteresis(at, i, hysteresis)?),
@@ -60,14 +60,14 @@ impl Builder<'_> {
         if form.compensate {
             let fault = at.key("compensate");
             if hysteresis.is_none() && creep.is_none() {
-                let fault = fault.fault("there is neither hysteresis nor creep to compensate");
+                let fault = fault.fault("the stack has neither hysteresis nor creep to compensate");
                 let fault = fault.against_path(at.key("hysteresis").path());
                 return Err(fault.against_path(at.key("creep").path()).help("leave it out"));
             }
             if let Some(Hysteresis::BoucWen(_)) = hysteresis {
                 let fault = fault.fault("hysteresis by \"bouc_wen\" has no inverse in this version");
                 let fault = fault.against_path(at.key("hysteresis").path());
-                return Err(fault.help("\"loop\" and \"plays\" have an exact one"));
+                return Err(fault.help("\"loop\" and \"plays\" have an exact inverse"));
             }
         }
         let idle = form.driver.as_ref().is_some_and(|driver| driver.control == ControlForm::Charge);
@@ -95,7 +95,7 @@ impl Builder<'_> {
         }
     }
 
-    /// Stroke at which a loop is as wide as asked for: given, of the data sheet, or the one that is commanded.
+    /// Returns the stroke for which a relative loop width is defined: given, of the data sheet, or that of the command.
     fn loop_stroke(&self, at: &At<'_>, i: usize, form: &LoopForm) -> Result<f64, Fault> {
         if let Some(stroke) = form.stroke {
             return range::above_zero(&at.key("stroke"), stroke);
@@ -111,10 +111,10 @@ impl Builder<'_> {
             return Ok(high - low);
         }
         let fault = at.missing("stroke").against(["waveforms"]);
-        Err(fault.help("the stroke at which the loop is that wide, such as \"4.6 um\""))
+        Err(fault.help("the stroke of this relative width, such as \"4.6 um\""))
     }
 
-    /// What undoes creep and hysteresis, before a driver: command → inverse of creep → inverse of hysteresis.
+    /// Adds the compensation before the driver: command → inverse creep → inverse hysteresis.
     pub(super) fn compensation(&mut self, i: usize, command: Varying) -> Varying {
         let ceramic = self.stacks[i].ceramic.clone();
         let Varying::Follows(signal) = command else { return command };
@@ -132,7 +132,7 @@ impl Builder<'_> {
         Varying::Follows(leg.signal)
     }
 
-    /// What the stack makes of what it gets: hysteresis → creep.
+    /// Adds the response of the stack after the driver: hysteresis → creep.
     pub(super) fn response(&mut self, i: usize, driven: Varying) -> Varying {
         let ceramic = self.stacks[i].ceramic.clone();
         let Varying::Follows(signal) = driven else { return driven };
@@ -152,7 +152,7 @@ impl Builder<'_> {
         Varying::Follows(leg.signal)
     }
 
-    /// How large and fast a signal of a chain is. A span of nothing, of a waveform that stands, counts as 1 nm.
+    /// Returns range and rates of a signal of a chain. For a constant signal the range is 1 nm.
     fn leg(&self, i: usize, signal: usize) -> Leg {
         let (low, high) = reach(&self.scene, signal);
         let span = if high - low > 0.0 && (high - low).is_finite() { high - low } else { 1e-9 };
@@ -161,7 +161,7 @@ impl Builder<'_> {
         let fastest = |time: Option<f64>| {
             time.filter(|time| time.is_finite()).map_or(UNKNOWN, |time| TAU / time).max(driver)
         };
-        // Of a burst or a chirp one wave of many.
+        // For a burst or a chirp, the rate is that of a single wave.
         let rate = fastest(waveform.map(|waveform| waveform.extent().min(4.0 * waveform.resolution())));
         let turns = fastest(waveform.map(Waveform::quickest));
         Leg { signal, span, rate, turns }
@@ -181,14 +181,14 @@ fn shared(block: impl Block + 'static) -> SharedBlock {
     SharedBlock(Arc::new(block))
 }
 
-/// Plays as they are given.
+/// Returns the play operators of a list of thresholds and weights.
 fn plays(at: &At<'_>, form: &PlaysForm) -> Result<Plays, Fault> {
     let thresholds = form.thresholds.iter().map(|length| length.si).collect();
     Plays::new(form.direct, thresholds, form.weights.clone()).map_err(|error| match error {
         PlaysError::Threshold { place, .. } => {
             let last = place.checked_sub(1).and_then(|last| form.thresholds.get(last));
-            let above =
-                last.map_or("0 m".to_owned(), |last| format!("the one before, {} m", range::short(last.si)));
+            let above = last
+                .map_or("0 m".to_owned(), |last| format!("the length before, {} m", range::short(last.si)));
             at.key("thresholds").index(place).expected(format_args!("a length above {above}"))
         }
         PlaysError::Slope { taken_up: 0, .. } => at.key("direct").expected(range::ABOVE),
@@ -199,7 +199,7 @@ fn plays(at: &At<'_>, form: &PlaysForm) -> Result<Plays, Fault> {
             );
             let fault =
                 at.key("weights").index(taken_up - 1).fault(what).against_path(at.key("direct").path());
-            fault.help("the stroke must rise with the voltage, however many plays are taken up")
+            fault.help("the stroke must increase with the voltage for any number of moving play operators")
         }
         error => at.key("weights").fault(error.to_string()).against_path(at.key("thresholds").path()),
     })
@@ -229,7 +229,7 @@ fn law_of_creep(at: &At<'_>, form: &CreepForm) -> Result<Creep, Fault> {
     })
 }
 
-/// Smallest and largest value of a signal.
+/// Returns the smallest and the largest value of a signal.
 pub(super) fn reach(scene: &Scene, signal: usize) -> (f64, f64) {
     let Some(k) = signal.checked_sub(scene.waveforms.len()) else {
         return scene.waveforms[signal].part.range();
@@ -242,7 +242,7 @@ pub(super) fn reach(scene: &Scene, signal: usize) -> (f64, f64) {
     block.range(&block.inputs().iter().map(of).collect::<Vec<_>>())
 }
 
-/// A signal at t = 0.
+/// Returns a signal at t = 0.
 pub(super) fn first(scene: &Scene, signal: usize) -> Sample {
     let Some(k) = signal.checked_sub(scene.waveforms.len()) else {
         return scene.waveforms[signal].part.first();

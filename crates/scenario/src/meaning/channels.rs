@@ -1,4 +1,4 @@
-//! Columns of the trace that are asked for by name.
+//! Selection of trace columns by name.
 
 use crate::document::shown;
 use crate::fault::Fault;
@@ -7,7 +7,7 @@ use crate::suggest;
 use std::collections::{HashMap, HashSet};
 use stickslip_drive::Channel;
 
-/// The places of the channels with these names.
+/// Returns the indices of the channels with these names.
 pub(crate) fn places(names: &[String], channels: &[Channel]) -> Result<Vec<usize>, Fault> {
     let known: HashMap<&str, usize> =
         channels.iter().enumerate().map(|(place, channel)| (channel.name.as_str(), place)).collect();
@@ -23,7 +23,7 @@ pub(crate) fn places(names: &[String], channels: &[Channel]) -> Result<Vec<usize
             return Err(fault.maybe_help(suggest::help(name, channels.iter().map(|c| c.name.as_str()))));
         };
         if !taken.insert(place) {
-            return Err(at.fault("this channel is in the list already").against(["output.channels"]));
+            return Err(at.fault("this channel is already in the list").against(["output.channels"]));
         }
         places.push(place);
     }

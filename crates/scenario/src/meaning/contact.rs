@@ -1,4 +1,4 @@
-//! Contacts: pair, profile, what presses them and how they start.
+//! Contacts: pair of materials, profile, normal load and initial state.
 
 use super::profile::profile;
 use super::{Builder, names, range};
@@ -10,13 +10,13 @@ use crate::suggest;
 use stickslip_contact::{FrictionError, Interface, Pair};
 use stickslip_drive::scene::{Contact, ContactStart, EngineChoice, Named, Normal};
 
-/// Most identical contacts, and most springs of a row.
+/// Maximum number of identical contacts, and of springs of a row.
 const MAX_COUNT: u64 = 1_000_000;
-/// Most springs of all rows together: some 40 bytes each.
+/// Maximum number of springs of all rows together, each about 40 bytes.
 pub(super) const MAX_SPRINGS: u64 = 10_000_000;
 
 impl Builder<'_> {
-    /// All contacts, in the order of the file.
+    /// Adds all contacts in the order of the file.
     pub(super) fn contacts(&mut self) -> Result<(), Fault> {
         let form = self.form;
         let root = At::ROOT;
@@ -86,14 +86,14 @@ impl Builder<'_> {
     }
 }
 
-/// The gap in the position drawn; only bodies that move along the normal can open or close one.
+/// Returns the initial gap. Only contacts with coupled normal motion have one.
 fn gap(at: &At<'_>, form: &ContactForm) -> Result<f64, Fault> {
     match (&form.normal, form.gap) {
         (NormalForm::Coupled, gap) => Ok(gap.map_or(0.0, |gap| gap.si)),
         (_, None) => Ok(0.0),
         (_, Some(_)) => {
             let message =
-                "only a contact whose normal is \"coupled\" has a gap: here the indentation is given";
+                "only a contact with \"normal\": \"coupled\" has a gap; here the indentation is prescribed";
             let fault = at.key("gap").fault(message).on_key().against_path(at.key("normal").path());
             Err(fault.help("remove it, or make \"normal\" \"coupled\""))
         }

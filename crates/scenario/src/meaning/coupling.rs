@@ -1,4 +1,4 @@
-//! Springs, loads, gravity.
+//! Springs, loads and gravity.
 
 use super::point::point;
 use super::{Builder, range};
@@ -10,7 +10,7 @@ use std::f64::consts::PI;
 use stickslip_drive::scene::{Direction, Gravity, Load, Named, Point, Spring, Varying};
 
 impl Builder<'_> {
-    /// All springs, in the order of the file.
+    /// Adds all springs in the order of the file.
     pub(super) fn springs(&mut self) -> Result<(), Fault> {
         let form = self.form;
         let root = At::ROOT;
@@ -30,7 +30,7 @@ impl Builder<'_> {
         Ok(())
     }
 
-    /// All loads.
+    /// Adds all loads.
     pub(super) fn loads(&mut self) -> Result<(), Fault> {
         let form = self.form;
         let root = At::ROOT;
@@ -49,7 +49,7 @@ impl Builder<'_> {
             return Err(fault.help("such as { \"on\": \"slider\", \"x\": \"-0.02 N\" }"));
         }
         if let (None, None, Some(_)) = (&form.x, &form.z, form.at) {
-            let fault = at.key("at").fault("a moment turns the body alike wherever it attacks").on_key();
+            let fault = at.key("at").fault("a moment has no point of application").on_key();
             return Err(fault.help("remove it, or give a force \"x\" or \"z\""));
         }
         let x = self.component(&at.key("x"), form.x.as_ref())?;
@@ -58,12 +58,12 @@ impl Builder<'_> {
         Ok(Load { on, at: form.at.as_ref().map_or_else(Point::default, point), x, z, pitch })
     }
 
-    /// A component of a load; nothing by default.
+    /// Returns a component of a load, 0 by default.
     fn component<D: Dimension>(&mut self, at: &At<'_>, form: Option<&Moving<D>>) -> Result<Varying, Fault> {
         form.map_or(Ok(Varying::default()), |form| self.varying(at, form))
     }
 
-    /// Gravity, where there is any.
+    /// Sets gravity, if given.
     pub(super) fn gravity(&mut self) -> Result<(), Fault> {
         let Some(form) = &self.form.gravity else { return Ok(()) };
         let root = At::ROOT;
@@ -72,7 +72,7 @@ impl Builder<'_> {
         let incline = form.incline.si;
         if !(-PI..=PI).contains(&incline) {
             let fault = at.key("incline").expected("an angle between -180 deg and 180 deg");
-            return Err(fault.help("a bare number is in rad"));
+            return Err(fault.help("a number without a unit is in rad"));
         }
         self.scene.gravity = Gravity { acceleration, incline };
         Ok(())

@@ -1,4 +1,4 @@
-//! What the numbers of a stack and of its data sheet come to.
+//! Data of a stack from the actuator's keys and its data sheet.
 
 use super::range;
 use crate::fault::Fault;
@@ -7,7 +7,7 @@ use crate::path::{At, Step};
 use crate::quantity::{Dimension, Quantity};
 use stickslip_piezo::data_sheet::{Contradiction, DataSheet, Own, SheetError, Stack};
 
-/// What the numbers of an actuator come to.
+/// Returns stiffness, stroke per volt, capacitance and mass of a stack. Redundant numbers must agree.
 pub(super) fn stack(at: &At<'_>, form: &ActuatorForm) -> Result<Stack, Fault> {
     let sheet = form.data_sheet.as_ref().map(|sheet| data_sheet(&at.key("data_sheet"), sheet)).transpose()?;
     let own = Own {
@@ -29,7 +29,7 @@ pub(super) fn stack(at: &At<'_>, form: &ActuatorForm) -> Result<Stack, Fault> {
             };
             let fault = Fault::new(path(key), message);
             let fault = against.into_iter().fold(fault, |fault, key| fault.against_path(path(key)));
-            fault.help("numbers that say the same may differ by 1 %; correct one, or leave it out")
+            fault.help("redundant numbers may differ by 1 %; correct one of them, or leave it out")
         }
     })
 }
@@ -46,7 +46,7 @@ fn data_sheet(at: &At<'_>, form: &DataSheetForm) -> Result<DataSheet, Fault> {
     })
 }
 
-/// How a sheet's keys are read: each above zero.
+/// Returns an optional quantity above zero.
 fn positive<D: Dimension>(
     at: &At<'_>,
     key: &'static str,

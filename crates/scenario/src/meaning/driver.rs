@@ -9,16 +9,16 @@ use stickslip_drive::component::Input;
 use stickslip_drive::scene::{Actuator, Named, Scene, Varying};
 use stickslip_piezo::driver::{Control, Driver, Low, Spec};
 
-/// Damping ratios of a low-pass.
+/// Smallest and largest damping ratio of the low-pass.
 const RATIO: (f64, f64) = (0.05, 10.0);
-/// Voltages, as parts of the data sheet's, beyond which it says nothing: makers allow some 20 % the other way round.
+/// Voltages relative to the nominal voltage beyond which a warning is given. Makers allow about 20 % of opposite polarity.
 const BEYOND: (f64, f64) = (-0.2, 1.1);
-/// How far beyond an end of the window a voltage may start, as a part of the window: rounding of what it is made of.
+/// Rounding tolerance at the ends of the window, relative to its width.
 const ROUNDING: f64 = 1e-9;
 
 impl Builder<'_> {
-    /// The driver of an actuator as a block after its command, and the signal that it makes. A constant command is a voltage that
-    /// has settled.
+    /// Adds the driver of an actuator as a block after its command, and returns the output signal. A constant command needs no block,
+    /// because its voltage has settled.
     pub(super) fn driver(
         &mut self,
         actuator: &At<'_>,
@@ -29,9 +29,9 @@ impl Builder<'_> {
         let stack = self.stacks[i].stack;
         let Some(capacitance) = stack.capacitance else {
             let fault = actuator.missing("capacitance").against_path(actuator.key("data_sheet").path());
-            return Err(fault
-                .against_path(at.path())
-                .help("a driver charges it: such as \"7.2 uF\", as the data sheet says"));
+            return Err(fault.against_path(at.path()).help(
+                "a driver charges the stack: give the capacitance of the data sheet, such as \"7.2 uF\"",
+            ));
         };
         let spec = spec(&at, form, (capacitance, stack.stroke_per_volt.unwrap_or(1.0)))?;
         self.stacks[i].driver = Some(spec);
@@ -61,7 +61,7 @@ impl Builder<'_> {
         }
         let coupling = if form.reciprocal { Some(self.coupling(&at, i)?) } else { None };
         if let (Some(coupling), Control::Charge) = (coupling, spec.control) {
-            // V = (Q - kαe)/C(1 - κ): k(αV - e) is the force of a stack of this stiffness whose stroke is αQ/C.
+            // V = (Q - kαe)/(C(1 - κ)). The force k(αV - e) is that of a stack of stiffness k/(1 - κ) and free stroke αQ/C.
             self.scene.actuators[i].part.stiffness /= 1.0 - coupling;
         }
         let Varying::Follows(signal) = command else { return Ok(command) };
@@ -82,27 +82,27 @@ impl Builder<'_> {
 }
 
 impl Builder<'_> {
-    /// κ = kα²/C of a stack whose strain is to make charge.
+    /// Returns the coupling κ = kα²/C of a stack whose strain generates charge.
     fn coupling(&self, at: &At<'_>, i: usize) -> Result<f64, Fault> {
         let fault = |what: String| Err(at.key("reciprocal").fault(what));
         let ceramic = &self.stacks[i].ceramic;
         if !ceramic.idle && (ceramic.hysteresis.is_some() || ceramic.creep.is_some()) {
-            return fault("the charge of strain is that of a stack without hysteresis and creep".to_owned())
-                .map_err(|fault| fault.help("leave it out, or control the charge"));
+            return fault(
+                "the charge due to strain is defined for a stack without hysteresis and creep".to_owned(),
+            )
+            .map_err(|fault| fault.help("leave it out, or use charge control"));
         }
         match self.stacks[i].stack.coupling() {
             Some(coupling) if coupling < 1.0 => Ok(coupling),
             coupling => {
                 let coupling = range::short(coupling.unwrap_or(f64::NAN));
-                fault(format!(
-                    "expected kα²/C below 1, got {coupling}: the stack would give more than it gets"
-                ))
-                .map_err(|fault| fault.help("look at stiffness, stroke per volt and capacitance"))
+                fault(format!("expected kα²/C below 1, got {coupling}: the stack would generate energy"))
+                    .map_err(|fault| fault.help("check stiffness, stroke per volt and capacitance"))
             }
         }
     }
 
-    /// Elongation of a stack, second end less first.
+    /// Returns the elongation of a stack as an input: second end minus first end.
     fn elongation(&self, i: usize) -> Input {
         let Actuator { between: [first, second], at: [near, far], direction, .. } =
             self.scene.actuators[i].part;
@@ -111,17 +111,17 @@ impl Builder<'_> {
 }
 
 impl Piezo {
-    /// Whether the charge of strain acts back on its driver: that reads the elongation then.
+    /// Returns whether the charge due to strain acts on the driver, which then reads the elongation.
     pub fn is_reciprocal(&self, scene: &Scene) -> bool {
         self.inputs(scene)
             .is_some_and(|inputs| inputs.iter().any(|input| matches!(input, Input::Length { .. })))
     }
 
-    /// From where to where its command goes, V, where the window of its driver cuts it.
+    /// Returns the range of the command, V, if the voltage window of the driver clips it; otherwise `None`.
     pub fn cut(&self, scene: &Scene) -> Option<(f64, f64)> {
         let spec = self.driver?;
         let (low, high) = spec.window?;
-        // What it reads, which is the command or what compensation makes of it.
+        // Input of the driver: the command or the output of the compensation.
         let &[Input::Signal(signal), ..] = self.inputs(scene)? else { return None };
         let (least, most) = ceramic::reach(scene, signal);
         let [least, most] = [least, most].map(|value| value / spec.gain);
@@ -129,7 +129,7 @@ impl Piezo {
         (least < low - slack || most > high + slack).then_some((least, most))
     }
 
-    /// From where to where its command goes, V; none of one whose stroke per volt is not known.
+    /// Returns the range of the command, V, or `None` if the stroke per volt is unknown.
     pub fn commanded(&self, scene: &Scene) -> Option<[f64; 2]> {
         let gain = self.stack.stroke_per_volt?;
         let (least, most) = match self.command {
@@ -139,35 +139,35 @@ impl Piezo {
         Some([least / gain, most / gain])
     }
 
-    /// The command that driver and data sheet allow, V: within the window, and up to the nominal voltage.
+    /// Returns the range of commands, V, within the driver's window and the nominal voltage.
     pub fn allowed(&self) -> [f64; 2] {
         let (low, high) = self.window();
         let nominal = self.nominal.unwrap_or(f64::INFINITY);
         [low.max(BEYOND.0 * nominal), high.min(nominal)]
     }
 
-    /// The window of its driver, V.
+    /// Returns the voltage window of the driver, V.
     fn window(&self) -> (f64, f64) {
         self.driver.and_then(|spec| spec.window).unwrap_or((f64::NEG_INFINITY, f64::INFINITY))
     }
 
-    /// What its driver reads.
+    /// Returns the inputs of the driver.
     fn inputs<'s>(&self, scene: &'s Scene) -> Option<&'s [Input]> {
         let block = scene.blocks.get(self.block?)?;
         self.driver.map(|_| block.part.0.inputs())
     }
 }
 
-/// Says of a command that the window cuts it.
+/// Warns of a command that the window clips.
 pub(super) fn cut(piezo: &Piezo, scene: &Scene) -> Option<Fault> {
     let (least, most) = piezo.cut(scene)?;
     let at = At::ROOT.key("actuators").key(&piezo.name).key("driver").key("window").path();
     let [least, most] = [least, most].map(range::short);
-    let message = format!("the command goes from {least} V to {most} V and is cut at the ends of the window");
-    Some(Fault::new(at, message).help("widen the window, or take a smaller stroke"))
+    let message = format!("the command from {least} V to {most} V is clipped at the ends of the window");
+    Some(Fault::new(at, message).help("widen the window, or reduce the stroke"))
 }
 
-/// Says of a command that it goes beyond the voltage for which the data sheet gives the stroke, after the window.
+/// Warns of a clipped command beyond the voltage range of the data sheet.
 pub(super) fn beyond(piezo: &Piezo, scene: &Scene) -> Option<Fault> {
     let nominal = piezo.nominal.filter(|_| piezo.by_voltage)?;
     let (low, high) = piezo.window();
@@ -179,25 +179,24 @@ pub(super) fn beyond(piezo: &Piezo, scene: &Scene) -> Option<Fault> {
     }
     let at = At::ROOT.key("actuators").key(&piezo.name).key("voltage").path();
     let [least, most, nominal, lowest, highest] = [least, most, nominal, lowest, highest].map(range::short);
-    let message = format!("{least} V to {most} V are commanded, the data sheet is for {nominal} V");
-    let help = format!("told beyond {lowest} V to {highest} V: such fields may depolarise or break a stack");
+    let message = format!("the command is {least} V to {most} V, but the data sheet is for {nominal} V");
+    let help = format!("voltages below {lowest} V or above {highest} V may depolarise or break the stack");
     Some(Fault::new(at, message).help(help))
 }
 
-/// Says of the damping ratio of a low-pass that there is none.
+/// Warns of a damping ratio without a low-pass.
 pub(super) fn idle_ratio(name: &str, form: &ActuatorForm) -> Option<Fault> {
     let driver = form.driver.as_ref()?;
-    // As given: the default says nothing.
+    // The default value counts as not given.
     if driver.bandwidth.is_some() || driver.damping_ratio == FRAC_1_SQRT_2 {
         return None;
     }
     let at = At::ROOT.key("actuators").key(name).key("driver").key("damping_ratio").path();
-    let fault =
-        Fault::new(at, "a damping ratio is that of a low-pass, and there is no \"bandwidth\"".to_owned());
+    let fault = Fault::new(at, "a damping ratio needs a low-pass, but there is no \"bandwidth\"".to_owned());
     Some(fault.help("give the \"bandwidth\", or leave it out"))
 }
 
-/// What a driver can do, checked.
+/// Returns the checked data of a driver.
 fn spec(at: &At<'_>, form: &DriverForm, (capacitance, gain): (f64, f64)) -> Result<Spec, Fault> {
     let window = match form.window {
         None => None,
@@ -212,7 +211,7 @@ fn spec(at: &At<'_>, form: &DriverForm, (capacitance, gain): (f64, f64)) -> Resu
     let sink = form.sink_current.map(|sink| range::above_zero(&at.key("sink_current"), sink)).transpose()?;
     if let (None, Some(_)) = (current, sink) {
         let fault = at.missing("current").against_path(at.key("sink_current").path());
-        return Err(fault.help("\"sink_current\" is that out of the stack, \"current\" that into it"));
+        return Err(fault.help("\"sink_current\" flows out of the stack, \"current\" flows into it"));
     }
     let resistance =
         form.resistance.map(|value| range::at_least_zero(&at.key("resistance"), value)).transpose()?;

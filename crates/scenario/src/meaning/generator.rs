@@ -1,4 +1,4 @@
-//! Generators: waveforms made inside, whose parameters a caller commands.
+//! Generators: waveforms whose parameters a caller commands.
 
 use super::input::shown;
 use super::range;
@@ -9,7 +9,7 @@ use crate::path::At;
 use crate::quantity::Frequency;
 use stickslip_drive::{Command, Cycle, Generator, Heading, Shape, Steps};
 
-/// A generator whose values at first are within their ranges, and whose ranges leave room for the flyback.
+/// Returns a generator. Initial values must lie in their ranges, and the shortest period must exceed the flyback.
 pub(super) fn shape(at: &At<'_>, form: &GeneratorForm, values: &mut Values<'_>) -> Result<Shape, Fault> {
     let bounds = at.key("range");
     let frequencies = frequencies(&bounds.key("frequency"), &form.range.frequency)?;
@@ -31,7 +31,7 @@ pub(super) fn shape(at: &At<'_>, form: &GeneratorForm, values: &mut Values<'_>) 
         let [low, high] = [strokes.0, strokes.1].map(|bound| shown(bound, values.kind));
         let fault = at.key("stroke").expected(format_args!("a value in its range, {low} to {high}"));
         let fault = fault.against_path(bounds.path());
-        return Err(fault.help("widen range.stroke, or begin inside it"));
+        return Err(fault.help("widen range.stroke, or start inside it"));
     }
     let frequency = range::at_least_zero(&at.key("frequency"), form.frequency)?;
     if frequency < frequencies.0 || frequency > frequencies.1 {
@@ -39,7 +39,7 @@ pub(super) fn shape(at: &At<'_>, form: &GeneratorForm, values: &mut Values<'_>) 
         let fault =
             at.key("frequency").expected(format_args!("a frequency in its range, {low} Hz to {high} Hz"));
         let fault = fault.against_path(bounds.path());
-        return Err(fault.help("widen range.frequency, or begin inside it"));
+        return Err(fault.help("widen range.frequency, or start inside it"));
     }
     let heading = match form.heading {
         HeadingForm::Forward => Heading::Forward,
@@ -75,12 +75,12 @@ fn frequencies(at: &At<'_>, bounds: &Bounds<Frequency>) -> Result<(f64, f64), Fa
     Ok((low, high))
 }
 
-/// The shortest cycle takes longer than its flyback.
+/// Checks that the shortest period is longer than the flyback.
 fn room(at: &At<'_>, flyback: f64, highest: f64) -> Result<(), Fault> {
     if highest.recip() - flyback > 0.0 {
         return Ok(());
     }
     let below = range::short(flyback.recip());
-    let fault = at.expected(format_args!("a frequency below {below} Hz, whose period the flyback fills"));
-    Err(fault.help("lower it, or shorten the flyback"))
+    let fault = at.expected(format_args!("a frequency below {below} Hz, the reciprocal of the flyback"));
+    Err(fault.help("reduce it, or shorten the flyback"))
 }

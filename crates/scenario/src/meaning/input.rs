@@ -1,4 +1,4 @@
-//! Inputs: waveforms that a caller gives.
+//! Inputs: waveforms whose values a caller supplies.
 
 use super::range;
 use super::waveform::Values;
@@ -8,7 +8,7 @@ use crate::path::At;
 use crate::units::Kind;
 use stickslip_drive::{Interpolation, Shape};
 
-/// An input whose initial value and bounds agree.
+/// Returns an input whose initial value lies in its range.
 pub(super) fn shape(at: &At<'_>, form: &InputForm, values: &mut Values<'_>) -> Result<Shape, Fault> {
     let initial = values.take(&at.key("initial"), form.initial)?;
     let bounds = at.key("range");
@@ -30,7 +30,7 @@ pub(super) fn shape(at: &At<'_>, form: &InputForm, values: &mut Values<'_>) -> R
     Ok(Shape::Input { initial, range: (low, high), interpolation })
 }
 
-/// A value in SI, with its unit where the file says which.
+/// Formats a value in SI, with its unit if the dimension is known.
 pub(super) fn shown(value: f64, kind: Option<Kind>) -> String {
     let value = range::short(value);
     match kind {

@@ -1,4 +1,4 @@
-//! Profiles by points and lines; those of files are already here.
+//! Profiles given by points or lines. Points of files have already been read.
 
 use super::range;
 use crate::fault::Fault;
@@ -20,33 +20,33 @@ pub(super) fn table(at: &At<'_>, form: &GapTableForm) -> Result<Profile, Fault> 
         ProfileError::TooMany(_) => points_at.fault(error.to_string()).help("keep one of several points"),
         ProfileError::Origin { .. } => {
             let fault = points_at.index(0).fault("expected the first point at [0, 0]");
-            fault.help("radii count from the axis, gaps from where the bodies touch first")
+            fault.help("radii are measured from the axis, gaps from the first point of contact")
         }
         ProfileError::Order { index } => {
             let fault =
-                points_at.index(index).index(0).expected("a radius beyond that of the point before it");
+                points_at.index(index).index(0).expected("a radius larger than that of the point before it");
             fault.against_path(points_at.path())
         }
         ProfileError::Fall { index } => {
             let fault =
-                points_at.index(index).index(1).expected("a gap not below that of the point before it");
+                points_at.index(index).index(1).expected("a gap of at least that of the point before it");
             fault.against_path(points_at.path())
         }
         ProfileError::NoRise => {
             let fault =
-                points_at.index(points.len() - 1).index(1).fault("expected a gap above 0 m in the end");
+                points_at.index(points.len() - 1).index(1).fault("expected a gap above 0 m at the last point");
             fault.help("a table of zeros is a flat punch: \"flat\"").against_path(points_at.path())
         }
         ProfileError::Kink { index, .. } => {
             let fault =
                 kinks_at.index(index).expected("the radius of a point between the first and the last");
             let fault = fault.against_path(points_at.path());
-            fault.help("a kink is a point of the table; points beside it may be as near as you like")
+            fault.help("a kink is a point of the table; neighbouring points may be arbitrarily near")
         }
         ProfileError::NotRising { index, .. } => {
             let message =
-                "the profile bends down so far before this point that its equivalent g(x) does not rise";
-            let help = "circles of contact that grow need a profile that is convex, or nearly so; points that scatter are not: give fewer of them, or smooth them";
+                "the profile bends down too far before this point: its equivalent g(x) does not increase";
+            let help = "growing circles of contact need a profile that is convex or nearly convex; if points scatter, use fewer points, or smooth them";
             points_at.index(index).fault(message).help(help).against_path(points_at.path())
         }
         _ => few(&points_at, &error),
@@ -64,11 +64,11 @@ pub(super) fn normal_law(at: &At<'_>, form: &NormalLawForm, pair: Pair) -> Resul
     Profile::normal_law(&points).map_err(|error| match error {
         ProfileError::Origin { .. } => {
             let fault = at.index(0).fault("expected the first point at [0, 0]");
-            fault.help("indentations and forces count from the first touch")
+            fault.help("indentations and forces are 0 at the first contact")
         }
         ProfileError::Order { index } => {
             let fault =
-                at.index(index).index(0).expected("an indentation beyond that of the point before it");
+                at.index(index).index(0).expected("an indentation larger than that of the point before it");
             fault.against_path(at.path())
         }
         ProfileError::Fall { index } => {
@@ -76,16 +76,16 @@ pub(super) fn normal_law(at: &At<'_>, form: &NormalLawForm, pair: Pair) -> Resul
             fault.against_path(at.path())
         }
         ProfileError::Softening { index } => {
-            let fault = at.index(index).fault("the force rises less steeply up to this point than before it");
+            let fault = at.index(index).fault("the force increases less steeply up to this point than before it");
             fault
-                .help("a contact grows as it is pressed: its stiffness does not fall; where points scatter, give fewer of them, or smooth them")
+                .help("the contact area grows with the load, so the stiffness does not decrease; if points scatter, use fewer points, or smooth them")
                 .against_path(at.path())
         }
         _ => few(&at, &error),
     })
 }
 
-/// Too few points.
+/// Returns the error for too few points.
 fn few(at: &At<'_>, error: &ProfileError) -> Fault {
     at.fault(error.to_string()).ask(Help::Shape)
 }
@@ -94,7 +94,7 @@ pub(super) fn rough(at: &At<'_>, form: &RoughForm) -> Result<Profile, Fault> {
     let heights_at = at.key("heights");
     let (heights, spacing) = match (&form.heights, &form.self_affine) {
         (Some(_), Some(_)) => {
-            let fault = at.key("self_affine").fault("the heights are given already").on_key();
+            let fault = at.key("self_affine").fault("the heights are already given").on_key();
             return Err(fault.against_path(heights_at.path()).help("keep one of them"));
         }
         (None, None) => {
@@ -103,7 +103,8 @@ pub(super) fn rough(at: &At<'_>, form: &RoughForm) -> Result<Profile, Fault> {
         }
         (None, Some(line)) => {
             if form.spacing.is_some() {
-                let fault = at.key("spacing").fault("the length of the line and its points say it already");
+                let fault =
+                    at.key("spacing").fault("the length of the line and the number of points determine it");
                 return Err(fault.on_key().help("leave it out"));
             }
             let count =
@@ -129,7 +130,7 @@ pub(super) fn rough(at: &At<'_>, form: &RoughForm) -> Result<Profile, Fault> {
 
 const MAX_POINTS: u64 = SelfAffine::MAX_POINTS as u64;
 
-/// The heights of a line made by numbers.
+/// Returns the heights of a generated self-affine line.
 fn made(at: &At<'_>, form: &SelfAffineForm) -> Result<Vec<f64>, Fault> {
     let line = SelfAffine {
         rms: form.rms.si,
@@ -163,8 +164,10 @@ fn made(at: &At<'_>, form: &SelfAffineForm) -> Result<Vec<f64>, Fault> {
             let wanted =
                 format!("a wavelength of at least two distances of points, {} m", range::short(least));
             let fault = at.key("shortest").expected(wanted).against_path(at.key("length").path());
-            fault.against_path(at.key("points").path()).help("or take more points")
+            fault.against_path(at.key("points").path()).help("or increase the number of points")
         }
-        RoughnessError::NoWave => at.fault(error.to_string()).help("bring the cut-offs further apart"),
+        RoughnessError::NoWave => {
+            at.fault(error.to_string()).help("increase the ratio of the cut-off wavelengths")
+        }
     })
 }

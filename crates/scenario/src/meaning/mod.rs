@@ -1,4 +1,4 @@
-//! From the form to a scene and a plan, and from what these are refused for back to the form.
+//! Converts the keys of a scenario to model and plan, and errors of model and plan to errors of the file.
 
 mod actuator;
 mod body;
@@ -41,16 +41,16 @@ use crate::units::Kind;
 use stickslip_drive::scene::Start;
 use stickslip_drive::{Model, Plan, Scene, SceneError};
 
-/// Whose period and whose motion make steps and speeds.
+/// Waveform and body that define the periods and steps of the results.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Figures {
-    /// Place in [`Scene::waveforms`]; none where there are none, or several and none is named.
+    /// Index in [`Scene::waveforms`]. `None` if none is named and there is not exactly one waveform.
     pub waveform: Option<usize>,
-    /// Place in [`Scene::bodies`]; none where there are none, or several and none is named.
+    /// Index in [`Scene::bodies`]. `None` if none is named and there is no unique candidate.
     pub body: Option<usize>,
 }
 
-/// What a form means.
+/// Model, plan and output of a scenario.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Meaning {
     pub(crate) scene: Scene,
@@ -61,44 +61,44 @@ pub(crate) struct Meaning {
     pub(crate) memory: Option<MemoryOutput>,
     pub(crate) fields: Option<FieldsOutput>,
     pub(crate) written: Written,
-    /// Most memory, B.
+    /// Memory limit, B.
     pub(crate) memory_limit: Option<f64>,
     pub(crate) plots: Vec<PlotName>,
     pub(crate) own_plots: Vec<OwnPlot>,
     pub(crate) stacks: Vec<Piezo>,
 }
 
-/// A scene under construction.
+/// Builder of the model.
 struct Builder<'a> {
     form: &'a Form,
     scene: Scene,
-    /// What the scene's waveforms do not tell themselves.
+    /// Data of the waveforms that the model does not contain.
     courses: Vec<Course>,
-    /// Terms of all sums of sines so far.
+    /// Number of terms of all sums of sines so far.
     terms: usize,
-    /// Springs of all rows so far.
+    /// Number of springs of all rows so far.
     springs: u64,
-    /// What is known of each actuator.
+    /// Data of each actuator.
     stacks: Vec<Piezo>,
 }
 
-/// What is known of a waveform from its form alone.
+/// Data of a waveform from its keys.
 struct Course {
-    /// Dimension of its values, where its numbers tell.
+    /// Dimension of the values, if units give it.
     kind: Option<Kind>,
     /// Delay, s.
     delay: f64,
-    /// Stroke per volt of the stack whose voltage it is, m/V: its values are strokes.
+    /// Stroke per volt of the stack whose voltage this waveform is, m/V. The values in the model are strokes.
     gain: Option<f64>,
 }
 
-/// Makes of a meaning what a run starts from, as far as that can be done at once: what is refused there is known before it.
+/// Builds the model and its initial state, and checks channels. An equilibrium is not computed.
 pub(crate) fn start(meaning: &Meaning) -> Result<(), Fault> {
     let Meaning { scene, plan, .. } = meaning;
     let refused = |error: SceneError| refused::fault(scene, *plan, &error);
     let model = Model::new(scene).map_err(refused)?;
     if scene.start == Start::Given {
-        // An equilibrium is searched for, and found or not by all that there is.
+        // An equilibrium is computed only after all other checks.
         model.start(plan).map_err(refused)?;
     }
     let names = meaning.channels.as_deref().unwrap_or_default();
@@ -107,7 +107,7 @@ pub(crate) fn start(meaning: &Meaning) -> Result<(), Fault> {
     plots::check(&meaning.own_plots, &channels)
 }
 
-/// Gives a form its meaning; the files of its tables are already points.
+/// Converts the keys of a scenario, whose tables already contain points.
 pub(crate) fn of(form: &Form) -> Result<Meaning, Fault> {
     let mut builder = Builder {
         form,

@@ -1,4 +1,4 @@
-//! Names of parts, and references to them.
+//! Names of parts and references to them.
 
 use super::Builder;
 use crate::document::shown;
@@ -8,14 +8,14 @@ use crate::path::At;
 use crate::suggest;
 use stickslip_drive::scene::Side;
 
-/// The body that is always there.
+/// Name of the fixed ground.
 pub(super) const GROUND: &str = "ground";
-/// Longest name, characters: it heads columns and legends.
+/// Maximum length of a name, characters. Names occur in column headers and legends.
 const MAX_LENGTH: usize = 64;
-/// Most parts of one kind.
+/// Maximum number of parts of one kind.
 const MAX_PARTS: usize = 10_000;
 
-/// All names of a form.
+/// Checks the names of all parts.
 pub(super) fn check(form: &Form) -> Result<(), Fault> {
     let root = At::ROOT;
     check_part(&root.key("materials"), &form.materials)?;
@@ -26,7 +26,7 @@ pub(super) fn check(form: &Form) -> Result<(), Fault> {
     check_part(&root.key("actuators"), &form.actuators)?;
     check_count(&root.key("loads"), form.loads.len())?;
     if form.bodies.find(GROUND).is_some() {
-        let fault = root.key("bodies").key(GROUND).fault("the ground is always there, fixed");
+        let fault = root.key("bodies").key(GROUND).fault("the ground always exists and is fixed");
         let fault = fault.on_key().mend(Mend::Misnamed);
         return Err(fault.help("choose another name for this body"));
     }
@@ -43,7 +43,7 @@ fn check_count(at: &At<'_>, count: usize) -> Result<(), Fault> {
 fn check_part<T>(at: &At<'_>, parts: &Parts<T>) -> Result<(), Fault> {
     check_count(at, parts.0.len())?;
     for name in parts.names() {
-        // Names are steps of key paths and heads of columns.
+        // Names occur in key paths and column headers.
         let good = |c: char| c.is_alphanumeric() || matches!(c, '_' | '-' | ' ' | '+');
         let trimmed = !name.starts_with(' ') && !name.ends_with(' ');
         if name.is_empty() || !trimmed || name.chars().count() > MAX_LENGTH || !name.chars().all(good) {
@@ -55,25 +55,25 @@ fn check_part<T>(at: &At<'_>, parts: &Parts<T>) -> Result<(), Fault> {
     Ok(())
 }
 
-/// A trace's columns are headed by the names of bodies and contacts alike.
+/// Checks that no column of the trace occurs twice: names of bodies and contacts begin column names.
 fn check_columns(form: &Form) -> Result<(), Fault> {
     let root = At::ROOT;
     let at = root.key("contacts");
     for name in form.contacts.names() {
         if form.bodies.find(name).is_some() || name == GROUND {
-            let fault = at.key(name).fault("a body has this name already").on_key();
+            let fault = at.key(name).fault("a body already has this name").on_key();
             let fault = fault.against_path(root.key("bodies").key(name).path()).mend(Mend::Misnamed);
-            return Err(fault.help("bodies and contacts head columns of one table: choose another name"));
+            return Err(fault.help("bodies and contacts name columns of the same table: choose another name"));
         }
         if name == "energy" || name == "time_s" {
-            let fault = at.key(name).fault("the trace needs this name for a column of its own").on_key();
+            let fault = at.key(name).fault("trace.csv has a column of this name").on_key();
             return Err(fault.mend(Mend::Misnamed));
         }
     }
     Ok(())
 }
 
-/// A reference to a part that is not there; what the part is called, and its section.
+/// Returns the error for a reference to an unknown part. `what` is the kind of part, `section` its section.
 pub(super) fn unknown<T>(
     at: &At<'_>,
     (what, section): (&str, &'static str),
@@ -89,13 +89,13 @@ pub(super) fn unknown<T>(
 }
 
 impl Builder<'_> {
-    /// The place of a body by name.
+    /// Returns the index of a body.
     pub(super) fn body(&self, at: &At<'_>, name: &str) -> Result<usize, Fault> {
         let bodies = &self.form.bodies;
         bodies.find(name).ok_or_else(|| unknown(at, ("body", "bodies"), name, bodies))
     }
 
-    /// Both ends of a contact, spring or actuator.
+    /// Returns both ends of a contact, spring or actuator.
     pub(super) fn between(&self, at: &At<'_>, names: &Two) -> Result<[Side; 2], Fault> {
         let at = at.key("between");
         let side = |i: usize| match names.0[i].as_str() {
@@ -112,7 +112,7 @@ impl Builder<'_> {
         })
     }
 
-    /// Here the ground would have been right, too; the other end is taken.
+    /// Adds the ground to the suggestions and excludes the other end.
     fn or_ground(&self, mut fault: Fault, name: &str, other: &str) -> Fault {
         let names = || self.form.bodies.names().chain([GROUND]);
         let free = || names().filter(|name| *name != other);

@@ -1,4 +1,4 @@
-//! What is written of the insides of the contacts, and when.
+//! Output of the inner state of contacts: springs, memory curves and stresses, and its times.
 
 use super::contact::MAX_SPRINGS;
 use super::{Builder, Figures, range, run};
@@ -11,52 +11,52 @@ use crate::quantity::Time;
 use stickslip_drive::scene::{Contact, EngineChoice, Named};
 use stickslip_drive::{Moments, Plan, Waveform};
 
-/// Most springs shown of one contact.
+/// Maximum number of springs written per contact.
 const MAX_COUNT: u64 = 1_000_000;
-/// Most distances from the axis: friction is followed at each of them on every path, whatever is written of it.
+/// Maximum number of radii. The friction work is integrated at each of them along every path.
 const MAX_RADII: u64 = 10_000;
-/// Moments of the springs in a run without rows.
+/// Number of samples of the spring states in a run without rows.
 const STATES: f64 = 400.0;
-/// Moments of the memory where none are given.
+/// Default number of samples of memory curves and stresses.
 const CURVES: u32 = 6;
-/// Periods within which most runs become steady that are to end then.
+/// Number of periods after which most motions are steady, for runs with `until_steady`.
 const SETTLING: u32 = 100;
 
-/// What every spring does over time.
+/// Output of the states of springs over time.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SpringsOutput {
-    /// Springs shown of a contact on the curve.
+    /// Number of springs written for a contact with the curve engine.
     pub count: usize,
-    /// When.
+    /// Sample times.
     pub moments: Moments,
-    /// Key path of what asks for it.
+    /// Key path of the key or plot that requires this output.
     pub asked_by: String,
 }
 
-/// The memory curves.
+/// Output of memory curves.
 #[derive(Debug, Clone, PartialEq)]
 pub struct MemoryOutput {
-    /// When.
+    /// Sample times.
     pub moments: Moments,
-    /// Key path of what asks for it.
+    /// Key path of the key or plot that requires this output.
     pub asked_by: String,
 }
 
-/// Stress and displacement under the contacts, and where friction works.
+/// Output of stresses and displacements under the contacts, and of the distribution of friction work.
 #[derive(Debug, Clone, PartialEq)]
 pub struct FieldsOutput {
-    /// Distances from the axis.
+    /// Number of distances from the axis.
     pub radii: usize,
-    /// The largest of them, m, where it is given.
+    /// Largest distance, m, if given.
     pub extent: Option<f64>,
-    /// When.
+    /// Sample times.
     pub moments: Moments,
-    /// Key path of what asks for it.
+    /// Key path of the key or plot that requires this output.
     pub asked_by: String,
 }
 
 impl Builder<'_> {
-    /// What is written of the springs: asked for by its key or by its plot.
+    /// Returns the output of springs, if its key or its plot is given.
     pub(super) fn springs_output(&self, plan: Plan) -> Result<Option<SpringsOutput>, Fault> {
         let root = At::ROOT;
         let (output, plots) = (root.key("output"), root.key("plots"));
@@ -77,7 +77,7 @@ impl Builder<'_> {
         if springs > MAX_SPRINGS {
             let message = format!("expected at most {MAX_SPRINGS} springs in all contacts, got {springs}");
             let fault = asked.fault(message).against_all();
-            return Err(fault.help("show fewer springs of each contact with \"count\""));
+            return Err(fault.help("reduce \"count\", the number of springs per contact"));
         }
         Ok(Some(SpringsOutput {
             count: count as usize,
@@ -86,7 +86,7 @@ impl Builder<'_> {
         }))
     }
 
-    /// What is written of the memory curves: asked for by its key or by its plot.
+    /// Returns the output of memory curves, if its key or one of its plots is given.
     pub(super) fn memory_output(&self, plan: Plan, figures: Figures) -> Result<Option<MemoryOutput>, Fault> {
         let root = At::ROOT;
         let (output, plots) = (root.key("output"), root.key("plots"));
@@ -100,7 +100,7 @@ impl Builder<'_> {
         let on_row = |engine: &EngineChoice| matches!(engine, EngineChoice::Springs { .. });
         if let Some(row) = self.scene.contacts.iter().find(|contact| on_row(&contact.part.engine)) {
             let message = format!("the contact \"{}\" is a row of springs: it has no memory curve", row.name);
-            let help = "output.springs shows a row; the engine \"curve\" has a memory curve";
+            let help = "use output.springs for a row; only the engine \"curve\" has a memory curve";
             let fault = asked.fault(message).against(["contacts.*.engine"]);
             return Err(fault.help(help));
         }
@@ -109,7 +109,7 @@ impl Builder<'_> {
         Ok(Some(MemoryOutput { moments, asked_by: asked.path().to_string() }))
     }
 
-    /// What is written of stress and displacement: asked for by its key or by one of its plots.
+    /// Returns the output of stresses and displacements, if its key or one of its plots is given.
     pub(super) fn fields_output(&self, plan: Plan, figures: Figures) -> Result<Option<FieldsOutput>, Fault> {
         let root = At::ROOT;
         let (output, plots) = (root.key("output"), root.key("plots"));
@@ -121,10 +121,10 @@ impl Builder<'_> {
         };
         let shapeless = |contact: &Named<Contact>| !contact.part.interface.profile().has_shape();
         if self.scene.contacts.iter().all(shapeless) {
-            let fault = asked.fault("no contact here has a shape in three dimensions");
+            let fault = asked.fault("no contact has a shape in three dimensions");
             let fault = fault.against(["contacts.*.profile"]);
             return Err(
-                fault.help("lists of springs and normal laws have forces and no stress; springs.csv has the force of each spring")
+                fault.help("lists of springs and normal laws have forces but no stresses; springs.csv has the force of each spring")
             );
         }
         let FieldsOutputForm { radii, extent, every, at: times } = form.clone().unwrap_or_default();
@@ -134,7 +134,7 @@ impl Builder<'_> {
         Ok(Some(FieldsOutput { radii, extent, moments, asked_by: asked.path().to_string() }))
     }
 
-    /// The moments of a look into the contacts: at an interval, in a list, or over the last period.
+    /// Returns the sample times: an interval, a list, or by default samples of the last period.
     fn moments(
         &self,
         at: &At<'_>,
@@ -147,13 +147,13 @@ impl Builder<'_> {
             (None, Some(times)) => Moments::At(self.list(&at.key("at"), times, plan)?),
             (None, None) => self.last_period(plan, figures),
             (Some(_), Some(_)) => {
-                let fault = at.key("at").fault("the interval of the moments is given already").on_key();
+                let fault = at.key("at").fault("the interval of the times is already given").on_key();
                 return Err(fault.help("keep one of them"));
             }
         })
     }
 
-    /// The key or else the first of the plots that asks for a look into the contacts, of which there must be some.
+    /// Returns the key, or the first plot, that requires an output of contacts. Fails if there are no contacts.
     fn asked<'a>(
         &self,
         key: Option<At<'a>>,
@@ -164,15 +164,15 @@ impl Builder<'_> {
         let asked = key.or(place.map(|place| plots.index(place)));
         match asked {
             Some(at) if self.scene.contacts.is_empty() => {
-                Err(at.fault("there is no contact to look into").against(["contacts"]))
+                Err(at.fault("the scenario has no contact").against(["contacts"]))
             }
             asked => Ok(asked),
         }
     }
 
-    /// Moments evenly spread over the last period, the end included: of the waveform of the figures, or else of the
-    /// slowest. Without a period that fits, over the run; over the first hundred ones as well, where any
-    /// may be the last.
+    /// Returns equidistant times in the last period, its end included. The period is that of the waveform in `figures`, otherwise the
+    /// longest period. If no period is shorter than the run, the times cover the run. With `until_steady`, samples of the first hundred
+    /// periods are added, because each of them may be the last.
     fn last_period(&self, plan: Plan, figures: Figures) -> Moments {
         let waveforms = &self.scene.waveforms;
         let slowest = waveforms.iter().filter_map(|w| w.part.period()).reduce(f64::max);
@@ -185,16 +185,16 @@ impl Builder<'_> {
         Moments::At(first.chain(last).collect())
     }
 
-    /// An interval above 0 and not beyond the run.
+    /// Returns an interval above 0 and at most the duration of the run.
     fn interval(&self, at: &At<'_>, every: Time, plan: Plan) -> Result<f64, Fault> {
         let every = range::above_zero(at, every)?;
         if every <= plan.duration { Ok(every) } else { Err(self.beyond(at, plan)) }
     }
 
-    /// Moments in ascending order, within the run.
+    /// Returns times in ascending order within the run.
     fn list(&self, at: &At<'_>, times: &[Time], plan: Plan) -> Result<Vec<f64>, Fault> {
         if times.is_empty() {
-            return Err(at.fault("expected at least one moment").ask(Help::Shape));
+            return Err(at.fault("expected at least one time").ask(Help::Shape));
         }
         let mut moments = Vec::with_capacity(times.len());
         for (i, time) in times.iter().enumerate() {
@@ -204,7 +204,7 @@ impl Builder<'_> {
                 return Err(self.beyond(&at, plan));
             }
             if moments.last().is_some_and(|before| *before >= time) {
-                let fault = at.expected("a time after the moment before it");
+                let fault = at.expected("a time after the time before it");
                 return Err(fault.against_path(before.path()));
             }
             moments.push(time);

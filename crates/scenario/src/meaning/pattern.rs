@@ -1,4 +1,4 @@
-//! Bursts and sequences: runs of a periodic waveform and rests between them.
+//! Bursts and sequences: a periodic waveform with rests.
 
 use super::range;
 use crate::fault::Fault;
@@ -6,30 +6,31 @@ use crate::form::{BurstForm, Periodic, SectionForm};
 use crate::path::At;
 use stickslip_drive::{Section, Shape};
 
-/// Most cycles of all runs together.
+/// Maximum number of cycles of all runs together.
 const MOST_CYCLES: u64 = 10_000;
-/// Most runs and rests.
+/// Maximum number of runs and rests.
 const MOST_SECTIONS: usize = 1000;
 
-/// The runs and rests of a waveform of this period (s); none where it goes on for ever.
+/// Returns the runs and rests of a waveform with this period, s, or `None` if it runs without rests.
 pub(super) fn sections(at: &At<'_>, form: &Periodic, period: f64) -> Result<Option<Vec<Section>>, Fault> {
     match (&form.burst, &form.sequence) {
         (None, None) => Ok(None),
         (Some(burst), None) => of_burst(&at.key("burst"), *burst, (at, period)).map(Some),
         (None, Some(list)) => of_sequence(&at.key("sequence"), list).map(Some),
         (Some(_), Some(_)) => {
-            let fault = at.key("burst").fault("the sequence says already when it runs").on_key();
+            let fault =
+                at.key("burst").fault("the sequence already determines when the waveform runs").on_key();
             Err(fault.against_path(at.key("sequence").path()).help("keep one of them"))
         }
     }
 }
 
-/// The pattern of a shape, where that can be run through piece by piece.
+/// Returns the waveform of a shape with runs and rests. Shapes with a limited rate, and reversed shapes with jumps, are refused.
 pub(super) fn of(at: &At<'_>, shape: Shape, parts: Vec<Section>) -> Result<Shape, Fault> {
     if let Shape::Limited { .. } = shape {
-        let fault = at.key("rate").fault("a limited rate would carry on into the rests").on_key();
+        let fault = at.key("rate").fault("a limited rate would extend into the rests").on_key();
         return Err(fault
-            .help("give the flyback that it leaves, or run without bursts")
+            .help("give the flyback instead of the rate, or remove the burst or sequence")
             .against_path(at.path()));
     }
     let back = parts.iter().any(|part| matches!(part, Section::Run { reversed: true, .. }));
@@ -40,7 +41,7 @@ pub(super) fn of(at: &At<'_>, shape: Shape, parts: Vec<Section>) -> Result<Shape
     };
     if back && jumps {
         let fault = at.key("sequence").fault("a waveform that jumps cannot be reversed");
-        let help = "give it a short flyback: two jumps one after the other in no time would be none";
+        let help = "give it a short flyback: two jumps at the same time cancel";
         return Err(fault.help(help).against_path(at.path()));
     }
     Ok(Shape::Pattern { carrier: Box::new(shape), parts })
@@ -53,15 +54,17 @@ fn of_burst(at: &At<'_>, form: BurstForm, (waveform, period): (&At<'_>, f64)) ->
         (None, Some(dwell)) => range::above_zero(&at.key("dwell"), dwell)?,
         (Some(whole), None) => {
             let rest = range::above_zero(&at.key("period"), whole)? - busy;
-            // As long as its cycles but for rounding.
+            // A difference of the order of rounding errors means no rest.
             if rest.abs() <= 1e-12 * busy { 0.0 } else { rest }
         }
         (None, None) => {
             let fault = at.missing("period").against_path(at.key("dwell").path());
-            return Err(fault.help("a burst has a period, from start to start, or a dwell between two"));
+            return Err(
+                fault.help("a burst has a period, from start to start, or a dwell between two bursts")
+            );
         }
         (Some(_), Some(_)) => {
-            let fault = at.key("dwell").fault("the period of the burst says it already").on_key();
+            let fault = at.key("dwell").fault("the period of the burst already determines it").on_key();
             return Err(fault.help("keep one of them"));
         }
     };
@@ -99,11 +102,11 @@ fn of_sequence(at: &At<'_>, list: &[SectionForm]) -> Result<Vec<Section>, Fault>
             }
             (None, None) => {
                 let fault = here.missing("cycles").against_path(here.key("dwell").path());
-                return Err(fault.help("a sequence has runs of \"cycles\" and rests, \"dwell\""));
+                return Err(fault.help("a sequence has runs with \"cycles\" and rests with \"dwell\""));
             }
             (Some(_), Some(_)) => {
-                let fault = here.key("dwell").fault("it is a run already").on_key();
-                return Err(fault.help("put the rest into braces of its own behind it"));
+                let fault = here.key("dwell").fault("this entry is already a run").on_key();
+                return Err(fault.help("write the rest as a separate entry after it"));
             }
         });
     }
@@ -112,7 +115,7 @@ fn of_sequence(at: &At<'_>, list: &[SectionForm]) -> Result<Vec<Section>, Fault>
     }
     if cycles > MOST_CYCLES {
         let message = format!("expected at most {MOST_CYCLES} cycles in all runs, got {cycles}");
-        return Err(at.fault(message).help("a sequence is repeated by itself"));
+        return Err(at.fault(message).help("a sequence repeats automatically"));
     }
     Ok(sections)
 }

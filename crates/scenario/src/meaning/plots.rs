@@ -1,4 +1,4 @@
-//! Pictures that are asked for.
+//! Checks of plots.
 
 use super::{Builder, range, run};
 use crate::PlotName;
@@ -10,26 +10,26 @@ use crate::path::At;
 use crate::suggest;
 use stickslip_drive::{Channel, Plan};
 
-/// Most pictures of one's own: their files are known by their numbers.
+/// Maximum number of user-defined plots, whose files are numbered.
 pub(crate) const MOST_OWN: usize = 16;
 
-/// A picture of channels over a channel.
+/// User-defined plot of channels over a channel.
 #[derive(Debug, Clone, PartialEq)]
 pub struct OwnPlot {
-    /// Channel along the horizontal axis.
+    /// Channel of the horizontal axis.
     pub x: String,
-    /// Channels over it, at least one.
+    /// Channels of the vertical axis, at least one.
     pub y: Vec<String>,
-    /// From when until when, s.
+    /// Start and end time, s.
     pub span: (f64, f64),
-    /// Place in the list of all pictures.
+    /// Index in the list of all plots.
     pub(crate) place: usize,
-    /// Whether the channels over it are in a list.
+    /// Whether `y` is a list in the file.
     is_list: bool,
 }
 
 impl Builder<'_> {
-    /// There is something to draw.
+    /// Checks that the scenario has the contacts and bodies that the plots show.
     pub(super) fn plots(&self) -> Result<(), Fault> {
         let root = At::ROOT;
         let at = root.key("plots");
@@ -39,14 +39,14 @@ impl Builder<'_> {
                 PlotName::Layout | PlotName::Trajectory if self.scene.bodies.is_empty() => ("body", "bodies"),
                 _ => continue,
             };
-            let fault = at.index(i).fault(format!("there is no {lacks} to draw"));
+            let fault = at.index(i).fault(format!("the scenario has no {lacks} to draw"));
             let fault = fault.against([section]);
-            return Err(fault.help("leave this picture out"));
+            return Err(fault.help("leave this plot out"));
         }
         Ok(())
     }
 
-    /// The pictures of one's own, each over some of the run.
+    /// Returns the user-defined plots, each with its time range.
     pub(super) fn own_plots(&self, plan: Plan) -> Result<Vec<OwnPlot>, Fault> {
         let root = At::ROOT;
         let at = root.key("plots");
@@ -58,8 +58,8 @@ impl Builder<'_> {
         for (place, own) in own {
             let at = at.index(place);
             if plots.len() == MOST_OWN {
-                let message = format!("expected at most {MOST_OWN} pictures of channels over a channel");
-                return Err(at.fault(message).help("several channels can go into one: \"y\" takes a list"));
+                let message = format!("expected at most {MOST_OWN} plots of channels");
+                return Err(at.fault(message).help("one plot can have several channels: \"y\" takes a list"));
             }
             plots.push(self.own_plot(&at, (place, own), plan)?);
         }
@@ -83,7 +83,7 @@ impl Builder<'_> {
         let to_at = at.key("to");
         let end = to.map(|to| range::at_least_zero(&to_at, to)).transpose()?.unwrap_or(f64::INFINITY);
         if end <= start {
-            let fault = to_at.expected(format_args!("a time after {start} s, where it begins"));
+            let fault = to_at.expected(format_args!("a time after the start of the plot, {start} s"));
             return Err(fault.against_path(from_at.path()));
         }
         if y.names.is_empty() {
@@ -93,7 +93,7 @@ impl Builder<'_> {
     }
 }
 
-/// The channels of the pictures of one's own are there, and are numbers.
+/// Checks that the channels of user-defined plots exist and are numbers.
 pub(crate) fn check(own: &[OwnPlot], channels: &[Channel]) -> Result<(), Fault> {
     let root = At::ROOT;
     let plots = root.key("plots");

@@ -1,4 +1,4 @@
-//! Points of bodies.
+//! Points on bodies.
 
 use super::Builder;
 use crate::fault::Fault;
@@ -8,7 +8,7 @@ use crate::suggest;
 use stickslip_drive::scene::Point;
 
 impl Builder<'_> {
-    /// The points on both bodies of a contact, spring or actuator.
+    /// Returns the points on both bodies of a contact, spring or actuator.
     pub(super) fn points(&self, at: &At<'_>, between: &Two, form: &Points) -> Result<[Point; 2], Fault> {
         let at = at.key("at");
         let mut points = [Point::default(); 2];
@@ -21,7 +21,7 @@ impl Builder<'_> {
         Ok(points)
     }
 
-    /// A point on a body that is neither of the two.
+    /// Returns the error for a point on a body that is not one of the two.
     fn stranger(&self, at: &At<'_>, name: &str, between: &Two) -> Fault {
         let sides = ["contacts.*.between", "springs.*.between", "actuators.*.between"];
         let shown = crate::document::shown(name);
@@ -34,7 +34,7 @@ impl Builder<'_> {
     }
 }
 
-/// A point.
+/// Converts a point.
 pub(super) fn point(form: &PointForm) -> Point {
     Point { x: form.x.si, z: form.z.si }
 }

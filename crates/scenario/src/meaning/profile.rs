@@ -1,4 +1,4 @@
-//! Profiles of the gap.
+//! Contact profiles.
 
 use super::{measured, range};
 use crate::fault::Fault;
@@ -8,10 +8,10 @@ use crate::path::At;
 use crate::units::Kind;
 use stickslip_contact::{Pair, Profile, ProfileError};
 
-/// Most terms of a sum of powers: each costs a power in every evaluation.
+/// Maximum number of terms of a sum of powers. Each term costs a power in every evaluation.
 const MAX_TERMS: usize = 16;
 
-/// The profile of a form, between bodies of this pair.
+/// Converts a profile between bodies of the given pair of materials.
 pub(super) fn profile(at: &At<'_>, form: &ProfileForm, pair: Pair) -> Result<Profile, Fault> {
     let at = at.key(form.word());
     let profile = match form {
@@ -36,7 +36,7 @@ pub(super) fn profile(at: &At<'_>, form: &ProfileForm, pair: Pair) -> Result<Pro
         ProfileError::Flat(_) => length("flat"),
         ProfileError::Tip(_) => length("tip"),
         ProfileError::Slope(_) => at.key("slope").expected(range::ABOVE),
-        // Above 0 it is out of reach for another reason, and need not be the one in the file.
+        // A positive coefficient fails because of its size, which may differ from the number in the file.
         ProfileError::Coefficient(value) if value <= 0.0 => at.key("coefficient").expected(range::ABOVE),
         ProfileError::Exponent(_) => at.key("exponent").expected(range::ABOVE),
         _ => at.fault(error.to_string()),

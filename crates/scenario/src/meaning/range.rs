@@ -1,11 +1,11 @@
-//! Admissible ranges and the sentences that name them.
+//! Range checks and texts of ranges.
 
 use crate::fault::Fault;
 use crate::path::At;
 use crate::quantity::{Dimension, Quantity, SMALLEST};
 use crate::units::Kind;
 
-/// The value of a quantity above zero.
+/// Returns the value of a quantity that must be above zero.
 pub(super) fn above_zero<D: Dimension>(at: &At<'_>, quantity: Quantity<D>) -> Result<f64, Fault> {
     if quantity.si >= SMALLEST {
         return Ok(quantity.si);
@@ -13,7 +13,7 @@ pub(super) fn above_zero<D: Dimension>(at: &At<'_>, quantity: Quantity<D>) -> Re
     Err(at.expected(if quantity.si > 0.0 { least(D::KIND) } else { above(D::KIND) }))
 }
 
-/// The value of a quantity of at least zero.
+/// Returns the value of a quantity that must be at least zero.
 pub(super) fn at_least_zero<D: Dimension>(at: &At<'_>, quantity: Quantity<D>) -> Result<f64, Fault> {
     if quantity.si >= 0.0 {
         return Ok(quantity.si);
@@ -21,30 +21,30 @@ pub(super) fn at_least_zero<D: Dimension>(at: &At<'_>, quantity: Quantity<D>) ->
     Err(at.expected(at_least(D::KIND)))
 }
 
-/// What stands where a quantity must be above zero.
+/// Returns the message text for a quantity above zero.
 pub(super) fn above(kind: Kind) -> String {
     format!("{} above 0 {}", kind.article(), kind.si())
 }
 
-/// What stands where a quantity above zero is smaller than anything is.
+/// Returns the message text for a quantity of at least [`SMALLEST`].
 pub(super) fn least(kind: Kind) -> String {
     format!("{} of at least {SMALLEST:e} {}", kind.article(), kind.si())
 }
 
-/// What stands where a quantity must be at least zero.
+/// Returns the message text for a quantity of at least zero.
 pub(super) fn at_least(kind: Kind) -> String {
     format!("{} of at least 0 {}", kind.article(), kind.si())
 }
 
-/// What stands where a plain number must be above zero.
+/// Message text for a number above zero.
 pub(super) const ABOVE: &str = "a number above 0";
 
-/// A plain number above zero.
+/// Returns a number that must be finite and above zero.
 pub(super) fn number_above_zero(at: &At<'_>, value: f64) -> Result<f64, Fault> {
     if value > 0.0 && value.is_finite() { Ok(value) } else { Err(at.expected(ABOVE)) }
 }
 
-/// A plain number between two bounds, both included.
+/// Returns a number that must lie between two bounds, both included.
 pub(super) fn number_between(at: &At<'_>, value: f64, low: f64, high: f64) -> Result<f64, Fault> {
     if (low..=high).contains(&value) {
         return Ok(value);
@@ -52,7 +52,7 @@ pub(super) fn number_between(at: &At<'_>, value: f64, low: f64, high: f64) -> Re
     Err(at.expected(format_args!("a number between {} and {}", plain(low), plain(high))))
 }
 
-/// A whole number between two bounds, both included.
+/// Returns an integer that must lie between two bounds, both included.
 pub(super) fn count_between(at: &At<'_>, value: u64, low: u64, high: u64) -> Result<u64, Fault> {
     if (low..=high).contains(&value) {
         return Ok(value);
@@ -60,7 +60,7 @@ pub(super) fn count_between(at: &At<'_>, value: u64, low: u64, high: u64) -> Res
     Err(at.expected(format_args!("a whole number between {low} and {high}")))
 }
 
-/// A computed number in a sentence: six digits are plenty.
+/// Formats a computed number with six digits.
 pub(super) fn short(value: f64) -> String {
     let rounded = format!("{value:.5e}").parse().unwrap_or(value);
     if rounded != 0.0 && !(1e-3..1e6).contains(&f64::abs(rounded)) {
@@ -70,7 +70,7 @@ pub(super) fn short(value: f64) -> String {
     }
 }
 
-/// Short numbers as they are, small ones with an exponent.
+/// Formats a number without rounding; small numbers get an exponent.
 fn plain(value: f64) -> String {
     if value != 0.0 && value.abs() < 1e-3 { format!("{value:e}") } else { format!("{value}") }
 }

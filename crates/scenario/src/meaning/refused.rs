@@ -1,4 +1,4 @@
-//! What a scene or a plan is refused for, in the words and at the place of the file.
+//! Converts errors of model and plan to errors with messages for the file.
 
 use super::range;
 use crate::address;
@@ -8,7 +8,7 @@ use stickslip_contact::FirstLoadingError;
 use stickslip_drive::scene::{Axis, Normal, Scene, Varying};
 use stickslip_drive::{Field, Part, Plan, SceneError, SceneFault};
 
-/// The fault that a refusal is in the file.
+/// Converts an error of the model or the plan.
 pub(crate) fn fault(scene: &Scene, plan: Plan, error: &SceneError) -> Fault {
     let path = address::path(scene, plan, error.part, error.field);
     let fault = worded(scene, path, error);
@@ -16,7 +16,7 @@ pub(crate) fn fault(scene: &Scene, plan: Plan, error: &SceneError) -> Fault {
     let pressed = pressing(scene, error.part);
     let inside = |key: &str| KeyPath(part.0.iter().cloned().chain([Step::Key(key.to_owned())]).collect());
     match (&error.fault, pressed) {
-        // By a number alone.
+        // The check depends on a single number.
         (SceneFault::NotFinite(_) | SceneFault::BelowZero(_) | SceneFault::NotAboveZero(_), _)
         | (SceneFault::NoContact | SceneFault::BalancedPitch, _) => fault,
         (SceneFault::NoInertia(_) | SceneFault::BalancedMass(_), _) => fault.against_path(part),
@@ -47,7 +47,7 @@ fn waveform(name: &str) -> KeyPath {
     KeyPath(vec![Step::Key("waveforms".to_owned()), Step::Key(name.to_owned())])
 }
 
-/// Judged by the waveform that a value follows, too.
+/// Adds the waveform that a value follows to the paths on which the check depends.
 fn follow(fault: Fault, scene: &Scene, value: Varying) -> Fault {
     match value {
         Varying::Constant(_) => fault,
@@ -58,7 +58,7 @@ fn follow(fault: Fault, scene: &Scene, value: Varying) -> Fault {
     }
 }
 
-/// In words.
+/// Returns the error with its message.
 fn worded(scene: &Scene, path: KeyPath, error: &SceneError) -> Fault {
     match &error.fault {
         SceneFault::NotAboveZero(_) => {
@@ -74,7 +74,7 @@ fn worded(scene: &Scene, path: KeyPath, error: &SceneError) -> Fault {
             Fault::new(path, error.fault.to_string()).help(LINEAR)
         }
         SceneFault::UnlocatedJump if jumps_as_input(scene, |_| true) => {
-            let help = format!("take the event stepper, or {LINEAR}");
+            let help = format!("use the stepper `event`, or {LINEAR}");
             Fault::new(path, error.fault.to_string()).help(help)
         }
         SceneFault::DampedJump(_) if matches!(error.part, Part::Actuator(_)) => {
@@ -84,14 +84,15 @@ fn worded(scene: &Scene, path: KeyPath, error: &SceneError) -> Fault {
     }
 }
 
-/// What lets a stack follow a waveform that jumps.
-const STACK: &str = "give the waveform a flyback above 0, or the stack a \"driver\" with a current, a resistance or a \
-                     bandwidth, or \"damping\": 0; a stack that says nothing of its damping has that of Q = 50";
+/// Help for a stack that follows a waveform with jumps.
+const STACK: &str = "give the waveform a flyback above 0, or the stack a \"driver\" with a current, a \
+                     resistance or a bandwidth, or \"damping\": 0; the default damping of a stack is that of \
+                     Q = 50";
 
-/// What keeps an input from jumping.
-const LINEAR: &str = "make the input \"linear\": held, it jumps wherever it is given a value";
+/// Help for an input with jumps.
+const LINEAR: &str = "make the input \"linear\": a held input jumps to each new value";
 
-/// Whether what jumps among the waveforms of these names are inputs, which have no flyback.
+/// Returns whether all waveforms with jumps among those selected are inputs.
 fn jumps_as_input(scene: &Scene, named: impl Fn(&str) -> bool) -> bool {
     let mut jumping = scene
         .waveforms
@@ -101,34 +102,33 @@ fn jumps_as_input(scene: &Scene, named: impl Fn(&str) -> bool) -> bool {
     jumping.peek().is_some() && jumping.all(|waveform| waveform.part.interpolation().is_some())
 }
 
-/// In the words of the scene.
+/// Returns the error with the message of the model.
 fn plain(path: KeyPath, error: &SceneError) -> Fault {
     Fault::new(path, error.fault.to_string()).maybe_help(error.fault.advice())
 }
 
-/// What obeys Newton needs a mass, what turns a moment of inertia.
+/// Returns the error for a missing mass or moment of inertia.
 fn no_inertia(path: KeyPath, axis: Axis) -> Fault {
     match axis {
         Axis::X | Axis::Z => {
-            let help = format!("{} is free: a body that obeys Newton needs a mass", axis.key());
+            let help = format!("{} is free: a body with a free coordinate needs a mass", axis.key());
             Fault::missing(path, "mass").help(help)
         }
-        Axis::Pitch => {
-            Fault::missing(path, "inertia").help("pitch is free: a body that turns needs a moment of inertia")
-        }
+        Axis::Pitch => Fault::missing(path, "inertia")
+            .help("pitch is free: a body that rotates needs a moment of inertia"),
     }
 }
 
-/// A contact that cannot be pressed or pushed as the file says.
+/// Returns the error for an initial state of a contact that is impossible.
 fn loading(scene: &Scene, path: KeyPath, error: &SceneError, reason: FirstLoadingError) -> Fault {
     match reason {
         FirstLoadingError::TangentialForce { limit, .. } => {
             let limit = range::short(limit);
             Fault::expected(path, format_args!("a force below μF_N = {limit} N in magnitude"))
-                .help("at μF_N the contact slips; this is the force of one contact, whatever \"count\" says")
+                .help("at μF_N the contact slips; this is the force of one contact, independent of \"count\"")
         }
         FirstLoadingError::Undetermined => {
-            let message = "the radius of this profile does not tell how deep it is pressed";
+            let message = "a contact radius does not determine the indentation of this profile";
             Fault::new(path, message).on_key().help("give \"force\" or \"indentation\"")
         }
         FirstLoadingError::NormalForce(low) | FirstLoadingError::Radius(low) if low < 0.0 => {
@@ -141,7 +141,7 @@ fn loading(scene: &Scene, path: KeyPath, error: &SceneError, reason: FirstLoadin
     }
 }
 
-/// A contact that is pulled, always or at times.
+/// Returns the error for a normal load that is negative, always or at times.
 fn below_zero(scene: &Scene, mut path: KeyPath, error: &SceneError, low: f64) -> Fault {
     let Some(kind) = address::kind(error) else { return plain(path, error) };
     let waveform = match pressing(scene, error.part) {
@@ -156,22 +156,23 @@ fn below_zero(scene: &Scene, mut path: KeyPath, error: &SceneError, low: f64) ->
         "expected {} at all times, but the {} to {} {}",
         range::at_least(kind),
         match (is_input, is_generated) {
-            (true, _) => "range of the input reaches down",
-            (_, true) => "range of the generator's stroke reaches down",
+            (true, _) => "range of the input extends down",
+            (_, true) => "stroke range of the generator extends down",
             _ => "waveform falls",
         },
         range::short(low),
         kind.si()
     );
     let help = if is_input || is_generated {
-        format!("let its range begin at 0 {} or above", kind.si())
+        format!("let its range start at 0 {} or above", kind.si())
     } else {
-        "add an offset, or take a smaller amplitude".to_owned()
+        "add an offset, or reduce the amplitude".to_owned()
     };
     Fault::new(path, message).help(help)
 }
 
-/// A sphere ends at its equator, a table at its last point; how deep the bodies press a coupled one is a matter of the whole scene.
+/// Returns the error for a contact beyond the end of its profile: the equator of a sphere, or the last point of a table. Returns `None`
+/// for a coupled contact, whose indentation depends on the whole model.
 fn beyond_profile(scene: &Scene, path: &KeyPath, error: &SceneError) -> Option<Fault> {
     let (Part::Contact(i), Some((varying, normal))) = (error.part, pressing(scene, error.part)) else {
         return None;
@@ -192,17 +193,21 @@ fn beyond_profile(scene: &Scene, path: &KeyPath, error: &SceneError) -> Option<F
         (
             "at most",
             "the last point of its profile",
-            "half-spaces touch in circles smaller than what is known of the profile",
+            "the contact circle must be smaller than the known range of the profile",
         )
     } else {
-        ("less than", "the sphere's equator", "half-spaces touch in circles much smaller than the sphere")
+        (
+            "less than",
+            "the sphere's equator",
+            "in half-space theory, the contact circle is much smaller than the sphere",
+        )
     };
     let message =
-        format!("expected {within} {most} {unit}, where the contact reaches {end}, got {high} {unit}");
+        format!("expected {within} {most} {unit}, at which the contact reaches {end}, got {high} {unit}");
     Some(Fault::new(path.clone(), message).help(help))
 }
 
-/// What is given to press a contact.
+/// Returns the prescribed normal load of a contact.
 fn pressing(scene: &Scene, part: Part) -> Option<(Varying, Normal)> {
     let Part::Contact(i) = part else { return None };
     let normal = scene.contacts.get(i)?.part.normal;

@@ -1,4 +1,4 @@
-//! Figures, plan and output.
+//! Evaluated waveform and body, and the plan of the run.
 
 use super::{Builder, Figures, names, range, refused};
 use crate::fault::Fault;
@@ -7,14 +7,14 @@ use crate::path::At;
 use stickslip_drive::scene::Freedom;
 use stickslip_drive::{Accuracy, Limits, Plan, Shape, Stepper, UntilSteady};
 
-/// Tolerances that the steppers take.
+/// Range of tolerances of the time integrators.
 const TOLERANCE: (f64, f64) = (1e-13, 1e-2);
-/// Accuracies that a frame may be asked for.
+/// Range of the accuracy of frames.
 const FRAME_ACCURACY: (f64, f64) = (1e-9, 1e-1);
-/// Changes of a step that may count as none.
+/// Range of the relative change of the step length for `until_steady`.
 const CHANGE: (f64, f64) = (1e-12, 0.1);
 
-/// What says which waveform and which body make the figures.
+/// Paths on which the choice of the evaluated waveform and body depends.
 const MOVING: [&str; 8] = [
     "waveforms",
     "figures",
@@ -25,14 +25,14 @@ const MOVING: [&str; 8] = [
     "contacts.*.normal",
     "loads",
 ];
-/// What says how long a run is.
+/// Returns the paths of the keys that determine the duration of a run.
 pub(super) fn duration(form: &Form) -> &'static [&'static str] {
     let all = &["run.duration", "run.cycles", "waveforms", "figures"];
     if form.run.duration.is_some() { &all[..2] } else { all }
 }
 
 impl Builder<'_> {
-    /// Whose period and motion count: those named, or the only ones there are.
+    /// Returns the evaluated waveform and body: the ones named in `figures`, otherwise unique candidates.
     pub(super) fn figures(&self) -> Result<Figures, Fault> {
         let form = &self.form.figures;
         let root = At::ROOT;
@@ -51,7 +51,7 @@ impl Builder<'_> {
         Ok(Figures { waveform, body })
     }
 
-    /// The place of a waveform with a period.
+    /// Returns the index of a waveform with a period.
     fn periodic(&self, at: &At<'_>, name: &str) -> Result<usize, Fault> {
         let waveforms = &self.form.waveforms;
         let index = waveforms
@@ -62,7 +62,7 @@ impl Builder<'_> {
             return Ok(index);
         }
         let which = match (waveform.interpolation(), waveform.generator(), waveform.shape()) {
-            (_, Some(_), _) => "a generator that rests until it is commanded",
+            (_, Some(_), _) => "a generator, which waits for commands,",
             (Some(_), None, _) => "an input",
             (None, None, Shape::Chirp(_)) => "a chirp, whose frequency changes,",
             (None, None, Shape::Step { .. }) => "a step",
@@ -71,10 +71,10 @@ impl Builder<'_> {
         let fault = at.expected("a waveform with a period");
         Err(fault
             .against_path(At::ROOT.key("waveforms").key(name).path())
-            .help(format!("{which} repeats nothing: there are no steps to count")))
+            .help(format!("{which} has no period, so it determines no steps")))
     }
 
-    /// The only free body, or the only body.
+    /// Returns the only free body, or the only body.
     fn only_body(&self) -> Option<usize> {
         let bodies = &self.scene.bodies;
         let mut free = (0..bodies.len()).filter(|&i| bodies[i].part.x.freedom == Freedom::Free);
@@ -85,7 +85,7 @@ impl Builder<'_> {
         }
     }
 
-    /// How long, by which stepper, what is written down.
+    /// Returns the plan: duration, time integrator, limits and row interval.
     pub(super) fn plan(&self, figures: Figures) -> Result<Plan, Fault> {
         let form = &self.form.run;
         let root = At::ROOT;
@@ -100,7 +100,7 @@ impl Builder<'_> {
             (Some(_), Some(_)) => {
                 return Err(at
                     .key("cycles")
-                    .fault("the duration is given already")
+                    .fault("the duration is already given")
                     .on_key()
                     .help("keep one of them"));
             }
@@ -113,13 +113,13 @@ impl Builder<'_> {
             .transpose()?;
         let limits = limits(&at.key("limits"), &form.limits)?;
         let plan = Plan { duration, stepper, limits, every, until_steady };
-        // Before anything is compared with its numbers.
+        // Checks the plan before its numbers are compared.
         plan.check().map_err(|error| refused::fault(&self.scene, plan, &error))?;
         within_run(&at.key("stepper"), plan, self.form)?;
         Ok(plan)
     }
 
-    /// Most memory that the run may take, B.
+    /// Returns the memory limit of the run, B.
     pub(super) fn memory_limit(&self) -> Result<Option<f64>, Fault> {
         let root = At::ROOT;
         let (run, limits) = (root.key("run"), &self.form.run.limits);
@@ -131,21 +131,21 @@ impl Builder<'_> {
         let change = range::number_between(at, change, CHANGE.0, CHANGE.1)?;
         let none = |message: String, help: &str| Err(at.fault(message).on_key().help(help).against(MOVING));
         let Some(waveform) = figures.waveform else {
-            let message = "there is no waveform, or more than one, whose periods could make steps";
+            let message = "there is no single waveform with a period that determines steps";
             return none(message.to_owned(), "name one in figures.waveform");
         };
         let named = &self.scene.waveforms[waveform];
         if named.part.period().is_none() {
-            let message = format!("the waveform \"{}\" has no period: it makes no steps", named.name);
+            let message = format!("the waveform \"{}\" has no period, so it determines no steps", named.name);
             return none(message, "name another in figures.waveform");
         }
         let Some(body) = figures.body else {
-            let message = "there is no free body, or more than one, that could make steps";
+            let message = "there is no single free body that makes steps";
             return none(message.to_owned(), "name one in figures.body");
         };
         let named = &self.scene.bodies[body];
         if named.part.x.freedom != Freedom::Free {
-            let message = format!("the body \"{}\" is not free along x: it makes no steps", named.name);
+            let message = format!("the body \"{}\" is not free along x, so it makes no steps", named.name);
             return none(message, "name a free one in figures.body");
         }
         Ok(UntilSteady { waveform, body, change })
@@ -154,7 +154,8 @@ impl Builder<'_> {
     fn cycles(&self, at: &At<'_>, cycles: f64, figures: Figures) -> Result<f64, Fault> {
         let cycles = range::number_above_zero(at, cycles)?;
         let Some(index) = figures.waveform else {
-            let fault = at.fault("there is no waveform, or more than one, to count the cycles of").on_key();
+            let fault =
+                at.fault("there is no single waveform with a period that determines the cycles").on_key();
             let fault = fault.against(MOVING);
             return Err(fault.help("name one in figures.waveform, or give run.duration"));
         };
@@ -174,7 +175,7 @@ fn stepper(at: &At<'_>, form: &StepperForm) -> Result<Stepper, Fault> {
     let stepper = form.asked();
     if let Accuracy::Tolerance(tolerance) = stepper.accuracy() {
         range::number_between(&at.key(stepper.name()).key("tolerance"), tolerance, TOLERANCE.0, TOLERANCE.1)
-            .map_err(|fault| fault.help("relative to u_c and μF_N; 1e-8 suits most scenes"))?;
+            .map_err(|fault| fault.help("relative to u_c and μF_N; 1e-8 suits most models"))?;
     }
     if let Accuracy::Frame { error, .. } = stepper.accuracy() {
         range::number_between(
@@ -184,13 +185,13 @@ fn stepper(at: &At<'_>, form: &StepperForm) -> Result<Stepper, Fault> {
             FRAME_ACCURACY.1,
         )
         .map_err(|fault| {
-            fault.help("what may be lost of a stroke in a stroke; 1e-3 suits most controllers")
+            fault.help("the error per stroke relative to the stroke; 1e-3 suits most controllers")
         })?;
     }
     Ok(stepper)
 }
 
-/// A fixed step is not longer than the run.
+/// Checks that a fixed time step or frame is not longer than the run.
 fn within_run(at: &At<'_>, plan: Plan, form: &Form) -> Result<(), Fault> {
     let name = plan.stepper.name();
     let (key, step) = match plan.stepper.accuracy() {

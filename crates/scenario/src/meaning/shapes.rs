@@ -1,4 +1,4 @@
-//! Shapes with rules of their own: what their keys must be to each other.
+//! Waveform shapes whose keys restrict each other.
 
 use super::range;
 use super::waveform::Values;
@@ -11,7 +11,7 @@ use crate::quantity::{AnyQuantity, Time};
 use crate::units::Kind;
 use stickslip_drive::{Harmonic, Shape, Sweep, Timing};
 
-/// A sawtooth whose flyback is given, tuned to a resonance or limited in its rate.
+/// Returns a sawtooth whose flyback is given, tuned to a resonance, or limited in its rate.
 pub(super) fn sawtooth(
     at: &At<'_>,
     form: &SawtoothForm,
@@ -41,7 +41,7 @@ pub(super) fn sawtooth(
                 .against_path(at.key("rate").path()));
         }
         (Some(_), Some(_)) => {
-            let fault = at.key("resonance").fault("the flyback is given already").on_key();
+            let fault = at.key("resonance").fault("the flyback is already given").on_key();
             return Err(fault.against_path(at.key("flyback").path()).help("keep one of them"));
         }
     };
@@ -58,13 +58,13 @@ pub(super) fn sawtooth(
         let paths = ["stroke", "period", "frequency", "flyback", "resonance"].map(|key| at.key(key).path());
         let fault = paths.into_iter().fold(fault, Fault::against_path);
         return Err(fault.help(
-            "what cannot follow the rise makes a smaller triangle: lower the stroke or the frequency",
+            "with a smaller rate the waveform is a triangle of smaller stroke: reduce the stroke or the frequency",
         ));
     }
     Ok(Shape::Limited { stroke, flyback, rate })
 }
 
-/// A rate above 0 of what the waveform has: a velocity of lengths, a slew rate of voltages, a bare number of anything else.
+/// Returns a rate above 0. Lengths have a velocity, voltages a slew rate, other values a plain number.
 fn rate(at: &At<'_>, given: AnyQuantity, values: &mut Values<'_>) -> Result<f64, Fault> {
     let of = match given.kind {
         None => None,
@@ -86,7 +86,7 @@ pub(super) fn flyback(at: &At<'_>, flyback: Time, period: f64) -> Result<f64, Fa
     below(at, ("flyback", flyback), period)
 }
 
-/// A time of at least 0 and below the period.
+/// Returns a time of at least 0 and below the period.
 fn below(at: &At<'_>, (key, time): (&str, Time), period: f64) -> Result<f64, Fault> {
     let timing = ["period", "frequency"].map(|key| at.key(key).path());
     let at = at.key(key);
@@ -99,7 +99,7 @@ fn below(at: &At<'_>, (key, time): (&str, Time), period: f64) -> Result<f64, Fau
     Err(timing.into_iter().fold(fault, Fault::against_path))
 }
 
-/// A flyback above 0, half a period by default.
+/// Returns a flyback above 0, by default half a period.
 pub(super) fn half_flyback(at: &At<'_>, flyback: Option<Time>, period: f64) -> Result<f64, Fault> {
     let flyback = flyback.unwrap_or(Time::new(period / 2.0));
     range::above_zero(&at.key("flyback"), flyback)?;
@@ -115,7 +115,9 @@ pub(super) fn two_harmonics(
     let at = at.key("second");
     let second = range::number_between(&at, form.second, -0.25, 0.25)?;
     if second == 0.0 {
-        return Err(at.expected("a share other than 0").help("without it the waveform is a \"sine\""));
+        return Err(at
+            .expected("a relative amplitude other than 0")
+            .help("without it the waveform is a \"sine\""));
     }
     let term = |amplitude, order| Harmonic { amplitude, order, phase: 0.0 };
     Ok(Shape::Harmonics { terms: vec![term(amplitude, 1.0), term(second * amplitude, 2.0)] })
@@ -147,7 +149,7 @@ pub(super) fn trapezoid(
     if busy > period * (1.0 + 1e-12) {
         let [busy, period] = [busy, period].map(range::short);
         let message = format!("rise, hold and fall take {busy} s, the period is {period} s");
-        let fault = at.fault(message).help("what is left of the period is the rest");
+        let fault = at.fault(message).help("the remaining time of the period is the rest");
         return Err(paths.into_iter().fold(fault, Fault::against_path));
     }
     if busy == 0.0 {
@@ -170,8 +172,9 @@ pub(super) fn s_curve(
     if rounding > most * (1.0 + 1e-12) {
         let most = range::short(most);
         let paths = ["flyback", "period", "frequency"].map(|key| at.key(key).path());
-        let fault =
-            at.key("rounding").expected(format_args!("a quarter of the shorter way at most, {most} s"));
+        let fault = at
+            .key("rounding")
+            .expected(format_args!("at most a quarter of the shorter stroke time, {most} s"));
         return Err(paths.into_iter().fold(fault, Fault::against_path));
     }
     Ok(Shape::SCurve { stroke, flyback, rounding })
@@ -188,7 +191,7 @@ pub(super) fn chirp(
     let to = range::at_least_zero(&at.key("to"), form.to)?;
     if from == 0.0 && to == 0.0 {
         let fault = at.key("to").expected("a frequency above 0 Hz").against_path(at.key("from").path());
-        return Err(fault.help("a chirp from 0 Hz to 0 Hz never moves"));
+        return Err(fault.help("a chirp from 0 Hz to 0 Hz is constant"));
     }
     let duration = range::above_zero(&at.key("duration"), form.duration)?;
     let delay = range::at_least_zero(&at.key("delay"), form.delay)?;
@@ -199,11 +202,11 @@ pub(super) fn chirp(
 pub(super) fn step(at: &At<'_>, form: &StepForm, values: &mut Values<'_>) -> Result<(Shape, Timing), Fault> {
     let height = values.take(&at.key("height"), form.height)?;
     let at = range::at_least_zero(&at.key("at"), form.at)?;
-    // As a delay: a run that ends before it is told so.
+    // The time is a delay, so that the check of delays finds runs that end before the step.
     Ok((Shape::Step { height, at: 0.0 }, once(at)))
 }
 
-/// Of what comes once.
+/// Returns the timing of a non-periodic shape.
 fn once(delay: f64) -> Timing {
     Timing { delay, ..Timing::every(1.0) }
 }

@@ -1,4 +1,4 @@
-//! What a scenario shows that does not say what to show: a trace that a reader can plot, and the pictures that everybody asks for first.
+//! Default output of scenarios without `output` or `plots`: rows for a plot, loops and trajectories.
 
 use super::Meaning;
 use crate::form::{Form, PlotForm};
@@ -6,12 +6,12 @@ use crate::plot_name::PlotName;
 use crate::quantity::Time;
 use stickslip_drive::scene::Freedom;
 
-/// Rows in the shortest period of a waveform, and least and most of a run.
+/// Number of rows per shortest period, and minimum and maximum number of rows of a run.
 const ROWS_IN_PERIOD: f64 = 200.0;
 const ROWS: (f64, f64) = (1000.0, 20_000.0);
 
-/// Fills in `output.every` of a file without `output`, and the pictures of one without `plots`; `has` says whether a key is there.
-/// Returns whether anything was filled in.
+/// Fills in `output.every` of a scenario without `output`, and the default plots of a scenario without `plots`. `has` returns whether the
+/// file has a key. Returns whether anything was filled in.
 pub(crate) fn fill(form: &mut Form, meaning: &Meaning, has: impl Fn(&str) -> bool) -> bool {
     let (blank, undrawn) = (!has("output"), !has("plots"));
     if blank {
@@ -27,7 +27,8 @@ pub(crate) fn fill(form: &mut Form, meaning: &Meaning, has: impl Fn(&str) -> boo
     blank || undrawn
 }
 
-/// An interval of 1, 2 or 5 times a power of ten seconds that resolves the shortest period of a waveform, within bounds of the number of rows.
+/// Returns an interval of 1, 2 or 5 times a power of ten seconds. The interval resolves the shortest period within the limits of the
+/// number of rows.
 fn interval(meaning: &Meaning) -> f64 {
     let duration = meaning.plan.duration;
     let periods = meaning.scene.waveforms.iter().filter_map(|waveform| waveform.part.period());
@@ -36,11 +37,11 @@ fn interval(meaning: &Meaning) -> f64 {
     round_up(duration / rows)
 }
 
-/// The next larger of 1, 2 and 5 times a power of ten; the value itself where that is none.
+/// Returns the next value of 1, 2 or 5 times a power of ten that is not smaller.
 fn round_up(value: f64) -> f64 {
     let exponent = math::log10(value).floor() as i32;
     let candidates = [(1, exponent), (2, exponent), (5, exponent), (1, exponent + 1)];
-    // As a decimal number is read, to the last bit.
+    // Parsing a decimal number gives the value to the last bit.
     let read =
         candidates.into_iter().filter_map(|(digit, exponent)| format!("{digit}e{exponent}").parse().ok());
     read.filter(|candidate| *candidate >= value).fold(f64::INFINITY, f64::min).min(value * 10.0)

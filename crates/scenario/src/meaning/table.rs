@@ -1,4 +1,4 @@
-//! Tables: waveforms by points; those of files are already here.
+//! Waveforms given by points. Points of files have already been read.
 
 use super::range;
 use super::waveform::Values;
@@ -8,7 +8,7 @@ use crate::guide::Help;
 use crate::path::At;
 use stickslip_drive::{Shape, Timing};
 
-/// Points as they are, or with gain, offset, cubics or repeated.
+/// Returns the waveform of a table, with gain, offset, cubic interpolation and repetition.
 pub(super) fn shape(
     at: &At<'_>,
     form: &TableForm,
@@ -40,7 +40,7 @@ pub(super) fn shape(
     Ok((Shape::Curve { points, smooth, repeated: form.repeat }, timing))
 }
 
-/// Points whose times rise.
+/// Returns points in ascending order of time.
 fn points(at: &At<'_>, points: &[Point], values: &mut Values<'_>) -> Result<Vec<(f64, f64)>, Fault> {
     let list = at.path();
     let mut pairs: Vec<(f64, f64)> = Vec::with_capacity(points.len());
@@ -49,18 +49,18 @@ fn points(at: &At<'_>, points: &[Point], values: &mut Values<'_>) -> Result<Vec<
         if pairs.last().is_some_and(|last| time.si < last.0) {
             let fault =
                 at.index(0).expected("a time not before the point before it").against_path(list.clone());
-            return Err(fault.help("times rise; two points at one time are a jump"));
+            return Err(fault.help("times ascend; two points at the same time are a jump"));
         }
         if pairs.len() > 1 && pairs[i - 2].0 == time.si {
             let fault = at.index(0).fault("three points have the same time").against_path(list.clone());
-            return Err(fault.help("two points at one time are a jump; a third says nothing"));
+            return Err(fault.help("two points at the same time are a jump; a third one has no effect"));
         }
         pairs.push((time.si, values.take(&at.index(1), value)?));
     }
     Ok(pairs)
 }
 
-/// The same with gain and offset.
+/// Applies gain and offset to points.
 fn scaled(
     mut pairs: Vec<(f64, f64)>,
     at: &At<'_>,

@@ -1,4 +1,4 @@
-//! What is allowed and probably not meant.
+//! Warnings about values that are allowed but implausible.
 
 use super::{Meaning, motion};
 use crate::PlotName;
@@ -11,35 +11,35 @@ use std::f64::consts::TAU;
 use stickslip_drive::Scene;
 use stickslip_drive::scene::{Axis, Body, ContactStart, Coordinate, Freedom, Named, Normal, Side, Varying};
 
-/// Young's moduli between the softest gels and more than diamond, Pa.
+/// Plausible range of Young's modulus, Pa: from the softest gels to above diamond.
 const MODULUS: (f64, f64) = (1e3, 2e12);
-/// Phases of more than one turn are degrees without their unit, rad.
+/// Largest plausible phase, rad. Larger numbers probably are degrees without a unit.
 const TURN: f64 = TAU * (1.0 + 1e-9);
-/// More than the coefficient of friction of rubber on clean glass.
+/// Largest plausible friction coefficient, above that of rubber on clean glass.
 const FRICTION: f64 = 4.0;
 
-/// Fewest values of which noise and tilt are told.
+/// Minimum number of values for warnings about noise and tilt.
 const ROWS: usize = 20;
-/// Noise of a measured motion as a share of its range: more moves a contact to and fro.
+/// Largest noise of a measured motion relative to its range. More noise would move the contact back and forth.
 const NOISE: f64 = 5e-4;
-/// Tilt of a line over its length, in ranges of what is left of it.
+/// Largest height difference by tilt, relative to the range of the levelled heights.
 const TILT: f64 = 1.0;
 
-/// Least and largest of values.
+/// Returns minimum and maximum of values.
 fn range(values: &[f64]) -> (f64, f64) {
     values
         .iter()
         .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), value| (low.min(*value), high.max(*value)))
 }
 
-/// Something odd: what it is about, as the word of a [`Warning`](crate::Warning), and what there is to say.
+/// Warning: category (see [`Warning`](crate::Warning)) and message.
 #[derive(Debug)]
 pub(crate) struct Oddity {
     pub(crate) kind: &'static str,
     pub(crate) fault: Fault,
 }
 
-/// Everything odd about a scenario. `is_written` says whether a value stands in the file.
+/// Returns all warnings of a scenario. `is_written` returns whether the file contains a value.
 pub(crate) fn of(form: &Form, meaning: &Meaning, is_written: impl Fn(&KeyPath) -> bool) -> Vec<Oddity> {
     let mut odd = Oddities { form, meaning, scene: &meaning.scene, found: Vec::new() };
     odd.unused();
@@ -76,7 +76,7 @@ impl Oddities<'_> {
         self.found.push(Oddity { kind, fault });
     }
 
-    /// Measured motions with noise, and measured lines that are askew.
+    /// Warns of noisy measured motions and tilted measured lines.
     fn measured(&mut self) {
         let root = At::ROOT;
         let at = root.key("waveforms");
@@ -91,7 +91,7 @@ impl Oddities<'_> {
                     .key(name)
                     .key("table")
                     .fault(format!("its values have noise of {share:.2} % of their range"));
-                let help = "noise moves whatever follows it to and fro, and loops of contacts mean nothing: give \"smooth\", the time in which the motion is a parabola";
+                let help = "noise moves the bodies that follow the waveform back and forth and falsifies contact loops: give \"smooth\", the time in which the motion is approximately a parabola";
                 self.find("noise", fault.help(help));
             }
         }
@@ -114,16 +114,16 @@ impl Oddities<'_> {
                     .key(name)
                     .key("profile")
                     .key("rough")
-                    .fault("the line is askew: its tilt is more than its roughness");
+                    .fault("the line is tilted: its tilt exceeds its roughness");
                 self.find(
                     "tilt",
-                    fault.help("give \"level\": \"line\" to remove it; what touches is one end of it"),
+                    fault.help("give \"level\": \"line\" to remove the tilt; otherwise only one end touches"),
                 );
             }
         }
     }
 
-    /// Names that nothing refers to.
+    /// Warns of parts to which nothing refers.
     fn unused(&mut self) {
         let (form, scene) = (self.form, self.scene);
         let contacts = form.contacts.iter();
@@ -135,7 +135,7 @@ impl Oddities<'_> {
         if let (Some(waveform), Some(_)) = (self.meaning.figures.waveform, &form.figures.waveform) {
             used[waveform] = true;
         }
-        self.unnamed("waveforms", &form.waveforms, used, "nothing follows this waveform");
+        self.unnamed("waveforms", &form.waveforms, used, "no part follows this waveform");
         let moves_alone = scene.bodies.iter().map(|body| body.part.is_free());
         let used = motion::named_bodies(scene).into_iter().zip(moves_alone).map(|(a, b)| a || b).collect();
         self.unnamed("bodies", &form.bodies, used, "no contact, spring, actuator or load names this body");
@@ -147,11 +147,11 @@ impl Oddities<'_> {
         let unused = parts.names().zip(used).filter(|(_, used)| !used);
         for (name, _) in unused {
             let fault = at.key(name).fault(message).on_key();
-            self.find("unused", fault.help("remove it, or is another name misspelt?"));
+            self.find("unused", fault.help("remove it, or check the spelling of the other names"));
         }
     }
 
-    /// Numbers that suggest a forgotten unit.
+    /// Warns of moduli that suggest a forgotten unit.
     fn materials(&mut self) {
         let root = At::ROOT;
         let at = root.key("materials");
@@ -160,7 +160,7 @@ impl Oddities<'_> {
             let at = at.key("youngs_modulus");
             if value < MODULUS.0 {
                 let fault = at.fault(format!("{value} Pa is softer than any solid"));
-                self.find("modulus", fault.help("a bare number is in Pa; steel has \"210 GPa\""));
+                self.find("modulus", fault.help("a number without a unit is in Pa; steel has \"210 GPa\""));
             } else if value > MODULUS.1 {
                 let fault = at.fault(format!("{value:e} Pa is stiffer than diamond"));
                 self.find("modulus", fault.help("steel has \"210 GPa\""));
@@ -168,7 +168,7 @@ impl Oddities<'_> {
         }
     }
 
-    /// Bodies that do not move though that was probably meant.
+    /// Warns of fixed bodies with a mass, and of loads on bodies that do not move.
     fn bodies(&mut self, is_written: impl Fn(&KeyPath) -> bool) {
         let root = At::ROOT;
         let at = root.key("bodies");
@@ -178,7 +178,7 @@ impl Oddities<'_> {
                 && !is_written(&at.key("x").path())
             {
                 let fault = at.key("mass").fault("this body has a mass, but x is fixed: it does not move");
-                // A scenario written out in full says so on purpose.
+                // A resolved scenario contains "x" and gives no warning.
                 self.find(Warning::WORDING, fault.on_key().help("write \"x\": \"free\""));
             }
         }
@@ -186,14 +186,14 @@ impl Oddities<'_> {
         for (i, load) in self.scene.loads.iter().enumerate() {
             let on = &self.scene.bodies[load.on];
             if !on.part.is_free() && !on.part.is_balanced() {
-                let message = format!("this load moves nothing: \"{}\" is not free", on.name);
+                let message = format!("this load has no effect: \"{}\" is not free", on.name);
                 let help = "load a body that is free or balanced";
                 self.find("no_effect", at.index(i).key("on").fault(message).help(help));
             }
         }
     }
 
-    /// Contacts that never touch, or hardly let go.
+    /// Warns of contacts with a large friction coefficient, and of contacts without a normal load.
     fn contacts(&mut self) {
         let root = At::ROOT;
         let at = root.key("contacts");
@@ -201,8 +201,10 @@ impl Oddities<'_> {
             let at = at.key(&contact.name);
             let friction = contact.part.interface.friction();
             if friction > FRICTION {
-                let fault = at.key("friction").fault(format!("{friction} is more than any dry pair has"));
-                self.find("friction", fault.help("twenty per cent are 0.2; typical 0.05 to 0.6"));
+                let fault = at
+                    .key("friction")
+                    .fault(format!("{friction} exceeds the friction coefficient of any dry pair"));
+                self.find("friction", fault.help("typical are 0.05 to 0.6; write 20 % as 0.2"));
             }
             let (key, value) = match contact.part.normal {
                 Normal::Force(value) => ("force", value),
@@ -216,13 +218,13 @@ impl Oddities<'_> {
             };
             if highest <= 0.0 {
                 let at = at.key("normal");
-                let fault = at.key(key).fault("this contact is never pressed: it carries no force");
+                let fault = at.key(key).fault("this contact is never pressed, so it transmits no force");
                 self.find("no_effect", fault.help("press it with a value above 0"));
             }
         }
     }
 
-    /// Springs and actuators with nothing to move.
+    /// Warns of springs and actuators between bodies that do not move.
     fn idle_links(&mut self) {
         let scene = self.scene;
         let springs = scene.springs.iter().map(|spring| ("springs", &spring.name, spring.part.between));
@@ -233,31 +235,36 @@ impl Oddities<'_> {
             if !between.iter().any(is_free) {
                 let root = At::ROOT;
                 let at = root.key(key);
-                let fault =
-                    at.key(name).key("between").fault("neither of the two is free: this moves nothing");
+                let fault = at
+                    .key(name)
+                    .key("between")
+                    .fault("neither of the two bodies is free, so this has no effect on the motion");
                 self.find("no_effect", fault.help("give one of them a mass and \"x\": \"free\""));
             }
         }
     }
 
-    /// Runs in which nothing happens, or nothing is seen.
+    /// Warns of runs without motion and of output without effect.
     fn run(&mut self) {
         let (root, scene, plan) = (At::ROOT, self.scene, self.meaning.plan);
         if is_at_rest(scene) {
-            let fault = root.key("run").fault("nothing sets this scene in motion").on_key();
-            let help = "let a body or a load follow a waveform, or let a body start off its rest";
+            let fault = root.key("run").fault("no part sets the model in motion").on_key();
+            let help = "let a body or a load follow a waveform, or give a body a start away from rest";
             self.find("no_effect", fault.help(help));
         }
         let is_free = scene.bodies.iter().any(|body| body.part.is_free());
         if self.form.run.start == RunStartForm::Equilibrium && !is_free {
-            let fault =
-                root.key("run").key("start").fault("nothing is free: there is no equilibrium to find");
+            let fault = root
+                .key("run")
+                .key("start")
+                .fault("no coordinate is free, so there is no equilibrium to compute");
             self.find("no_effect", fault.help("leave it out"));
         }
         let lifted = scene.bodies.iter().any(|body| body.part.z.freedom == Freedom::Free);
         if scene.gravity.acceleration > 0.0 && scene.gravity.components().0 == 0.0 && !lifted {
-            let fault = root.key("gravity").fault("on a level slide gravity has no part along x").on_key();
-            let help = "give an \"incline\"; what presses the contacts is given in their \"normal\"";
+            let fault =
+                root.key("gravity").fault("on a level slide gravity has no component along x").on_key();
+            let help = "give an \"incline\"; the normal load of contacts is in their key \"normal\"";
             self.find("no_effect", fault.help(help));
         }
         if plan.every.is_some_and(|every| every > plan.duration) {
@@ -269,11 +276,11 @@ impl Oddities<'_> {
         let names: Vec<_> = plots.iter().map(PlotForm::name).collect();
         let is_again = |i: &usize| names[*i] != PlotName::Xy && names[..*i].contains(&names[*i]);
         if let Some(i) = (0..plots.len()).find(is_again) {
-            self.find("output", root.key("plots").index(i).fault("this picture is in the list already"));
+            self.find("output", root.key("plots").index(i).fault("this plot is already in the list"));
         }
     }
 
-    /// Waveforms that start when all is over.
+    /// Warns of waveforms that start after the end of the run.
     fn waveforms_too_late(&mut self) {
         let root = At::ROOT;
         let at = root.key("waveforms");
@@ -281,14 +288,14 @@ impl Oddities<'_> {
         for (i, name) in self.form.waveforms.names().enumerate() {
             let delay = self.scene.waveforms[i].part.timing().delay;
             if used[i] && delay >= self.meaning.plan.duration {
-                let message = format!("this waveform starts at {delay} s, when the run is over");
+                let message = format!("this waveform starts at {delay} s, after the end of the run");
                 let fault = at.key(name).fault(message).on_key();
-                self.find("no_effect", fault.help("run longer, or shorten its delay"));
+                self.find("no_effect", fault.help("lengthen the run, or shorten the delay"));
             }
         }
     }
 
-    /// Phases in degrees that lack their unit.
+    /// Warns of phases that probably are in degrees.
     fn phases(&mut self) {
         let root = At::ROOT;
         let at = root.key("waveforms");
@@ -297,14 +304,17 @@ impl Oddities<'_> {
             let (at, phase) = (at.key(name), periodic.phase.si);
             if phase.abs() > TURN {
                 let at = at.key(kind);
-                let fault = at.key("phase").fault(format!("{phase} rad is more than a whole turn"));
-                self.find("unit", fault.help("a bare number is in rad; for degrees write \"90 deg\""));
+                let fault = at.key("phase").fault(format!("{phase} rad exceeds a full turn"));
+                self.find(
+                    "unit",
+                    fault.help("a number without a unit is in rad; for degrees write \"90 deg\""),
+                );
             }
         }
     }
 }
 
-/// The values of a scene that may vary in time.
+/// Returns the values of a model that may vary in time.
 fn varying(scene: &Scene) -> impl Iterator<Item = Varying> {
     let pressed = scene.contacts.iter().map(|contact| match contact.part.normal {
         Normal::Force(value) | Normal::Indentation(value) | Normal::Radius(value) => value,
@@ -314,7 +324,7 @@ fn varying(scene: &Scene) -> impl Iterator<Item = Varying> {
     pressed.chain(strokes).chain(scene.loads.iter().flat_map(|load| [load.x, load.z, load.pitch]))
 }
 
-/// Whether something follows each waveform.
+/// Returns for each waveform whether anything follows it.
 fn followed(scene: &Scene) -> Vec<bool> {
     let mut followed = vec![false; scene.waveforms.len()];
     for body in &scene.bodies {
@@ -334,7 +344,7 @@ fn followed(scene: &Scene) -> Vec<bool> {
     followed
 }
 
-/// Whether nothing ever leaves its place: no waveform, no force, no stretched spring.
+/// Returns whether the model stays at rest: no waveform, no force, no stretched spring.
 fn is_at_rest(scene: &Scene) -> bool {
     let gravity = scene.gravity;
     let nothing = Varying::Constant(0.0);

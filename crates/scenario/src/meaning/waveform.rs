@@ -13,30 +13,30 @@ use stickslip_drive::{Harmonic, Shape, Timing, Waveform, WaveformError};
 
 /// Highest order of a harmonic.
 const MAX_ORDER: u64 = 1000;
-/// Most terms of all sums together: each costs a sine in every evaluation, and thousands while the extremes are found.
+/// Maximum number of terms of all sums of sines together. Each term costs a sine in every evaluation.
 const MAX_TERMS: usize = 1000;
 
-/// Collects the dimension that the values of one waveform agree on.
+/// Dimension of the values of one waveform, which must agree in all its quantities.
 pub(super) struct Values<'a> {
     pub(super) kind: Option<Kind>,
-    /// By what they are multiplied: the stroke per volt of the stack that they command, m/V; else 1.
+    /// Factor of the values: the stroke per volt of the stack whose voltage they are, m/V; otherwise 1.
     gain: f64,
-    /// The waveform.
+    /// Position of the waveform.
     at: At<'a>,
 }
 
 impl Values<'_> {
-    /// Path of the waveform.
+    /// Returns the path of the waveform.
     pub(super) fn path(&self) -> KeyPath {
         self.at.path()
     }
 
-    /// A rate of values as they are read, from that in the file.
+    /// Converts a rate in the file to that in the model.
     pub(super) fn scaled(&self, rate: f64) -> f64 {
         self.gain * rate
     }
 
-    /// A rate of values as the file has it.
+    /// Converts a rate in the model to that in the file.
     pub(super) fn unscaled(&self, rate: f64) -> f64 {
         rate / self.gain
     }
@@ -57,7 +57,7 @@ impl Values<'_> {
 }
 
 impl Builder<'_> {
-    /// All named waveforms, in the order of the file.
+    /// Adds all named waveforms in the order of the file.
     pub(super) fn waveforms(&mut self) -> Result<(), Fault> {
         let form = self.form;
         let root = At::ROOT;
@@ -69,7 +69,7 @@ impl Builder<'_> {
         Ok(())
     }
 
-    /// Adds a waveform and gives its place; `gain` (m/V) is none where it commands no voltage.
+    /// Adds a waveform and returns its index. `gain` is the stroke per volt, m/V, or `None` if the waveform is not a voltage.
     pub(super) fn add(
         &mut self,
         (at, name): (&At<'_>, String),
@@ -92,7 +92,7 @@ impl Builder<'_> {
         Ok(self.scene.waveforms.len() - 1)
     }
 
-    /// The place of a waveform whose values must be of this dimension. One written out in place is named by its path.
+    /// Returns the index of a waveform whose values must have this dimension. An inline waveform is named by its path.
     pub(super) fn follow(&mut self, at: &At<'_>, waveform: &WaveformRef, kind: Kind) -> Result<usize, Fault> {
         let at = at.key("follows");
         let index =
@@ -117,7 +117,7 @@ impl Builder<'_> {
         }
     }
 
-    /// A quantity that may vary in time.
+    /// Converts a quantity that may vary in time.
     pub(super) fn varying<D: Dimension>(&mut self, at: &At<'_>, value: &Moving<D>) -> Result<Varying, Fault> {
         match value {
             Moving::Constant(quantity) => Ok(Varying::Constant(quantity.si)),
@@ -144,12 +144,12 @@ fn waveform(at: &At<'_>, form: &WaveformForm, values: &mut Values<'_>) -> Result
         let at = at.key(key);
         refused(&at, &error).against_path(at.path())
     })?;
-    // Its own: points that are repeated start at the first of them.
+    // Repeated points start at the time of the first point, so the delay is that of the waveform.
     let delay = waveform.timing().delay;
     Ok((waveform, delay))
 }
 
-/// A waveform with a period, by itself or in bursts.
+/// Returns a periodic waveform, with bursts or a sequence if given.
 fn periodic(
     at: &At<'_>,
     form: &WaveformForm,
@@ -157,7 +157,7 @@ fn periodic(
 ) -> Result<(&'static str, (Shape, Timing)), Fault> {
     let Some((key, given)) = form.periodic() else { return Err(at.expected("a waveform with a period")) };
     let at = at.key(key);
-    // In the order of the file's usual keys: what is told first is what stands first.
+    // Checks the timing first, because its keys usually precede the others.
     let timing = timing(&at, &given, key)?;
     let shape = match form {
         WaveformForm::Sawtooth(form) => shapes::sawtooth(&at, form, timing.period, values)?,
@@ -185,7 +185,7 @@ fn periodic(
         key,
         match (shape, parts) {
             (shape, Some(parts)) => (pattern::of(&at, shape, parts)?, timing),
-            // A single sine has its phase for itself.
+            // A sine contains its phase itself.
             (Shape::Sine { amplitude, offset, .. }, None) => {
                 (Shape::Sine { amplitude, phase: timing.phase, offset }, Timing { phase: 0.0, ..timing })
             }
@@ -194,18 +194,18 @@ fn periodic(
     ))
 }
 
-/// What the waveform itself refuses beyond the checks here, at the key it names.
+/// Converts an error of the waveform, at the key that the error names.
 fn refused(at: &At<'_>, error: &WaveformError) -> Fault {
     let message = error.to_string();
     let plain =
         message.strip_prefix(error.key()).and_then(|rest| rest.strip_prefix(": ")).unwrap_or(&message);
     let at = at.key(error.key());
     match (error, plain.split_once(", got ")) {
-        // A range is no number to be told again.
+        // The value of a range is not repeated.
         (WaveformError::Number { key: "range", .. }, Some((wanted, _))) => {
-            at.fault(wanted).help("a caller may ask for all of it")
+            at.fault(wanted).help("a caller can command the whole range")
         }
-        // As it stands in the file: 1e308 has 309 digits.
+        // The number is shown as in the file: 1e308 would have 309 digits.
         (WaveformError::Number { key, .. }, Some((wanted, _))) if *key != "points" => {
             at.fault(wanted).with_value().ask(Help::Meaning)
         }
@@ -243,7 +243,7 @@ fn timing(at: &At<'_>, form: &Periodic, name: &str) -> Result<Timing, Fault> {
         (Some(_), Some(_)) => {
             return Err(at
                 .key("frequency")
-                .fault("the period is given already")
+                .fault("the period is already given")
                 .on_key()
                 .help("keep one of them"));
         }

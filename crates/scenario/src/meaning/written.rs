@@ -1,4 +1,4 @@
-//! Which of the rows and events are written, and how.
+//! Selection and format of written rows and events.
 
 use super::{Builder, Figures, names, range, run};
 use crate::fault::Fault;
@@ -7,45 +7,46 @@ use crate::guide::Help;
 use crate::path::At;
 use stickslip_drive::{Plan, Waveform};
 
-/// Digits that a number can be rounded to: with 17 it has its bits.
+/// Range of the number of digits. 17 digits represent a number exactly.
 const DIGITS: (u64, u64) = (1, 17);
 
-/// Events that are written before they are thinned, and those times contacts: an event's row has some numbers of every contact.
+/// Maximum number of events written without thinning, and maximum product of events and contacts, because each event has numbers of all
+/// contacts.
 const MOST: u64 = 100_000;
 const MOST_OF_ALL: u64 = 5_000_000;
-/// Fewest events before they are thinned: they are in blocks of a hundredth.
+/// Minimum of the number of events before thinning. Events are thinned in blocks of a hundredth of this number.
 const LEAST: u64 = 100;
 
-/// Which of the rows and events are written, and how.
+/// Selection and format of written rows and events.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Written {
-    /// Which events.
+    /// Selection of events.
     pub events: WrittenEvents,
-    /// Whether the steps of a drive are.
+    /// Whether the steps of a drive are written.
     pub steps: bool,
-    /// From when until when, s, both included; the first and the last row of a run are written anyway.
+    /// Start and end time, s, both included. The first and the last row of a run are always written.
     pub window: [f64; 2],
-    /// Whether the window goes by the end of the run.
+    /// Whether the window is defined relative to the end of the run.
     pub goes_by_end: bool,
-    /// Digits that numbers are rounded to; none: those that they have.
+    /// Number of significant digits; `None` for exact numbers.
     pub digits: Option<usize>,
-    /// Whether the states of contacts are numbers and no words.
+    /// Whether contact states are written as numbers instead of words.
     pub state_numbers: bool,
 }
 
-/// Which events are written.
+/// Selection of events.
 #[derive(Debug, Clone, PartialEq)]
 pub struct WrittenEvents {
-    /// Their kinds, by the words that events have; none: all.
+    /// Kinds of events; `None` for all.
     pub kinds: Option<Vec<&'static str>>,
-    /// Places of the contacts whose events are written, and no others; none: those of everything.
+    /// Indices of the contacts whose events are written; `None` for all events.
     pub contacts: Option<Vec<usize>>,
-    /// How many are written before they are thinned; 0: none are written at all, the largest number: none are left out.
+    /// Maximum number of events before thinning; 0 for none, the largest number for no thinning.
     pub most: u64,
 }
 
 impl Written {
-    /// Whether all that happens is written: nothing has to be left out of a comparison, or guessed by a picture.
+    /// Returns whether all events of the run are written.
     pub fn has_all_events(&self) -> bool {
         let WrittenEvents { kinds, contacts, most } = &self.events;
         kinds.is_none() && contacts.is_none() && *most > 0 && self.window == [0.0, f64::INFINITY]
@@ -53,7 +54,7 @@ impl Written {
 }
 
 impl Builder<'_> {
-    /// What is written of rows and events.
+    /// Returns the selection and format of rows and events.
     pub(super) fn written(&self, plan: Plan, figures: Figures) -> Result<Written, Fault> {
         let root = At::ROOT;
         let (at, form) = (root.key("output"), &self.form.output);
@@ -89,25 +90,25 @@ impl Builder<'_> {
         Ok(WrittenEvents { kinds, contacts: contacts.transpose()?, most })
     }
 
-    /// Events that are written before they are thinned, where the scenario does not say.
+    /// Returns the default number of events before thinning.
     fn most_events(&self) -> u64 {
         let contacts = self.form.contacts.0.len().max(1) as u64;
         MOST.min(MOST_OF_ALL / contacts).max(LEAST)
     }
 
-    /// The place of a contact by name.
+    /// Returns the index of a contact.
     fn written_contact(&self, at: &At<'_>, name: &str) -> Result<usize, Fault> {
         let contacts = &self.form.contacts;
         contacts.find(name).ok_or_else(|| names::unknown(at, ("contact", "contacts"), name, contacts))
     }
 
-    /// From when until when rows and events are written, s.
+    /// Returns start and end time of written rows and events, s.
     fn window(&self, at: &At<'_>, plan: Plan, figures: Figures) -> Result<[f64; 2], Fault> {
         let form = &self.form.output;
         if let Some(periods) = form.last {
             let at = at.key("last");
             if form.window.is_some() {
-                let fault = at.fault("the window is given already").on_key();
+                let fault = at.fault("the window is already given").on_key();
                 return Err(fault.against(["output.window"]).help("keep one of them"));
             }
             return self.last_periods(&at, periods, plan, figures);
@@ -119,7 +120,7 @@ impl Builder<'_> {
         let from = window.from.map_or(Ok(0.0), |from| range::at_least_zero(&at.key("from"), from))?;
         let to = window.to.map_or(Ok(f64::INFINITY), |to| range::at_least_zero(&at.key("to"), to))?;
         if to < from {
-            let fault = at.key("to").expected(format_args!("a time from {} s on", range::short(from)));
+            let fault = at.key("to").expected(format_args!("a time of at least {} s", range::short(from)));
             return Err(fault.against_path(at.key("from").path()));
         }
         if from > plan.duration {
@@ -130,7 +131,7 @@ impl Builder<'_> {
         Ok([from, to])
     }
 
-    /// The last periods of a run.
+    /// Returns the time range of the last periods of a run.
     fn last_periods(
         &self,
         at: &At<'_>,
@@ -141,12 +142,15 @@ impl Builder<'_> {
         let periods = range::number_above_zero(at, periods)?;
         let waveform = figures.waveform.and_then(|place| self.scene.waveforms.get(place));
         let Some(period) = waveform.and_then(|waveform| Waveform::period(&waveform.part)) else {
-            let fault = at.fault("there is no waveform, or more than one, to count the periods of").on_key();
+            let fault = at
+                .fault("there is no single waveform with a period that determines the last periods")
+                .on_key();
             let fault = fault.against(["figures", "waveforms"]);
             return Err(fault.help("name one with a period in figures.waveform, or give output.window"));
         };
         if plan.until_steady.is_some() {
-            let fault = at.fault("a run that may end early has no last periods beforehand").on_key();
+            let fault =
+                at.fault("the last periods of a run that may end early are not known in advance").on_key();
             let fault = fault.against(["run.until_steady"]);
             return Err(fault.help("give output.window, or leave out run.until_steady"));
         }

@@ -1,12 +1,12 @@
-//! What a quantity looks like in the schema.
+//! Schema of a quantity.
 
 use crate::units::{self, Kind};
 use schemars::{Schema, json_schema};
 
-/// [`units::BLANKS`] in a pattern.
+/// [`units::BLANKS`] as a regular expression.
 const BLANK: &str = r" \t\u00a0\u2009\u202f";
 
-/// A number, or a string with a unit of the dimension.
+/// Returns the schema of a number, or a string with a unit of the dimension.
 pub(super) fn schema_of(kind: Option<Kind>) -> Schema {
     let units: Vec<String> = units::symbols(kind).map(pattern_of).collect();
     let number = r"-?[0-9]+(\.[0-9]+)?([eE][+-]?[0-9]+)?";
@@ -26,7 +26,7 @@ pub(super) fn schema_of(kind: Option<Kind>) -> Schema {
     })
 }
 
-/// Spellings of a unit in a pattern: what [`units::normalise`] takes back.
+/// Returns a regular expression for all spellings of a unit that [`units::normalise`] accepts.
 fn pattern_of(symbol: &str) -> String {
     let micro = if symbol.starts_with('u') || symbol.contains("/u") {
         symbol.replacen('u', "[uµμ]", 1)

@@ -1,10 +1,10 @@
-//! Quantities as strings: a number and a unit.
+//! Reads quantities from strings of a number and a unit.
 
 use super::HELP;
 use crate::document::shown;
 use crate::units::{self, Kind, Scale};
 
-/// Reads `"5 um"`: value in SI and dimension. An error is a message and, after [`HELP`], its help.
+/// Reads a text such as `"5 um"`. Returns the value in SI and the dimension. An error is a message, [`HELP`], and a help text.
 pub(crate) fn parse(text: &str, kind: Option<Kind>) -> Result<(f64, Kind), String> {
     let wanted = kind.map_or("a quantity", Kind::article);
     let example = kind.unwrap_or(Kind::Length).example();
@@ -38,20 +38,20 @@ pub(crate) fn parse(text: &str, kind: Option<Kind>) -> Result<(f64, Kind), Strin
     }
 }
 
-/// What is odd about a number, where people write numbers that way.
+/// Returns help for common spellings of numbers that are not accepted, such as decimal commas.
 pub(crate) fn number_help(text: &str) -> Option<&'static str> {
     let rest = &text[number_length(text)..];
     let number = rest.len() < text.len();
     let digit = |text: &str| text.starts_with(|c: char| c.is_ascii_digit());
     let rest = rest.trim_start();
     if let Some(after) = rest.strip_prefix(',') {
-        return digit(after).then_some("decimals stand after a point, not after a comma");
+        return digit(after).then_some("the decimal sign is a point, not a comma");
     }
     if number && rest.starts_with(['*', '×', 'x', '·', '^', '(']) && rest.contains("10") {
         return Some("write powers of ten as in 1.5e-6");
     }
     if number && digit(rest) {
-        return Some("write the number without blanks in it");
+        return Some("write the number without spaces");
     }
     if number && digit(rest.strip_prefix('/').unwrap_or("")) {
         return Some("write the fraction as a decimal number");
@@ -66,7 +66,7 @@ pub(crate) fn number_help(text: &str) -> Option<&'static str> {
     }
 }
 
-/// Length of the number at the start: `-?digits(.digits)?(e±digits)?`.
+/// Returns the length of the number at the start: `-?digits(.digits)?(e±digits)?`.
 fn number_length(text: &str) -> usize {
     let bytes = text.as_bytes();
     let digits =
@@ -89,15 +89,15 @@ fn number_length(text: &str) -> usize {
     end
 }
 
-/// A power of ten goes into the exponent of the string: "5 um" is 5e-6 to the last bit.
+/// Converts a number to SI. A power of ten is added to the decimal exponent, so that "5 um" gives exactly the number 5e-6.
 pub(crate) fn convert(digits: &str, scale: Scale) -> f64 {
-    // Whatever `number_length` counts is a number.
+    // A text counted by `number_length` is a number.
     let number = |text: &str| text.parse().unwrap_or(f64::NAN);
     match scale {
         Scale::Factor(factor) => number(digits) * factor,
         Scale::Ten(shift) => {
             let (mantissa, exponent) = digits.split_once(['e', 'E']).unwrap_or((digits, "0"));
-            // An exponent of more than 18 digits is zero or infinity whatever the shift.
+            // A number whose exponent has more than 18 digits is zero or infinite for any shift.
             match exponent.parse::<i64>() {
                 Ok(exponent) => number(&format!("{mantissa}e{}", exponent.saturating_add(shift.into()))),
                 Err(_) => number(digits),
@@ -106,7 +106,7 @@ pub(crate) fn convert(digits: &str, scale: Scale) -> f64 {
     }
 }
 
-/// Why a number as it is written is none that a computer holds: too large, or so small that it would be zero.
+/// Returns why a number cannot be represented: it is too large, or so small that it would become zero.
 pub(crate) fn out_of_reach(digits: &str, value: f64) -> Option<&'static str> {
     let mantissa = digits.split(['e', 'E']).next().unwrap_or("");
     if !value.is_finite() {
@@ -186,7 +186,7 @@ mod tests {
     }
 
     proptest! {
-        /// The standard library's parser is the judge: digits, exponent and prefix written as one literal.
+        /// Compares with the parser of the standard library, which reads digits, exponent and prefix as one literal.
         #[test]
         fn prefixes_shift_the_exponent(
             whole in 0..1_000_000_u32,

@@ -1,4 +1,4 @@
-//! What `stickslip study optimise` searches: a result, and the numbers or the waveform that it depends on.
+//! Goal of `stickslip study optimise`: a result, and the numbers or the waveform on which it depends.
 
 use super::form::{Amount, StudyForm};
 use super::{Numbers, key};
@@ -8,73 +8,73 @@ use crate::parameter::Parameter;
 use crate::path::{KeyPath, Step};
 use crate::scenario::Scenario;
 
-/// Most numbers of `over`.
+/// Maximum number of parameters in `over`.
 const MOST_NUMBERS: usize = 6;
-/// Local searches where the file does not say.
+/// Default number of local searches.
 const STARTS: u64 = 8;
-/// Most local searches.
+/// Maximum number of local searches.
 const MOST_STARTS: u64 = 64;
-/// Most evaluations of a local search.
+/// Maximum number of evaluations of a local search.
 const MOST_EVALUATIONS: u64 = 100_000;
 
-/// What is optimised, its numbers in SI.
+/// Optimisation goal; numbers in SI.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Goal {
-    /// Whether the maximum is searched; otherwise the minimum.
+    /// Whether the result is maximised; otherwise it is minimised.
     pub is_maximum: bool,
     /// Name of the result.
     pub result: String,
-    /// Numbers, each with its least and largest value.
+    /// Parameters with their bounds.
     pub over: Vec<(Parameter, [f64; 2])>,
-    /// The waveform whose shape is searched.
+    /// Waveform whose shape is optimised.
     pub shaped: Option<Shaped>,
     /// Number of local searches.
     pub starts: u64,
-    /// Most evaluations of each, where the file says.
+    /// Maximum number of evaluations of each local search, if given.
     pub evaluations: Option<u64>,
-    /// Whether the worst of period ± 1 % counts, where the file says.
+    /// Whether the worst result for periods within ± 1 % counts, if given.
     pub worst_of_period: Option<bool>,
 }
 
-/// A waveform whose shape is searched, within the limits of its driver.
+/// Waveform whose shape is optimised within the limits of its driver.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Shaped {
-    /// Its key path, such as `waveforms.drive`.
+    /// Key path, such as `waveforms.drive`.
     pub path: String,
-    /// Its place in the scene.
+    /// Index of the waveform in the model.
     pub waveform: usize,
-    /// What it is made of.
+    /// Basis of the shape.
     pub basis: Basis,
-    /// Least and largest period, s; equal for a fixed one.
+    /// Bounds of the period, s; equal for a fixed period.
     pub period: [f64; 2],
-    /// Least and largest value.
+    /// Bounds of the values.
     pub window: [f64; 2],
-    /// Largest rates down and up, values per second.
+    /// Maximum falling and rising rates, in `unit` per second.
     pub slew: Option<[f64; 2]>,
     /// Highest frequency, Hz.
     pub bandwidth: Option<f64>,
-    /// Factor from its values to those of the scene: the stroke per volt of a stack, m/V, or 1.
+    /// Factor from the waveform's values to those in the model: the stroke per volt of a stack, m/V, or 1.
     pub gain: f64,
-    /// SI unit of its values.
+    /// SI unit of the values.
     pub unit: &'static str,
 }
 
-/// What a waveform is made of.
+/// Basis of a waveform.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Basis {
-    /// A polygon with so many corners at equal distances in time.
+    /// Polygon with this number of corners at equal time intervals.
     Corners(usize),
-    /// So many harmonics.
+    /// Fourier series with this number of harmonics.
     Harmonics(usize),
 }
 
 impl StudyForm {
-    /// Whether it asks for an optimum.
+    /// Returns whether the study is an optimisation.
     pub(super) fn is_of_optimum(&self) -> bool {
         self.maximise.is_some() || self.minimise.is_some() || !self.over.is_empty() || self.waveform.is_some()
     }
 
-    /// What it asks for.
+    /// Returns the optimisation goal.
     pub(super) fn goal(&self, scenario: &Scenario) -> Result<Goal, Fault> {
         let (is_maximum, result) = match (&self.maximise, &self.minimise) {
             (Some(result), None) => (true, result),
@@ -84,7 +84,7 @@ impl StudyForm {
             }
             (None, None) => {
                 let help = "such as \"maximise\": \"steady_motion.speed_m_s\"";
-                return Err(Fault::new(key("over"), "which result is optimised is missing").help(help));
+                return Err(Fault::new(key("over"), "the result to optimise is missing").help(help));
             }
         };
         let foreign = [
@@ -110,15 +110,15 @@ impl StudyForm {
         let shaped = self.waveform.as_ref().map(|form| form.shaped(scenario)).transpose()?;
         if over.is_empty() && shaped.is_none() {
             let help = "such as \"over\": { \"waveforms.drive.sawtooth.flyback\": [\"5 us\", \"0.5 ms\"] }";
-            return Err(Fault::new(key("maximise"), "there is nothing to optimise over").help(help));
+            return Err(Fault::new(key("maximise"), "there is no variable to optimise").help(help));
         }
         let inside = |path: &str| shaped.as_ref().is_some_and(|shaped| path.starts_with(&shaped.path));
         if let Some((inner, _)) = over.iter().find(|(parameter, _)| inside(&parameter.path)) {
-            let message = "the waveform is replaced as a whole: it has no such number any more";
+            let message = "the study replaces the whole waveform, so it has no such number";
             let place = KeyPath(vec![Step::Key("over".to_owned()), Step::Key(inner.path.clone())]);
             return Err(Fault::new(place, message)
                 .on_key()
-                .help("\"waveform\" takes a range of its \"period\""));
+                .help("give the range in \"period\" of \"waveform\""));
         }
         Ok(Goal {
             is_maximum,
@@ -141,7 +141,7 @@ fn counted(name: &str, count: Option<Count>, least: u64, most: u64) -> Result<Op
     }
 }
 
-/// A number of `over` with its range.
+/// Returns a parameter of `over` with its bounds.
 fn over(scenario: &Scenario, path: &str, range: &[Amount; 2]) -> Result<(Parameter, [f64; 2]), Fault> {
     let place = KeyPath(vec![Step::Key("over".to_owned()), Step::Key(path.to_owned())]);
     let parameter = scenario.number(path).map_err(|error| {
@@ -149,19 +149,19 @@ fn over(scenario: &Scenario, path: &str, range: &[Amount; 2]) -> Result<(Paramet
         fault.maybe_help(error.help.clone())
     })?;
     if parameter.is_whole {
-        let message = format!("{path} counts whole things: it is no number that can change by any amount");
+        let message = format!("{path} is a count; expected a continuous number");
         return Err(Fault::new(place, message).on_key());
     }
     let range = ordered(&Numbers { place: key("over"), unit: parameter.unit }, path, range)?;
     Ok((parameter, range))
 }
 
-/// A least and a largest value.
+/// Returns a lower and an upper bound.
 pub(super) fn ordered(numbers: &Numbers, name: &str, [low, high]: &[Amount; 2]) -> Result<[f64; 2], Fault> {
     let [low, high] = [numbers.si(name, 0, low)?, numbers.si(name, 1, high)?];
     if low < high && (high - low).is_finite() {
         return Ok([low, high]);
     }
-    let message = format!("the least value must be below the largest, got {low} and {high}");
+    let message = format!("the smallest value must be below the largest, got {low} and {high}");
     Err(Fault::new(numbers.inside(name, 1), message))
 }

@@ -7,17 +7,17 @@ use crate::form::Count;
 use crate::path::{KeyPath, Step};
 use crate::quantity::quantity;
 
-/// Most values of a grid or a list.
+/// Maximum number of values of a grid or a list.
 const MOST_VALUES: u64 = 1 << 20;
 
-/// The numbers of a variation: where it stands, and their SI unit.
+/// Reader of the numbers of a variation: path of the variation, and SI unit of the numbers.
 pub(super) struct Numbers {
     pub(super) place: KeyPath,
     pub(super) unit: &'static str,
 }
 
 impl Numbers {
-    /// The variation that a form means.
+    /// Returns a variation with its numbers in SI.
     pub(super) fn variation(&self, form: &VariationForm) -> Result<Variation, Fault> {
         let [mut a, mut b, mut c] = [0.0; 3];
         let mut read = |kind: &str, amounts: &[&Amount]| -> Result<(), Fault> {
@@ -68,14 +68,14 @@ impl Numbers {
         })
     }
 
-    /// The place of an entry of a variation's list.
+    /// Returns the path of an entry in the list of a variation.
     pub(super) fn inside(&self, kind: &str, place: usize) -> KeyPath {
         let mut path = self.place.clone();
         path.0.extend([Step::Key(kind.to_owned()), Step::Index(place)]);
         path
     }
 
-    /// A number in SI.
+    /// Returns a number in SI.
     pub(super) fn si(&self, kind: &str, place: usize, amount: &Amount) -> Result<f64, Fault> {
         let text = match amount {
             Amount::Number(number) => return Ok(*number),
@@ -87,7 +87,7 @@ impl Numbers {
         })
     }
 
-    /// Values from the first to the last one, both as they are given.
+    /// Returns `count` values from the first to the last; both ends are exact.
     fn spaced(
         &self,
         kind: &str,

@@ -1,4 +1,4 @@
-//! The waveform of an optimum: what its shape is made of, and the limits of its driver.
+//! Waveform of an optimisation: basis of its shape, and limits of its driver.
 
 use super::form::{Amount, ShapeForm};
 use super::goal::{Basis, Shaped, ordered};
@@ -11,21 +11,21 @@ use crate::scenario::Scenario;
 use crate::suggest;
 use stickslip_drive::scene::Varying;
 
-/// Most corners or harmonics.
+/// Maximum number of corners or harmonics.
 const MOST_CORNERS: u64 = 24;
 
-/// Where a key of `waveform` stands.
+/// Returns the path of a key of `waveform`.
 fn place(name: &str) -> KeyPath {
     KeyPath(vec![Step::Key("waveform".to_owned()), Step::Key(name.to_owned())])
 }
 
-/// The numbers of `waveform`.
+/// Returns the reader of the numbers of `waveform`.
 fn numbers(unit: &'static str) -> Numbers {
     Numbers { place: key("waveform"), unit }
 }
 
 impl ShapeForm {
-    /// What it says, with what the driver says.
+    /// Returns the waveform with the limits of the file and the driver.
     pub(super) fn shaped(&self, scenario: &Scenario) -> Result<Shaped, Fault> {
         let scene = &scenario.scene;
         let paths: Vec<String> =
@@ -72,7 +72,7 @@ impl ShapeForm {
             (None, Some(period)) => [period; 2],
             (None, None) => {
                 let fault = Fault::new(place("path"), "this waveform has no period");
-                return Err(fault.help("give a range of it as \"period\""));
+                return Err(fault.help("give a range for \"period\""));
             }
         };
         if period[0] > 0.0 {
@@ -86,14 +86,13 @@ impl ShapeForm {
             (Some(window), _) => ordered(&numbers(unit), "window", window),
             (None, Some((low, high))) => Ok([low, high]),
             (None, None) => {
-                let message =
-                    "the least and largest value are missing: no driver with a window follows this waveform";
+                let message = "the smallest and the largest value are missing: no driver with a window follows this waveform";
                 Err(Fault::new(key("waveform"), message).on_key().help("such as \"window\": [0, \"120 V\"]"))
             }
         }
     }
 
-    /// Largest rates down and up, I/C.
+    /// Returns the maximum falling and rising voltage rates I/C, V/s.
     fn slew(&self, stack: Option<&Piezo>) -> Result<Option<[f64; 2]>, Fault> {
         let own = positive("current", "A", self.current.as_ref())?.map(|current| (current, current));
         let current = own.or(stack.and_then(|stack| stack.driver?.current));
@@ -107,7 +106,7 @@ impl ShapeForm {
         }
     }
 
-    /// SI unit of the values of a waveform that no voltage follows.
+    /// Returns the SI unit of the values of a waveform that is not a voltage.
     fn unit(&self, scenario: &Scenario) -> &'static str {
         let kinds = ["sawtooth", "triangle", "trapezoid", "parabola", "cycloid", "s_curve"];
         let strokes = kinds.map(|kind| format!("{kind}.stroke"));
@@ -127,7 +126,7 @@ impl ShapeForm {
 }
 
 impl Shaped {
-    /// Refuses more corners or harmonics than the bandwidth lets through at the shortest period.
+    /// Refuses more corners or harmonics than the bandwidth allows at the shortest period.
     fn check_bandwidth(&self) -> Result<(), Fault> {
         let Some(bandwidth) = self.bandwidth else { return Ok(()) };
         let shortest = self.period[0];
@@ -145,7 +144,7 @@ impl Shaped {
     }
 }
 
-/// A number above 0.
+/// Returns an optional number above 0.
 fn positive(name: &str, unit: &'static str, amount: Option<&Amount>) -> Result<Option<f64>, Fault> {
     let Some(amount) = amount else { return Ok(None) };
     let value = numbers(unit).si(name, 0, amount).map_err(|fault| Fault { path: place(name), ..fault })?;

@@ -1,16 +1,15 @@
-//! Brackets that do not match, found by the indentation of their lines.
+//! Finds unmatched brackets by the indentation of lines.
 
 use std::ops::Range;
 
-/// An opening bracket.
+/// Opening bracket.
 struct Open {
     place: usize,
-    /// Blanks before the first word of its line.
+    /// Number of blanks at the start of its line.
     indent: usize,
 }
 
-/// The bracket that was probably meant to be closed where nothing closes it; the last open one where indentation
-/// says nothing.
+/// Returns the bracket that is probably not closed, found by indentation; otherwise the last open one.
 pub(super) fn unclosed(text: &str) -> Range<usize> {
     let mut open: Vec<Open> = Vec::new();
     let mut suspect = None;
@@ -32,7 +31,7 @@ pub(super) fn unclosed(text: &str) -> Range<usize> {
                 first = false;
             }
             b'}' | b']' => {
-                // A bracket that closes a line's block stands as far in as that line.
+                // A bracket that closes a block has the indentation of the line that opens the block.
                 if let Some(closed) = open.pop()
                     && first
                     && closed.indent > indent
@@ -49,7 +48,7 @@ pub(super) fn unclosed(text: &str) -> Range<usize> {
     place..place + 1
 }
 
-/// Whether a closing bracket at this place closes a list (or else an object) that is open there; none at top level.
+/// Returns whether a closing bracket at this position closes a list (true) or an object (false); `None` at top level.
 pub(super) fn closes_list(text: &str, place: usize) -> Option<bool> {
     let mut open = Vec::new();
     let (mut string, mut escaped) = (false, false);

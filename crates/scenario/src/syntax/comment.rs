@@ -1,11 +1,10 @@
-//! Comments: `// to the end of the line` and `/* between */`, as editors of JSON know them. They become blanks, so that every
-//! place stays where it was; what is left is strict JSON. A comma before a closing bracket stays an error: those editors warn
-//! of it, and other readers of the file do not take it.
+//! Comments `// …` and `/* … */`, as editors of JSON allow them. Comments are replaced by blanks, so that positions do not change and the
+//! remaining text is strict JSON. A comma before a closing bracket stays an error, because other JSON readers refuse it.
 
 use std::borrow::Cow;
 use std::ops::Range;
 
-/// The text with blanks for its comments; the place of one that never ends.
+/// Replaces comments by blanks. The error is the range of an unterminated comment.
 pub(super) fn blanked(text: &str) -> Result<Cow<'_, str>, Range<usize>> {
     if !text.contains("//") && !text.contains("/*") {
         return Ok(Cow::Borrowed(text));
@@ -19,7 +18,7 @@ pub(super) fn blanked(text: &str) -> Result<Cow<'_, str>, Range<usize>> {
                 at += 2;
                 continue;
             }
-            // A string ends with its line: a quote that is missing is told of, not the rest of the file.
+            // A string ends at its line end, so that a missing quote is reported instead of the rest of the file.
             ([b'"', ..], _) => {
                 in_string = !in_string;
                 None
@@ -45,7 +44,7 @@ pub(super) fn blanked(text: &str) -> Result<Cow<'_, str>, Range<usize>> {
         }
         at = end;
     }
-    // Whole characters became blanks.
+    // Only whole characters became blanks.
     Ok(String::from_utf8(plain).map_or(Cow::Borrowed(text), Cow::Owned))
 }
 

@@ -1,4 +1,4 @@
-//! What people write that is not JSON, told from the text around the place where reading stopped.
+//! Messages for common errors in JSON, derived from the text around the position of the error.
 
 use super::bracket;
 use crate::document::shown;
@@ -6,7 +6,7 @@ use crate::excerpt::is_invisible;
 use jsonc_parser::errors::{ParseError, ParseErrorKind};
 use std::ops::Range;
 
-/// A place that is not JSON, and what to do about it.
+/// Syntax error with its range, message and help.
 #[derive(Debug, PartialEq)]
 pub(super) struct Slip {
     pub(super) range: Range<usize>,
@@ -18,7 +18,7 @@ fn slip(range: Range<usize>, message: impl Into<String>, help: impl Into<String>
     Slip { range, message: message.into(), help: Some(help.into()) }
 }
 
-/// What the reader stumbled over.
+/// Returns the message for an error of the parser.
 pub(super) fn of(text: &str, error: &ParseError) -> Slip {
     let at = error.range().start.min(text.len());
     at_character(text, at)
@@ -28,43 +28,43 @@ pub(super) fn of(text: &str, error: &ParseError) -> Slip {
         .unwrap_or_else(|| wording(text, error.range().start..error.range().end, error.kind()))
 }
 
-/// A character that has no place outside of strings.
+/// Returns the error of a character that is not allowed outside strings.
 pub(super) fn at_character(text: &str, at: usize) -> Option<Slip> {
     let c = text.get(at..)?.chars().next()?;
     let range = at..at + c.len_utf8();
     let line_end = text[at..].find('\n').map_or(text.len(), |i| at + i);
     Some(match c {
-        '#' => slip(at..line_end, "a comment begins with //", "or stands between /* and */"),
+        '#' => slip(at..line_end, "a comment begins with //", "or is between /* and */"),
         '/' if text[at..].starts_with("/*") || text[at..].starts_with("//") => return None,
         ';' => slip(range, "expected a comma, got a semicolon", "entries are separated by commas"),
         '=' => slip(range, "expected a colon, got an equals sign", "write \"key\": value"),
         '“' | '”' | '„' | '«' | '»' | '‘' | '’' | '`' | '´' | '＂' => {
-            slip(range, "strings stand in plain double quotes", format!("write \"text\" without {c}"))
+            slip(range, "strings are in plain double quotes", format!("write \"text\" without {c}"))
         }
-        '(' | ')' => slip(range, "round brackets have no meaning here", "lists stand in [ ], objects in { }"),
-        '\u{2212}' | '\u{2013}' => slip(range, "this is no minus sign", "write -"),
+        '(' | ')' => slip(range, "round brackets have no meaning here", "lists are in [ ], objects in { }"),
+        '\u{2212}' | '\u{2013}' => slip(range, "this is not a minus sign", "write -"),
         c if is_invisible(c) || (c.is_whitespace() && !c.is_ascii()) || is_stray(c) => slip(
             range,
             format!("an invisible character, U+{:04X}", c as u32),
-            "delete it; only plain blanks, tabs and line ends stand between values",
+            "delete it; only spaces, tabs and line ends are possible between values",
         ),
         c if !c.is_ascii() && !c.is_alphabetic() => {
-            slip(range, format!("the character {c} stands outside of quotes"), "texts stand in double quotes")
+            slip(range, format!("the character {c} is outside of quotes"), "texts are in double quotes")
         }
         _ => return None,
     })
 }
 
-/// A control character that is not one of JSON's blanks.
+/// Returns whether a character is a control character other than the blanks of JSON.
 fn is_stray(c: char) -> bool {
     c.is_control() && !matches!(c, '\t' | '\n' | '\r')
 }
 
-/// A number with something JSON does not allow, or with a unit.
+/// Returns the error of a number with a unit, or of a number that JSON does not allow.
 fn at_number(text: &str, at: usize) -> Option<Slip> {
     let bytes = text.as_bytes();
     let numeric = |b: &u8| b.is_ascii_digit() || matches!(b, b'.' | b'+' | b'-' | b'e' | b'E');
-    // Back over blanks and the number before.
+    // Skips blanks and the number backwards.
     let gap = text[..at].trim_end_matches([' ', '\t']).len();
     let start = gap - bytes[..gap].iter().rev().take_while(|b| numeric(b)).count();
     let before = &text[start..gap];
@@ -75,10 +75,10 @@ fn at_number(text: &str, at: usize) -> Option<Slip> {
     let range = start..start + whole.len();
     if has_digit(before) && (here.is_alphabetic() || matches!(here, '°' | '%' | 'µ')) {
         let help = format!("write \"{}\"", shown(whole));
-        return Some(slip(range, "a quantity with a unit stands in double quotes", help));
+        return Some(slip(range, "a quantity with a unit is in double quotes", help));
     }
     if has_digit(before) && matches!(here, '/' | '*' | '^') {
-        return Some(slip(range, "a calculation is no number here", "write its result as a decimal number"));
+        return Some(slip(range, "a calculation is not a number", "write its result as a decimal number"));
     }
     if before == "0" && here.is_ascii_digit() {
         let plain = whole.trim_start_matches('0');
@@ -90,7 +90,7 @@ fn at_number(text: &str, at: usize) -> Option<Slip> {
         let digits = bytes[at..].iter().take_while(|b| b.is_ascii_digit()).count();
         if integer > 0 && gap == at {
             let (first, second) = (&text[gap - 1 - integer..gap - 1], &text[at..at + digits]);
-            let help = format!("decimals stand after a point: {first}.{second}");
+            let help = format!("the decimal sign is a point: {first}.{second}");
             return Some(slip(gap - 1 - integer..at + digits, "a number with a comma in it", help));
         }
     }
@@ -105,7 +105,7 @@ fn at_number(text: &str, at: usize) -> Option<Slip> {
     }
 }
 
-/// A closing bracket where another one, or none, was expected.
+/// Returns the error of an unexpected bracket, comma or colon, or of a missing closing bracket.
 fn at_bracket(text: &str, at: usize, kind: &ParseErrorKind) -> Option<Slip> {
     if matches!(kind, ParseErrorKind::UnterminatedObject | ParseErrorKind::UnterminatedArray) {
         let range = bracket::unclosed(text);
@@ -118,10 +118,10 @@ fn at_bracket(text: &str, at: usize, kind: &ParseErrorKind) -> Option<Slip> {
     }
     let here = text[at..].chars().next()?;
     if matches!(kind, ParseErrorKind::MultipleRootJsonValues) {
-        let message = "something follows the end of the scenario";
+        let message = "there is text after the end of the scenario";
         let help = match here {
-            ',' | '}' | ']' => "one closing bracket too many stands before this",
-            _ => "one file holds one object",
+            ',' | '}' | ']' => "there is one closing bracket too many before this",
+            _ => "a file has one object",
         };
         return Some(slip(at..at + here.len_utf8(), message, help));
     }
@@ -148,7 +148,7 @@ fn at_bracket(text: &str, at: usize, kind: &ParseErrorKind) -> Option<Slip> {
     }
 }
 
-/// A word without quotes.
+/// Returns the error of a word without quotes.
 fn at_word(text: &str, at: usize) -> Option<Slip> {
     let rest = &text[at..];
     let length =
@@ -162,11 +162,11 @@ fn at_word(text: &str, at: usize) -> Option<Slip> {
     let before = text[..at].trim_end();
     if before.is_empty() {
         let message = "a scenario is a JSON object { … }";
-        return Some(slip(range, message, "it starts with { \"stickslip\": 1, the version of its form"));
+        return Some(slip(range, message, "it starts with { \"stickslip\": 1, the version of the format"));
     }
     let after = text[at + length..].trim_start();
     if before.ends_with(['{', ',']) && after.starts_with(':') {
-        return Some(slip(range, "keys stand in double quotes", format!("write \"{}\":", shown(word))));
+        return Some(slip(range, "keys are in double quotes", format!("write \"{}\":", shown(word))));
     }
     let lower = bare.to_lowercase();
     Some(match lower.as_str() {
@@ -175,25 +175,25 @@ fn at_word(text: &str, at: usize) -> Option<Slip> {
         }
         "true" | "false" => slip(range, "expected true or false in small letters", format!("write {lower}")),
         "none" | "null" | "nil" | "undefined" => {
-            slip(range, "this is no value of a scenario", "leave the key out for its default")
+            slip(range, "this is not a value of a scenario", "leave the key out for its default")
         }
         _ => slip(range, "a word without quotes", format!("write \"{}\"", shown(word))),
     })
 }
 
-/// A string that does not end on its line: where its quote was probably forgotten.
+/// Returns the error of a string without an end on its line: the range where a quote is probably missing.
 pub(super) fn quote_missing(text: &str, line_end: usize) -> Slip {
     let line_start = text[..line_end].rfind('\n').map_or(0, |i| i + 1);
     let line = text[line_start..line_end].trim_end();
     let quotes = quotes(line);
     let slipped = |range: Range<usize>| {
         let range = line_start + range.start..line_start + range.end;
-        slip(range, "a double quote is missing", "strings and quantities with a unit stand in double quotes")
+        slip(range, "a double quote is missing", "strings and quantities with a unit are in double quotes")
     };
     for pair in quotes.chunks(2) {
         let before = line[..pair[0]].trim_end();
         if !before.is_empty() && !before.ends_with(['{', '[', ',', ':']) {
-            // A word before the quote: it was to be inside.
+            // A word before the quote probably belongs inside.
             let word = before.rfind(['{', '[', ',', ':']).map_or(0, |i| i + 1);
             let word = word + line[word..].len() - line[word..].trim_start().len();
             return slipped(word..pair[0] + 1);
@@ -207,7 +207,7 @@ pub(super) fn quote_missing(text: &str, line_end: usize) -> Slip {
     slipped(quotes.last().map_or(0, |quote| *quote)..line.len())
 }
 
-/// Places of the quotes of a line that are not escaped.
+/// Returns the positions of quotes in a line that are not escaped.
 fn quotes(line: &str) -> Vec<usize> {
     let (mut places, mut escaped) = (Vec::new(), false);
     for (i, byte) in line.bytes().enumerate() {
@@ -221,36 +221,34 @@ fn quotes(line: &str) -> Vec<usize> {
     places
 }
 
-/// The parser's own complaint in our words.
+/// Returns message and help for the remaining errors of the parser.
 fn wording(text: &str, range: Range<usize>, kind: &ParseErrorKind) -> Slip {
     let (message, help) = match kind {
         ParseErrorKind::TrailingCommasNotAllowed => {
-            ("a comma before a closing bracket", "remove the comma, or the entry after it got lost")
+            ("a comma before a closing bracket", "remove the comma, or add the missing entry")
         }
         ParseErrorKind::ExpectedComma => ("expected a comma", "entries are separated by commas"),
         ParseErrorKind::ExpectedColonAfterObjectKey => {
             ("expected a colon after the key", "write \"key\": value")
         }
-        ParseErrorKind::ExpectedStringObjectProperty => {
-            ("keys stand in double quotes", "write \"key\": value")
-        }
+        ParseErrorKind::ExpectedStringObjectProperty => ("keys are in double quotes", "write \"key\": value"),
         ParseErrorKind::SingleQuotedStringsNotAllowed => {
-            ("strings stand in double quotes", "write \"text\" instead of 'text'")
+            ("strings are in double quotes", "write \"text\" instead of 'text'")
         }
         ParseErrorKind::BareDecimalPointNumbersNotAllowed => {
             ("a number that ends with a point", "write a digit after the point")
         }
         ParseErrorKind::HexadecimalNumbersNotAllowed => ("a hexadecimal number", "write it in decimals"),
         ParseErrorKind::String(_) if text[range.start..].starts_with("\\u") => {
-            ("this stands for no character", "write the character itself")
+            ("this is not the code of a character", "write the character itself")
         }
         ParseErrorKind::String(_) if text[range.start..].starts_with('\\') => {
-            ("a backslash with nothing to stand for", "write \\\\ for a backslash; texts need none")
+            ("a backslash without a meaning", "write \\\\ for a backslash")
         }
         ParseErrorKind::UnexpectedTokenInObject => {
-            ("expected a key", "write \"key\": value; entries without keys stand in [ ]")
+            ("expected a key", "write \"key\": value; entries without keys are in [ ]")
         }
-        _ => ("this is no JSON value", "numbers are finite decimals; strings stand in double quotes"),
+        _ => ("this is not a JSON value", "numbers are finite decimals; strings are in double quotes"),
     };
     slip(range, message, help)
 }

@@ -1,4 +1,4 @@
-//! Tables as instruments write them, by a recipe or as they show themselves.
+//! Reads tables of instruments, by a recipe or by automatic detection of the layout.
 
 use super::head::Column;
 use super::{Rows, Shelf, TableFile};
@@ -12,7 +12,7 @@ const KEYS: &str = "`stickslip schema recipe` prints the keys of a recipe";
 const SHOWN: &str = "`stickslip import` shows how a file is read";
 
 impl Shelf<'_> {
-    /// A recipe that is written down, or lies in a file.
+    /// Returns a recipe that is written in the scenario or in a file.
     pub(super) fn recipe(&mut self, at: &At<'_>, form: RecipeForm) -> Result<Recipe, Fault> {
         let at = at.key("recipe");
         match form {
@@ -26,7 +26,7 @@ impl Shelf<'_> {
         }
     }
 
-    /// The rows of a file by the columns that an object names, or that the recipe or the file itself tells.
+    /// Reads rows of a file by the columns named in the scenario, in the recipe or by the file.
     pub(super) fn foreign<const N: usize>(
         &mut self,
         at: &At<'_>,
@@ -39,7 +39,7 @@ impl Shelf<'_> {
         let is_said = recipe.is_some();
         let mut recipe = recipe.unwrap_or_default();
         let roles = std::array::from_fn::<Role, N, _>(|k| role(columns[k].0));
-        // A recipe of a rig has a displacement or a force where a waveform has values.
+        // A recipe for a test rig names displacement or force; a waveform reads them as values.
         if roles.contains(&Role::Value) && !recipe.columns.contains_key(&Role::Value) {
             let other =
                 [Role::Displacement, Role::Force].into_iter().find_map(|role| recipe.columns.remove(&role));
@@ -52,7 +52,7 @@ impl Shelf<'_> {
         }
         let read = Record::of(file, &bytes, &recipe, &roles);
         let mut record = match read {
-            // Numbers of rows beside a start and an increment are no times.
+            // Row numbers are no times if the file gives a start and an increment.
             Err(RecordError::Unit { role: Role::Time, .. })
                 if recipe.columns.remove(&Role::Time).is_some() =>
             {
@@ -65,11 +65,11 @@ impl Shelf<'_> {
             let (message, help) = text.split_once("\n   help: ").unwrap_or((&text, SHOWN));
             file_at.fault(message).help(help)
         })?;
-        // A plain table is refused for what is wrong with it.
+        // For a plain table, the error of the plain reader is reported instead.
         let layout = &record.layout;
         let is_plain = layout.skip == 1 && layout.delimiter == ',' && layout.decimal == '.';
         if !is_said && (is_plain || record.passed.words + record.passed.missing > 0) {
-            return Err(file_at.fault("has lines that are no rows of numbers"));
+            return Err(file_at.fault("has lines that are not rows of numbers"));
         }
         let mut kinds = [None; N];
         for (k, (key, _, column)) in columns.iter().enumerate() {
@@ -78,14 +78,14 @@ impl Shelf<'_> {
                 && kinds[k] != Some(*wanted)
             {
                 let what = if *wanted == Kind::Force { "force" } else { "length" };
-                let message = format!("the column for \"{key}\" has no unit of a {what} in its head");
+                let message = format!("the header of the column for \"{key}\" has no unit of a {what}");
                 let help = "give the unit in the recipe, or after the name of the column, as in \"2:um\"";
                 return Err(file_at.fault(message).help(help));
             }
         }
         let columns = roles.map(|role| record.columns.remove(&role).unwrap_or_default());
         let rows = (0..record.rows).map(|row| std::array::from_fn(|k| columns[k][row])).collect();
-        // Its cells are not pointed at.
+        // The numbers of such a file have no positions.
         self.document.tables.push(TableFile {
             path: at.path(),
             source: 0,

@@ -1,43 +1,43 @@
-//! What heads a column of a table: a name and, perhaps, the unit of its numbers.
+//! Headers of table columns: a name and optionally a unit.
 
 use crate::units::{self, Kind, Scale, advice, of_another};
 
-/// What a column is read for.
+/// Expected contents of a column.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Column {
     Time,
-    /// Of whatever follows the waveform.
+    /// Values of the quantity that follows the waveform.
     Value,
-    /// Of this dimension, in a unit that the head must name.
+    /// Quantity of this dimension; the header must have a unit.
     Of(Kind),
 }
 
-/// The head of a column, such as `disp (µm)`, `t [ms]`, `disp_um` or `time/ms`.
+/// Header of a column, such as `disp (µm)`, `t [ms]`, `disp_um` or `time/ms`.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Head {
-    /// As it stands in the file.
+    /// Header as it stands in the file.
     pub(super) full: String,
-    /// Without its unit.
+    /// Name without the unit.
     bare: String,
     unit: Option<Unit>,
 }
 
-/// A unit, and how sure it is that it is one.
+/// Unit in a header.
 #[derive(Debug, Clone, PartialEq)]
 struct Unit {
     text: String,
-    /// Brackets hold nothing else; behind a slash or an underscore many names end like units.
+    /// Whether the unit is in brackets. After a slash or an underscore, the end of a name may look like a unit.
     bracketed: bool,
 }
 
-/// How numbers of a column become SI, and their dimension where the head tells.
+/// Conversion of the numbers of a column to SI, and their dimension if the header has a unit.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Measure {
     pub(super) kind: Option<Kind>,
     pub(super) scale: Scale,
 }
 
-/// Why a head cannot be read, and what to do.
+/// Reason why a header cannot be read, and help.
 #[derive(Debug, PartialEq)]
 pub(super) struct Unreadable {
     pub(super) message: String,
@@ -45,7 +45,7 @@ pub(super) struct Unreadable {
 }
 
 impl Head {
-    /// Reads the head of a column, without blanks around it.
+    /// Reads the header of a column. The text has no blanks at its ends.
     pub(super) fn new(full: &str) -> Self {
         let bracketed = [('(', ')'), ('[', ']')].into_iter().find_map(|(open, close)| {
             let (bare, unit) = full.strip_suffix(close)?.rsplit_once(open)?;
@@ -53,7 +53,7 @@ impl Head {
         });
         let of =
             |(bare, text): (&str, &str)| Some((bare.to_owned(), text.to_owned())).filter(|_| is_unit(text));
-        // What is a unit as a whole, such as N/m, is its own name.
+        // A text that is a unit as a whole, such as N/m, is the name.
         let apart = if is_unit(full) { None } else { full.split_once('/').and_then(of) };
         let apart = apart.or_else(|| full.rsplit_once('_').and_then(of));
         let apart = apart.map(|(bare, text)| (bare, Unit { text, bracketed: false }));
@@ -71,25 +71,25 @@ impl Head {
         }
     }
 
-    /// Whether the column goes by this name: as it stands, …
+    /// Returns whether `name` is the full header.
     pub(super) fn is(&self, name: &str) -> bool {
         self.full == name
     }
 
-    /// … or without its unit.
+    /// Returns whether `name` is the header without its unit.
     pub(super) fn is_bare(&self, name: &str) -> bool {
         self.bare == name
     }
 
-    /// The name without its unit.
+    /// Returns the name without the unit.
     pub(super) fn bare(&self) -> &str {
         &self.bare
     }
 
-    /// What its numbers mean as times or values. Without a unit they are in SI.
+    /// Returns the conversion of the numbers to SI. Numbers without a unit are in SI.
     ///
-    /// A unit that stands in brackets must be one, and of times if times it is to be. Behind a slash or an underscore it counts
-    /// where it fits, and is a part of the name elsewhere.
+    /// A unit in brackets must be a known unit of a suitable dimension. A unit after a slash or an underscore counts only if its
+    /// dimension is suitable; otherwise it is part of the name.
     pub(super) fn measure(&self, column: Column) -> Result<Measure, Unreadable> {
         let si = Measure { kind: None, scale: Scale::Ten(0) };
         let wanted = match column {
@@ -99,12 +99,12 @@ impl Head {
         };
         let unit = match (&self.unit, column) {
             (Some(unit), _) => unit,
-            // Whoever measures a profile does so in micrometres or nanometres, never in metres.
+            // Measured profiles are in micrometres or nanometres, so a missing unit is an error.
             (None, Column::Of(kind)) => return Err(self.without_unit(kind)),
             (None, Column::Time | Column::Value) => return Ok(si),
         };
         let Some((kind, scale)) = units::find(&unit.text) else {
-            let message = format!("\"{}\" is no unit", crate::document::shown(&unit.text));
+            let message = format!("\"{}\" is not a unit", crate::document::shown(&unit.text));
             return Err(Unreadable { message, help: advice(&unit.text, wanted) });
         };
         let fits = match column {
@@ -131,7 +131,11 @@ impl Head {
                 help: match wanted {
                     Some(wanted) => of_another(&unit.text, kind, wanted),
                     None => {
-                        format!("{} is the unit of {}, which no waveform drives", unit.text, kind.article())
+                        format!(
+                            "{} is a unit of {}, but no waveform has this quantity",
+                            unit.text,
+                            kind.article()
+                        )
                     }
                 },
             }),
@@ -140,27 +144,27 @@ impl Head {
 }
 
 impl Head {
-    /// A head that must name a unit of this dimension and does not.
+    /// Returns the error of a header without the required unit.
     fn without_unit(&self, kind: Kind) -> Unreadable {
         let name = crate::document::shown(&self.full);
         Unreadable {
-            message: format!("the head \"{name}\" names no unit of {}", kind.article()),
+            message: format!("the header \"{name}\" has no unit of {}", kind.article()),
             help: format!(
-                "put one behind the name, such as \"{name} ({})\"",
+                "add a unit after the name, such as \"{name} ({})\"",
                 if kind == Kind::Force { "mN" } else { "um" }
             ),
         }
     }
 }
 
-/// The word for a dimension without its article.
+/// Returns the word for a dimension without its article.
 fn plural(kind: Kind) -> &'static str {
     kind.article().split_once(' ').map_or("", |(_, word)| word)
 }
 
-/// Whether a text behind a slash or an underscore is a unit beyond doubt.
+/// Returns whether a text after a slash or an underscore is a unit.
 fn is_unit(text: &str) -> bool {
-    // The least of something far more often than its minutes.
+    // `min` mostly means minimum, not minutes.
     text.trim() != "min" && units::find(text).is_some()
 }
 
@@ -213,7 +217,7 @@ mod tests {
     #[test]
     fn what_stands_in_brackets_must_be_a_unit_that_fits() {
         let refused = |head: &str, column| Head::new(head).measure(column).unwrap_err();
-        assert_eq!(refused("disp (microns)", Column::Value).message, "\"microns\" is no unit");
+        assert_eq!(refused("disp (microns)", Column::Value).message, "\"microns\" is not a unit");
         assert!(refused("disp (microns)", Column::Value).help.starts_with("did you mean \"um\"?"));
         assert_eq!(refused("t (um)", Column::Time).message, "expected a column of times");
         assert!(refused("v [mm/s]", Column::Value).help.contains("a velocity"));
@@ -226,7 +230,7 @@ mod tests {
         assert_eq!(read("z_nm", length), Some(("z".to_owned(), Some(Kind::Length), Scale::Ten(-9))));
         for head in ["z", "F_mN", "z/a"] {
             let refused = Head::new(head).measure(length).unwrap_err();
-            assert_eq!(refused.message, format!("the head \"{head}\" names no unit of a length"));
+            assert_eq!(refused.message, format!("the header \"{head}\" has no unit of a length"));
         }
     }
 }

@@ -1,11 +1,12 @@
-//! Heights of a profilometer's line: even distances, a part of it, without its tilt or form.
+//! Heights of a profilometer line: resampling at equal distances, cropping, and removal of tilt or form.
 
 use nalgebra::{DMatrix, DVector};
 
-/// Distances that differ by less than this share of their mean are even.
+/// Relative deviation of distances from their mean up to which positions count as equidistant.
 const EVEN: f64 = 1e-3;
 
-/// Heights at even distances, of places and heights that may lie unevenly: straight between them. None where places do not ascend.
+/// Returns the spacing and heights at equal distances, by linear interpolation of rows (position, height). Returns `None` if positions do
+/// not ascend.
 pub(super) fn even(rows: &[[f64; 2]]) -> Option<(f64, Vec<f64>)> {
     let (first, last) = (rows.first()?[0], rows.last()?[0]);
     let spacing = (last - first) / (rows.len().checked_sub(1)?) as f64;
@@ -24,15 +25,15 @@ pub(super) fn even(rows: &[[f64; 2]]) -> Option<(f64, Vec<f64>)> {
     Some((spacing, (0..rows.len()).map(at).collect()))
 }
 
-/// Those between two places from the first height on.
+/// Returns the heights between two positions, measured from the first height. Returns `None` for fewer than three heights.
 pub(super) fn within(heights: &[f64], spacing: f64, [from, to]: [f64; 2]) -> Option<Vec<f64>> {
-    // A place of a height counts however it was rounded.
+    // Includes heights at the bounds despite rounding.
     let first = (from / spacing - 1e-6).ceil().max(0.0) as usize;
     let last = ((to / spacing + 1e-6).floor() as usize).min(heights.len().checked_sub(1)?);
     (last >= first + 2).then(|| heights[first..=last].to_vec())
 }
 
-/// Takes out the polynomial of this order that leaves the least squares.
+/// Subtracts the least-squares polynomial of this order from the heights.
 pub(super) fn level(heights: &mut [f64], order: usize) {
     let half = 0.5 * (heights.len().max(2) - 1) as f64;
     let place = |row: usize| (row as f64 - half) / half;

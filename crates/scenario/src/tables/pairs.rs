@@ -1,4 +1,4 @@
-//! Two columns of a CSV file on its own, such as a history: no scenario names it.
+//! Reads two columns of a CSV file that is not part of a scenario, such as a loading history.
 
 use super::head::{Column, Head};
 use super::sheet;
@@ -9,26 +9,26 @@ use crate::{syntax, text};
 use std::ops::Range;
 use std::path::Path;
 
-/// Two columns of a table, in SI; of one column both are the same.
+/// Two columns of a table, in SI. If the table has only the second column, both are equal.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Pairs {
-    /// Which of the names asked for the first column goes by; none where the table has no such column.
+    /// Index of the name that the first column has, or `None` if the table has no such column.
     pub first: Option<usize>,
-    /// The same of the second, which is there.
+    /// Index of the name that the second column has.
     pub second: usize,
-    /// The numbers, line by line.
+    /// Numbers of each row.
     pub values: Vec<[f64; 2]>,
 }
 
-/// Reads two columns of a CSV file, each by one of the names asked for, whatever their case, with the SI unit of its numbers.
-/// Heads of columns may have their unit, as in `u (nm)`; without one the numbers are in SI. The first column may be missing.
+/// Reads two columns of a CSV file. Each column has one of the given names (case-insensitive); each name has an SI unit. Headers may
+/// contain a unit, as in `u (nm)`; numbers without a unit are in SI. The first column may be missing.
 ///
 /// # Errors
-/// A file that cannot be read, is no table, lacks the second column, has two that would do, or a unit of something else.
+/// A file that cannot be read or is not a table. A missing second column, two columns for one role, or a unit of another dimension.
 pub fn pairs(path: &Path, first: &[(&str, &str)], second: &[(&str, &str)]) -> Result<Pairs, ScenarioError> {
     let name = path.display().to_string();
     let read = text::read(path, syntax::MAX_BYTES);
-    // What is near by is told of scenarios only.
+    // The list of similar file names contains only scenarios, so it is not shown.
     let bytes = read.map_err(|error| at_file(&name, (text::unreadable(path, &error).0, None)))?;
     let most = syntax::MAX_BYTES;
     let bytes = bytes.ok_or_else(|| at_file(&name, (format!("a table has at most {most} bytes"), None)))?;
@@ -55,7 +55,7 @@ pub fn pairs(path: &Path, first: &[(&str, &str)], second: &[(&str, &str)]) -> Re
     Ok(Pairs { first: given.map(|(_, name)| name), second: second_name, values })
 }
 
-/// A table with its heads.
+/// Table with its headers.
 struct Table<'a> {
     name: &'a str,
     text: &'a str,
@@ -63,7 +63,7 @@ struct Table<'a> {
 }
 
 impl Table<'_> {
-    /// The column of one of these names, and which it is.
+    /// Returns the index of the column with one of these names, and the index of the name.
     fn column(&self, names: &[(&str, &str)]) -> Result<Option<(usize, usize)>, ScenarioError> {
         let goes_by = |head: &Head, (name, _): &(&str, &str)| {
             let is = |text: &str| text.eq_ignore_ascii_case(name);
@@ -76,13 +76,13 @@ impl Table<'_> {
         match found.next() {
             None => Ok(column),
             Some((place, _)) => {
-                let message = "another column stands for the same already".to_owned();
+                let message = "another column already has this role".to_owned();
                 Err(self.fault(place, (message, Some("keep one of them".to_owned()))))
             }
         }
     }
 
-    /// How the numbers of a column become SI.
+    /// Returns the conversion of a column to SI.
     fn scale(&self, place: usize, si: &str) -> Result<units::Scale, ScenarioError> {
         let Some(wanted) = units::of_si(si) else { return Ok(units::Scale::Ten(0)) };
         let column = if wanted == Kind::Time { Column::Time } else { Column::Value };
@@ -103,13 +103,13 @@ impl Table<'_> {
     }
 }
 
-/// Something wrong with a whole file.
+/// Returns an error about a whole file.
 fn at_file(file: &str, (message, help): (String, Option<String>)) -> ScenarioError {
     let (file, path) = (file.to_owned(), String::new());
     Report { file, is_override: false, word: "", excerpt: None, path, message, help }.into()
 }
 
-/// Something wrong at a place of its text.
+/// Returns an error at a position in the text of a file.
 fn in_text(
     file: &str,
     text: &str,

@@ -1,4 +1,4 @@
-//! Profiles whose points or heights lie in a file.
+//! Reads profiles whose points or heights are in a file.
 
 use super::head::Column;
 use super::heights;
@@ -57,7 +57,7 @@ impl Shelf<'_> {
         let (height, recipe) = (line.height.take(), line.recipe.take());
         if let Some(file) = line.file.take() {
             if line.heights.is_some() || line.self_affine.is_some() {
-                let fault = at.key("file").fault("the heights are given already").on_key();
+                let fault = at.key("file").fault("the heights are already given").on_key();
                 return Err(fault.mend(Mend::Around(at.path())).help("keep one of them"));
             }
             let height = ("height", height, Column::Of(Kind::Length));
@@ -69,8 +69,8 @@ impl Shelf<'_> {
                 let recipe = Some(recipe.unwrap_or_else(|| RecipeForm::Own(serde_json::Map::new())));
                 let (rows, _) = self.rows(at, (&file, recipe), "heights", &[position, height])?;
                 let (spacing, heights) = heights::even(&rows).ok_or_else(|| {
-                    let fault = at.key("file").fault("the places of the line do not ascend");
-                    fault.help("give the spacing of the heights, or the column of their places in the recipe as \"position\"")
+                    let fault = at.key("file").fault("the positions of the line do not ascend");
+                    fault.help("give the spacing of the heights, or the column of their positions as \"position\" in the recipe")
                 })?;
                 line.spacing = Some(Length::new(spacing));
                 heights
@@ -84,7 +84,7 @@ impl Shelf<'_> {
             if let Some([from, to]) = line.within.take() {
                 let part = heights::within(&heights, spacing.si, [from.si, to.si]);
                 heights = part.ok_or_else(|| {
-                    at.key("within").fault("less than three heights lie between these places")
+                    at.key("within").fault("fewer than three heights lie between these positions")
                 })?;
             }
             if let Some(level) = line.level.take() {

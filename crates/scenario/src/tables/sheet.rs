@@ -1,11 +1,11 @@
-//! A CSV file: its columns, its numbers, and the place of each cell.
+//! Reads CSV files: headers, numbers, and the byte range of each cell.
 
 use crate::document::shown;
 use crate::quantity::{LARGEST, convert, number_help};
 use crate::units::Scale;
 use std::ops::Range;
 
-/// Something wrong in a CSV text.
+/// Error in a CSV text.
 #[derive(Debug, PartialEq)]
 pub(super) struct Slip {
     pub(super) range: Range<usize>,
@@ -13,7 +13,7 @@ pub(super) struct Slip {
     pub(super) help: Option<String>,
 }
 
-/// Names of the columns.
+/// Returns the names of the columns.
 pub(super) fn header(text: &str) -> Result<Vec<String>, Slip> {
     match reader(text).headers() {
         Ok(header) if !header.is_empty() => Ok(header.iter().map(str::to_owned).collect()),
@@ -25,7 +25,7 @@ pub(super) fn header(text: &str) -> Result<Vec<String>, Slip> {
     }
 }
 
-/// The numbers of some columns of a table that is `width` columns wide, in SI by the scale of each.
+/// Returns the numbers of some columns, in SI by the scale of each column. Every row must have `width` fields.
 pub(super) fn numbers<const N: usize>(
     text: &str,
     columns: [(usize, Scale); N],
@@ -33,7 +33,7 @@ pub(super) fn numbers<const N: usize>(
 ) -> Result<Vec<[f64; N]>, Slip> {
     let mut rows = Vec::new();
     for record in reader(text).records() {
-        // A text in memory can be read, and any text is a flexible table.
+        // Reading a text in memory cannot fail, and rows may have any length.
         let Ok(record) = record else { continue };
         let start = start_of(text, &record);
         if record.len() != width {
@@ -41,7 +41,7 @@ pub(super) fn numbers<const N: usize>(
             return Err(Slip {
                 range: line_at(text, start),
                 message: format!("expected {fields} like the first line, got {}", record.len()),
-                help: Some("fields stand between commas; decimals stand after a point".to_owned()),
+                help: Some("commas separate the fields; the decimal sign is a point".to_owned()),
             });
         }
         let number = |(column, scale): (usize, Scale)| {
@@ -62,9 +62,7 @@ pub(super) fn numbers<const N: usize>(
                     message: format!("expected a number, got \"{}\"", shown(field)),
                     help: Some(
                         number_help(field)
-                            .unwrap_or(
-                                "numbers without units; their unit may stand in the head of their column",
-                            )
+                            .unwrap_or("numbers without units; the unit can be in the header of the column")
                             .to_owned(),
                     ),
                 }),
@@ -84,18 +82,18 @@ pub(super) fn numbers<const N: usize>(
     Ok(rows)
 }
 
-/// The line that begins at a place.
+/// Returns the range of the line that begins at a byte.
 fn line_at(text: &str, start: usize) -> Range<usize> {
     start..start + text[start..].lines().next().unwrap_or("").len()
 }
 
-/// The place of the head of a column.
+/// Returns the range of the header of a column.
 pub(super) fn head(text: &str, column: usize) -> Range<usize> {
-    // The first record is where the header stands.
+    // The first record is the header line.
     field_at(text, start_of(text, &csv::StringRecord::new()), column)
 }
 
-/// The place of a cell, by the row of numbers and the column.
+/// Returns the range of a cell by data row and column.
 pub(super) fn cell(text: &str, row: usize, column: usize) -> Option<Range<usize>> {
     let record = reader(text).into_records().nth(row)?.ok()?;
     Some(field_at(text, start_of(text, &record), column))
@@ -106,7 +104,7 @@ fn reader(text: &str) -> csv::Reader<&[u8]> {
     builder.trim(csv::Trim::All).comment(Some(b'#')).flexible(true).from_reader(text.as_bytes())
 }
 
-/// Where a record starts: what its reader notes may be the comments and blank lines before it.
+/// Returns the start of a record, without preceding comments and blank lines, which the CSV reader includes.
 fn start_of(text: &str, record: &csv::StringRecord) -> usize {
     let noted = record.position().map_or(0, csv::Position::byte) as usize;
     let mut start = noted.min(text.len());
@@ -119,14 +117,14 @@ fn start_of(text: &str, record: &csv::StringRecord) -> usize {
     start
 }
 
-/// Where a field of a record stands, without the blanks around it.
+/// Returns the range of a field of a record, without the blanks around it.
 fn field_at(text: &str, start: usize, column: usize) -> Range<usize> {
     let (mut field, mut from, mut quoted, mut after_quote) = (0, start, false, false);
     let mut end = text.len();
     for (i, byte) in text.bytes().enumerate().skip(start) {
         match byte {
             b'"' if quoted => quoted = false,
-            // At the start of a field, or twice for one.
+            // A quote at the start of a field opens it; two quotes stand for one.
             b'"' => quoted = i == from || after_quote,
             b',' if !quoted && field < column => (field, from) = (field + 1, i + 1),
             b',' | b'\n' if !quoted => {

@@ -1,9 +1,9 @@
-//! What to write instead of a unit that is none here.
+//! Suggestions for unknown units.
 
 use super::{Kind, UNITS, find, normalise, symbols};
 use crate::suggest;
 
-/// Names of units that people write out, without the plural's s.
+/// Names of units that users spell out, in the singular.
 const NAMES: &[(&str, &str)] = &[
     ("metre", "m"),
     ("meter", "m"),
@@ -26,7 +26,7 @@ const NAMES: &[(&str, &str)] = &[
     ("m/s2", "m/s^2"),
     ("kg m2", "kg m^2"),
 ];
-/// Prefixes written out or, as in "msec", not.
+/// Prefixes, spelt out or as symbols, as in "msec".
 const PREFIXES: &[(&str, &str)] = &[
     ("", ""),
     ("nano", "n"),
@@ -41,7 +41,7 @@ const PREFIXES: &[(&str, &str)] = &[
     ("k", "k"),
 ];
 
-/// Help for a unit that is not known: the one that was meant, and all that are.
+/// Returns help for an unknown unit: the intended unit, or all units of the dimension.
 pub(crate) fn advice(unit: &str, kind: Option<Kind>) -> String {
     let plain = normalise(unit);
     if let Some((symbol, found)) = spelt_out(&plain) {
@@ -56,9 +56,9 @@ pub(crate) fn advice(unit: &str, kind: Option<Kind>) -> String {
     }
 }
 
-/// Help for a unit of another dimension.
+/// Returns help for a unit of another dimension.
 pub(crate) fn of_another(unit: &str, found: Kind, wanted: Kind) -> String {
-    format!("{} is the unit of {}; {}", unit.trim(), found.article(), here(Some(wanted)))
+    format!("{} is a unit of {}; {}", unit.trim(), found.article(), here(Some(wanted)))
 }
 
 fn meant(symbol: &str, kind: Option<Kind>) -> String {
@@ -71,11 +71,11 @@ fn meant(symbol: &str, kind: Option<Kind>) -> String {
 fn here(kind: Option<Kind>) -> String {
     match kind {
         Some(_) => format!("units here: {}", symbols(kind).collect::<Vec<_>>().join(", ")),
-        None => "the unit is that of what follows, such as nm, um, mN, N or V".to_owned(),
+        None => "the unit is that of the following part, such as nm, um, mN, N or V".to_owned(),
     }
 }
 
-/// The symbol of a unit written out: "micrometers", "msec".
+/// Returns the symbol of a unit that is spelt out, such as "micrometers" or "msec".
 fn spelt_out(plain: &str) -> Option<(&'static str, Kind)> {
     let lower = plain.to_lowercase();
     let singular = lower.strip_suffix('s').filter(|rest| !rest.ends_with('/')).unwrap_or(&lower);
@@ -90,15 +90,15 @@ fn spelt_out(plain: &str) -> Option<(&'static str, Kind)> {
     })
 }
 
-/// The only unit with the same letters in another case or with other blanks: "khz", "Ns/m". Between m and M lie nine
-/// orders of magnitude: that is not guessed.
+/// Returns the only unit with the same letters in another case or with other blanks: "khz", "Ns/m". The prefixes m and M are not
+/// interchanged, because they differ by nine orders of magnitude.
 fn same_letters(plain: &str, kind: Option<Kind>) -> Option<&'static str> {
     let folded = |text: &str| text.replace([' ', '.', '-'], "").to_lowercase();
     let large = |text: &str| text.starts_with('M');
     only(symbols(kind).filter(|symbol| folded(symbol) == folded(plain) && large(symbol) == large(plain)))
 }
 
-/// The only unit one slip away; in units of one or two letters every other one is.
+/// Returns the only similar unit. Texts of one or two letters are not compared, because all units of that length are similar.
 fn nearest(plain: &str, kind: Option<Kind>) -> Option<&'static str> {
     if plain.chars().count() < 3 {
         return None;
@@ -151,9 +151,9 @@ mod tests {
         assert_eq!(advice("M", Some(Kind::Force)), "units here: uN, mN, N, kN");
         assert_eq!(
             advice("grams", Some(Kind::Length)),
-            "grams is the unit of a mass; units here: nm, um, mm, m"
+            "grams is a unit of a mass; units here: nm, um, mm, m"
         );
-        assert!(advice("parsec", None).starts_with("the unit is that of what follows"));
+        assert!(advice("parsec", None).starts_with("the unit is that of the following part"));
         assert_eq!(advice("Mhz", None), "did you mean \"MHz\"?");
     }
 }

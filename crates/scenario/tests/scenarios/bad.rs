@@ -1,7 +1,7 @@
-//! Bad scenarios: `tests/bad/NAME.json` gives the message of `tests/bad/NAME.txt`, word for word.
+//! Invalid scenarios. The error of `tests/bad/NAME.json` must be the text of `tests/bad/NAME.txt`.
 //!
-//! A new case: write the JSON, run `STICKSLIP_WRITE=1 cargo test -p stickslip-scenario --test scenarios bad::`, and
-//! read what it wrote.
+//! For a new case, write the JSON file, run `STICKSLIP_WRITE=1 cargo test -p stickslip-scenario --test scenarios bad::`, and read the
+//! text that it writes.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -17,7 +17,7 @@ fn cases() -> Vec<PathBuf> {
     cases
 }
 
-/// What is wrong with a file before its run starts, also where only the model can tell.
+/// Returns the error of a file before its run starts, including errors that only the model detects.
 fn refusal(path: &Path) -> Option<ScenarioError> {
     let scenario = match Scenario::load(path) {
         Ok(scenario) => scenario,
@@ -46,7 +46,7 @@ fn every_bad_scenario_is_refused_word_for_word() {
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
 }
 
-/// The characters that stand in some cells of a line, as a terminal shows it.
+/// Returns the characters in a range of cells of a line, as a terminal shows them.
 fn in_cells(line: &str, from: usize, to: usize) -> String {
     let mut cell = 0;
     let cells = line.chars().map(|c| {
@@ -76,7 +76,7 @@ fn the_marker_stands_under_what_is_to_blame() {
         let blamed: String =
             excerpt.text.chars().skip(excerpt.marker.start).take(excerpt.marker.len()).collect();
         let under = in_cells(lines[1], start, end);
-        // What is too long for a line is cut; tabs and the like are shown as others.
+        // Long lines are cut; tabs and similar characters are replaced.
         let same = blamed.starts_with(&under) && (under == blamed || lines[1].ends_with('…'));
         assert!(same || under == " " || under == "\u{fffd}", "{blamed:?} {under:?}\n{shown}");
     }

@@ -1,4 +1,4 @@
-//! What a file or a command line may say in more than one way.
+//! Alternative spellings in files and on the command line.
 
 use serde_json::Value;
 use std::fs;
@@ -27,13 +27,13 @@ fn overrides_add_entries_to_lists() {
     let loads = with(&[("loads[+].on", "slider"), ("loads[1].x", "5 mN")]).map(|root| root["loads"].clone());
     assert_eq!(loads.unwrap()[1]["x"], 0.005);
     assert_eq!(with(&[("plots[+]", "energy")]).unwrap()["plots"][2], "energy");
-    // A list that is not there begins.
+    // A missing list is created.
     let channels =
         with(&[("output.channels[+]", "slider.x_m"), ("output.channels[+]", "ball.fx_N")]).unwrap();
     assert_eq!(channels["output"]["channels"], serde_json::json!(["slider.x_m", "ball.fx_N"]));
     let far = refused(&[("loads[2]", load)]);
     assert!(far.contains("the list has one entry, [0]"), "{far}");
-    // What is wrong with an added entry is told where it is.
+    // Errors of an added entry are reported at its path.
     let wrong = refused(&[("loads[+]", r#"{"on": "slidr", "x": "5 mN"}"#)]);
     assert!(
         wrong.starts_with("--set loads[+]={\"on\": \"slidr\"")
@@ -63,7 +63,7 @@ fn overrides_switch_between_alternatives() {
         let root = with(&[("output.events", word), ("output.events.most", "1000")]).unwrap();
         assert_eq!(root["output"]["events"], serde_json::json!({ "most": 1000 }), "{word}");
     }
-    // A word in whose place nothing with keys can stand stays.
+    // A word stays if no object is allowed in its place.
     let told = refused(&[("title.short", "a drive")]);
     assert!(told.contains("this value has no keys"), "{told}");
     let sine = r#"{"amplitude": "100 nm", "period": "10 ms"}"#;
@@ -91,7 +91,7 @@ fn comments_are_blanks() {
     let read = |text: &str| Scenario::from_str(text, "a.json", "tests/good").unwrap().resolved();
     assert_eq!(read(&commented), read(&plain));
     assert!(!read(&commented).contains("//"));
-    // Places stay where they are.
+    // Positions do not change.
     let wrong = commented.replace("0.2,", "-0.2, // slippery\n");
     let error = Scenario::from_str(&wrong, "a.json", "").unwrap_err();
     let excerpt = error.excerpt.as_ref().unwrap();
@@ -130,7 +130,7 @@ fn common_materials_need_no_description() {
     let scenario = Scenario::from_str(&bare, "a.json", "").unwrap();
     let moduli: Vec<(&str, f64)> = scenario.materials().collect();
     assert_eq!(moduli, [("ruby", 400e9), ("steel", 210e9)]);
-    // Results name the numbers.
+    // Results contain the numbers.
     let resolved: Value = serde_json::from_str(&scenario.resolved()).unwrap();
     assert_eq!(resolved["materials"]["ruby"]["poisson_ratio"], 0.23);
     assert!(scenario.warnings.is_empty(), "{:?}", scenario.warnings);
@@ -138,7 +138,7 @@ fn common_materials_need_no_description() {
         let text = bare.replace("\"ruby\", \"steel\"", &format!("\"{0}\", \"{0}\"", material.name));
         assert!(Scenario::from_str(&text, "a.json", "").is_ok(), "{}", material.name);
     }
-    // What the file describes is what counts, and what is nearly its name is a slip.
+    // A material described in the file takes precedence; a similar name is reported as misspelt.
     let own = Scenario::from_str(&text, "a.json", "").unwrap();
     assert_eq!(
         serde_json::from_str::<Value>(&own.resolved()).unwrap()["materials"]["ruby"]["poisson_ratio"],
@@ -155,7 +155,7 @@ fn common_materials_need_no_description() {
     assert!(told.contains("did you mean \"ruby\"?"), "{told}");
 }
 
-/// A name of the table is taken as it stands, whatever else is described or was taken.
+/// A name of the table is accepted, whatever other materials are described or used.
 #[test]
 fn a_name_of_the_table_is_no_slip_for_a_neighbour() {
     let with_pair = |pair: &str, ruby: &str| {
@@ -184,7 +184,7 @@ fn keys_that_stand_beside_each_other_are_not_switched() {
     assert_eq!(root["output"]["window"]["from"], 0.05);
 }
 
-/// An override that cannot be put anywhere keeps nothing else back.
+/// An override with an invalid path does not suppress other errors.
 #[test]
 fn a_bad_override_hides_nothing() {
     let told = |set: &[(&str, &str)]| {

@@ -1,13 +1,13 @@
-//! Files of strangers: what is too much is refused before it costs time or memory.
+//! Untrusted files: too large ones are refused before they cost time or memory.
 //!
-//! Rows, springs and curves of a run, its steps, events and wall time are the program's to watch.
+//! The program itself limits rows, springs, curves, steps, events and wall time of a run.
 
 use std::fmt::Write;
 use std::path::Path;
 use std::time::{Duration, Instant};
 use stickslip_scenario::{Scenario, ScenarioError};
 
-/// A scenario of a free body and what is given beside it.
+/// Loads a scenario of a free body and the given parts.
 fn load(rest: &str, base: &Path) -> Result<(), ScenarioError> {
     let text = format!(
         r#"{{ "stickslip": 1, "materials": {{ "m": {{ "youngs_modulus": 1e9, "poisson_ratio": 0.3 }} }},
@@ -15,7 +15,7 @@ fn load(rest: &str, base: &Path) -> Result<(), ScenarioError> {
     );
     let begun = Instant::now();
     let result = Scenario::from_str(&text, "s.json", base).map(drop);
-    // Seconds of a slow machine; without the limits these would be minutes, hours, or all memory.
+    // A slow machine needs seconds; without the limits these cases would take minutes, hours, or all memory.
     assert!(begun.elapsed() < Duration::from_secs(20), "{:?}", begun.elapsed());
     result
 }
@@ -26,7 +26,7 @@ fn refused(rest: &str, path: &str, message: &str) {
     assert!(error.excerpt.is_some());
 }
 
-/// `part` repeated, with numbers for `#`.
+/// Repeats `part` and replaces `#` by numbers.
 fn many(count: usize, part: &str) -> String {
     let mut text = String::new();
     for i in 0..count {
@@ -117,7 +117,7 @@ fn endless_names_are_not_compared() {
     assert!(error.to_string().len() < 1000 && error.message.starts_with("the file has no column \"bbbb"));
 }
 
-/// Each of the names that nobody describes was once compared with each that somebody does, at every reading.
+/// Many unknown material names must not be compared with many described ones at every reading.
 #[test]
 fn many_materials_that_nobody_describes_are_not_compared() {
     let mut root: serde_json::Value =

@@ -1,4 +1,4 @@
-//! Good scenarios: what they mean, what they resolve to, what overrides do to them.
+//! Valid scenarios: their meaning, their resolved form, and overrides.
 
 use proptest::prelude::*;
 use std::fs;
@@ -15,10 +15,10 @@ use stickslip_scenario::{PlotName, Scenario};
 
 const QUICKSTART: &str = "../../scenarios/quickstart.json";
 
-/// A scenario that uses every part of the form.
+/// Scenario with every key.
 const FULL: &str = include_str!("../good/full.json");
 
-/// A scenario that uses every part of the form that bodies in the plane have beyond those on a line.
+/// Scenario with every key that only bodies in the plane have.
 const PLANAR: &str = include_str!("../good/planar.json");
 
 fn full() -> Scenario {
@@ -34,7 +34,7 @@ fn waveforms() -> Scenario {
     Scenario::from_str(text, "waveforms.json", "tests/good").unwrap_or_else(|error| panic!("{error}"))
 }
 
-/// A waveform of that file by its name.
+/// Returns a waveform of that file.
 fn wave(name: &str) -> Waveform {
     let scenario = waveforms();
     let found = scenario.scene.waveforms.into_iter().find(|waveform| waveform.name == name);
@@ -45,7 +45,7 @@ fn is(name: &str, shape: Shape, timing: Timing) {
     assert_eq!(wave(name), Waveform::new(shape, timing).unwrap(), "{name}");
 }
 
-/// Every kind of waveform beside those of `full.json`, with all keys that it may have, in SI.
+/// All kinds of waveforms that are not in `full.json`, with all their keys, in SI.
 #[test]
 fn every_waveform_means_what_its_keys_say() {
     let every = Timing::every;
@@ -100,7 +100,7 @@ fn tables_are_scaled_joined_and_repeated() {
     let expected: Vec<(f64, f64)> = points.iter().map(|(t, v)| (*t, -2.0 * v + 1e-6)).collect();
     assert_eq!(scaled, expected);
     assert_eq!(scenario.plots, [PlotName::Waveform]);
-    // What it resolves to is the same again.
+    // The resolved scenario has the same waveforms.
     let again = Scenario::from_str(&scenario.resolved(), "resolved.json", "").unwrap();
     assert_eq!(again.scene.waveforms, scenario.scene.waveforms);
 }
@@ -151,7 +151,7 @@ fn every_part_of_the_form_arrives() {
     );
     assert_eq!(scene.springs[0].part.stiffness, 2e6);
     assert_eq!(scene.actuators[0].part.stiffness, 2e7);
-    // Named waveforms come first, those written out in place after them under the path of their place.
+    // Named waveforms come first, then inline ones under their paths.
     let names: Vec<_> = scene.waveforms.iter().map(|waveform| waveform.name.as_str()).collect();
     assert_eq!(names[..9], ["saw", "tri", "sin", "har", "cyc", "tab", "csv", "inp", "gen"]);
     assert_eq!(
@@ -209,7 +209,7 @@ fn inputs_arrive_held_unless_they_say_otherwise() {
     };
     assert_eq!(*named("inp"), input(0.7e-3, (-2e-3, 0.1), Interpolation::Held));
     assert_eq!(*named("loads[3].x.follows"), input(0.0, (-3.0, 0.3), Interpolation::Linear));
-    // Written out in full: in SI, with the default.
+    // Resolved: in SI, with the default.
     let resolved: serde_json::Value = serde_json::from_str(&scenario.resolved()).unwrap();
     let written = serde_json::json!({ "initial": 0.7e-3, "range": [-2e-3, 0.1], "interpolation": "held" });
     assert_eq!(resolved["waveforms"]["inp"]["input"], written);
@@ -237,7 +237,7 @@ fn generators_arrive_with_what_may_be_commanded() {
     assert_eq!(resolved["waveforms"]["gen"]["generator"], written);
 }
 
-/// A drive by a generator is the drive by the sawtooth of its numbers, and of its cycles; one at rest has no steps.
+/// A drive by a generator has the plan of the drive by the corresponding sawtooth. A generator at rest has no steps.
 #[test]
 fn a_generated_drive_is_planned_as_the_sawtooth_is() {
     let load = |drive: &str, run: &str| {
@@ -264,7 +264,7 @@ fn a_generated_drive_is_planned_as_the_sawtooth_is() {
     model.start(&idle.plan).unwrap_or_else(|error| panic!("{error}"));
 }
 
-/// The only waveform of a drive may have no period: it is no waveform of the figures unless it is named there.
+/// A waveform without a period is not the evaluated waveform unless `figures` names it.
 #[test]
 fn a_drive_by_an_input_loads_as_one_by_a_table_does() {
     let load = |drive: &str| {
@@ -283,7 +283,7 @@ fn a_drive_by_an_input_loads_as_one_by_a_table_does() {
 fn a_resolved_scenario_means_the_same_to_the_last_bit() {
     for scenario in [Scenario::load(QUICKSTART).unwrap(), full(), planar()] {
         let text = scenario.resolved();
-        // No folder: nothing is read from files any more.
+        // Without a folder, no files are read.
         let again = Scenario::from_str(&text, "resolved", "/nowhere")
             .unwrap_or_else(|error| panic!("{error}\n{text}"));
         assert_eq!(again.scene, scenario.scene);
@@ -347,7 +347,7 @@ fn a_bad_override_is_blamed_itself() {
     assert_eq!(
         refused(&[("contacts.bal.friction", "0.3")]),
         "\
---set contacts.bal.friction=0.3  contacts.bal: there is nothing under this path
+--set contacts.bal.friction=0.3  contacts.bal: the scenario has no value at this path
       | contacts.bal.friction=0.3
         ^^^^^^^^^^^^^^^^^^^^^
    help: did you mean \"ball\"?"
@@ -418,7 +418,7 @@ fn files_are_found_below_the_folder_only() {
     assert!(load("none.csv", &inner).unwrap_err().contains("there is no file"));
     assert!(load(".", &inner).unwrap_err().contains("is not a file"));
     assert_eq!(load("word.csv", &inner).unwrap_err(), "expected a number, got \"far\"");
-    // Whether there is a file outside is not told.
+    // The error does not reveal whether a file outside exists.
     for outside in ["../outside.csv", "../missing.csv", "/etc/passwd", "/etc/missing", "../../missing/x.csv"]
     {
         let told = load(outside, &inner).unwrap_err();
@@ -451,7 +451,7 @@ fn files_that_are_no_scenarios_are_refused_whole() {
     assert!(Scenario::load(&path).unwrap_err().to_string().contains("at most 4194304 bytes"));
     fs::write(&path, "[".repeat(4 << 20)).unwrap();
     assert!(Scenario::load(&path).unwrap_err().to_string().contains("nested more than 64 deep"));
-    // A byte order mark is the habit of some editors; Windows ends lines with two characters.
+    // Some editors write a byte order mark; Windows ends lines with two characters.
     let text = fs::read_to_string(QUICKSTART).unwrap().replace('\n', "\r\n");
     fs::write(&path, format!("\u{feff}{text}")).unwrap();
     assert!(Scenario::load(&path).is_ok());
@@ -473,12 +473,12 @@ fn markers_count_characters_not_bytes() {
 proptest! {
     #![proptest_config(ProptestConfig { cases: 4000, failure_persistence: None, ..ProptestConfig::default() })]
 
-    /// A scenario with every value replaced by every other kind of value.
+    /// Replaces every value of a scenario by every other kind of value.
     #[test]
     fn an_override_of_anything_never_panics(path in path(), value in value()) {
         for text in [FULL, PLANAR] {
             let scenario = Scenario::from_str_with(text, "good.json", "tests/good", &[(&path, &value)]);
-            // What passes as a scenario is a model, or a refusal that points into the file.
+            // An accepted scenario gives a model, or an error with a position in the file.
             let Ok(scenario) = scenario else { continue };
             let model = Model::new(&scenario.scene).and_then(|model| model.start(&scenario.plan));
             if let Err(error) = model {
@@ -563,7 +563,7 @@ fn value() -> impl Strategy<Value = String> {
     value.prop_map(str::to_owned)
 }
 
-/// Today's data loggers write micrometres and say so; 1.3 m of motion were taken without a word.
+/// Units in column headers must be applied: 1.3 µm must not become 1.3 m.
 #[test]
 fn units_in_the_heads_of_a_table_are_read() {
     let folder = tempfile::tempdir().unwrap();
@@ -594,11 +594,11 @@ fn units_in_the_heads_of_a_table_are_read() {
         let (time, value) = head.split_once(',').unwrap();
         assert_eq!(points(head, time, value), si, "{head}");
     }
-    // A column that goes by its whole head is meant before one that goes by a part of it.
+    // A full header takes precedence over a name without a unit.
     assert_eq!(points("t [ms],t", "t [ms]", "t")[1], (10e-3, 1.3));
 }
 
-/// A column in volts is a voltage that a stack may follow: times its stroke per volt, 4.6 µm/120 V. A body cannot.
+/// A column in volts is a voltage that a stack may follow, here with 4.6 µm/120 V. A body cannot follow it.
 #[test]
 fn a_column_of_volts_is_a_voltage() {
     let folder = tempfile::tempdir().unwrap();
@@ -619,8 +619,7 @@ fn a_column_of_volts_is_a_voltage() {
     assert!(moved != text && Scenario::from_str(&moved, "moved.json", base).is_err());
 }
 
-/// Of a body that one link alone acts on, in equilibrium with nothing, rounding of what stands at the link's other end is all that
-/// acts: radii at which that was taken for no equilibrium, and some beside them.
+/// An equilibrium in which only rounding errors act on a body must be found, for a range of radii.
 #[test]
 fn an_equilibrium_is_not_refused_for_rounding() {
     let beside = (0..40).map(|k| 2e-3 * (1.0 + f64::from(k) * 2.75e-6));
@@ -634,7 +633,8 @@ fn an_equilibrium_is_not_refused_for_rounding() {
     }
 }
 
-/// One motion of a scope, of a logger and in plain form is the same motion: units in the second head line, semicolons and decimal commas, a recipe in a file.
+/// Tables of an oscilloscope, of a logger and in plain form give the same motion. The tables have units in the second header line,
+/// semicolons and decimal commas, and a recipe in a file.
 #[test]
 fn tables_of_instruments_are_the_plain_ones() {
     let folder = tempfile::tempdir().unwrap();
@@ -665,7 +665,7 @@ fn tables_of_instruments_are_the_plain_ones() {
     }
     let gone = read(r#"{ "file": "bare.dat", "recipe": "gone.json" }"#).unwrap_err().to_string();
     assert!(gone.contains("there is no file \"gone.json\""), "{gone}");
-    // Of evenly spaced values a parabola through a window is that of Savitzky and Golay 1964: (-3, 12, 17, 12, -3)/35.
+    // For equidistant values, the parabola through a window is that of Savitzky and Golay 1964: (-3, 12, 17, 12, -3)/35.
     let points = "[[0, 0], [1, 1], [2, 5], [3, 2], [4, 0]]";
     let smooth: serde_json::Value =
         serde_json::from_str(&read(&format!(r#"{{ "points": {points}, "smooth": 4 }}"#)).unwrap()).unwrap();

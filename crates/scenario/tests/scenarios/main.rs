@@ -1,6 +1,6 @@
-//! Scenario files: what good ones mean, what is told of bad and odd ones, and that no file hangs or overturns the reader.
+//! Scenario files: meaning of valid ones, errors and warnings, and robustness of the reader against any file.
 //!
-//! One binary, linked once; every module is a subject. The files lie in `good`, `bad` and `odd` beside it.
+//! All tests are in one binary, which is linked once. The files are in `good`, `bad` and `odd`.
 
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 

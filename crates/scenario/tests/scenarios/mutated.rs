@@ -1,7 +1,6 @@
-//! Files mutated from the examples: whatever is done to a file, the answer comes at once, and is a scenario or an error
-//! with a place in it.
+//! Random mutations of the examples. For every file, the reader must return a scenario or an error with a position, within a second.
 //!
-//! The gate runs a part; `STICKSLIP_CASES=100000 cargo test -p stickslip-scenario --test scenarios mutated` runs them all.
+//! The usual test run checks some cases; `STICKSLIP_CASES=100000 cargo test -p stickslip-scenario --test scenarios mutated` runs all.
 
 use proptest::prelude::*;
 use proptest::sample::Index;
@@ -12,10 +11,10 @@ use std::time::{Duration, Instant};
 use stickslip_drive::Model;
 use stickslip_scenario::{Scenario, ScenarioError, schema};
 
-/// Longest time a file may take, from its text to the state at t = 0.
+/// Maximum time for a file, from its text to the state at t = 0.
 const HANG: Duration = Duration::from_secs(1);
 
-/// Texts put into files.
+/// Texts inserted into files.
 const PIECES: [&str; 34] = [
     "{",
     "}",
@@ -53,14 +52,14 @@ const PIECES: [&str; 34] = [
     "// ",
 ];
 
-/// One change of a text.
+/// Mutation of a text.
 #[derive(Debug, Clone)]
 enum Edit {
     Remove(Index, usize),
     Insert(Index, String),
     Replace(Index, usize, String),
     Repeat(Index, usize),
-    /// A value or key of the tree by another one, or none.
+    /// Replaces or removes a value or key of the tree.
     Swap(Index, Index),
     Drop(Index),
     Piece(Index, Index),
@@ -85,7 +84,7 @@ fn edit() -> impl Strategy<Value = Edit> {
     ]
 }
 
-/// Every value of a tree by its JSON pointer.
+/// Collects all values of a tree by JSON pointer.
 fn pointers(value: &Value, here: &str, found: &mut Vec<String>) {
     let inner: Vec<(String, &Value)> = match value {
         Value::Object(entries) => {
@@ -103,7 +102,7 @@ fn pointers(value: &Value, here: &str, found: &mut Vec<String>) {
     }
 }
 
-/// A change of a tree, where the text still is one.
+/// Applies a mutation to the tree, if the text is JSON.
 fn in_tree(text: &str, edit: &Edit) -> Option<String> {
     let mut tree: Value = serde_json::from_str(text).ok()?;
     let mut places = Vec::new();
@@ -153,7 +152,7 @@ fn in_text(text: &str, edit: &Edit) -> String {
     chars.into_iter().collect()
 }
 
-/// What the program does with a file before it runs it.
+/// Executes all steps of the program before a run.
 fn answer(text: &str) -> Result<Scenario, ScenarioError> {
     let scenario = Scenario::from_str(text, "mutated.json", "tests/good")?;
     Model::new(&scenario.scene)
@@ -166,7 +165,7 @@ fn check(text: &str, validator: &jsonschema::Validator) -> Result<(), TestCaseEr
     let mut begun = Instant::now();
     let mut answered = answer(text);
     if begun.elapsed() > HANG {
-        // The machine may have been busy with something else.
+        // Repeats, because the machine may have been busy.
         begun = Instant::now();
         answered = answer(text);
         prop_assert!(begun.elapsed() < HANG, "took {:?}", begun.elapsed());
@@ -176,10 +175,10 @@ fn check(text: &str, validator: &jsonschema::Validator) -> Result<(), TestCaseEr
             let again = Scenario::from_str(&scenario.resolved(), "again.json", "/nowhere");
             prop_assert!(again.is_ok(), "{}", again.unwrap_err());
             let resolved = scenario.resolved();
-            // Blocks are equal only if they are the same: what they hold is compared by its words.
+            // Blocks are equal only if identical, so their debug texts are compared.
             prop_assert_eq!(format!("{:?}", again.unwrap().scene), format!("{:?}", scenario.scene));
             let bare = text.trim_start_matches('\u{feff}');
-            // With comments it is for editors to read.
+            // A text with comments is not strict JSON.
             let value =
                 serde_json::from_str(bare).unwrap_or_else(|_| serde_json::from_str(&resolved).unwrap());
             prop_assert!(

@@ -1,7 +1,7 @@
-//! Odd scenarios: `tests/odd/NAME.json` is taken and warned of with the words of `tests/odd/NAME.txt`.
+//! Scenarios with warnings. The warnings of `tests/odd/NAME.json` must be the text of `tests/odd/NAME.txt`.
 //!
-//! A new case: write the JSON, run `STICKSLIP_WRITE=1 cargo test -p stickslip-scenario --test scenarios odd`, and
-//! read what it wrote.
+//! For a new case, write the JSON file, run `STICKSLIP_WRITE=1 cargo test -p stickslip-scenario --test scenarios odd`, and read the text
+//! that it writes.
 
 use std::fmt::Write;
 use std::fs;
@@ -40,7 +40,7 @@ fn the_examples_are_not_odd() {
     for path in files("../../scenarios") {
         let scenario = load(&path);
         assert_eq!(scenario.warnings, [], "{}", path.display());
-        // What is resolved says everything out loud, and is no odder for it.
+        // The resolved scenario contains all defaults and has no warnings about its wording.
         let again = Scenario::from_str(&scenario.resolved(), "resolved", "").unwrap();
         assert_eq!(again.warnings, [], "{}", path.display());
     }
@@ -55,7 +55,7 @@ fn a_body_held_on_purpose_is_not_odd() {
     assert_eq!(masses(&with("fixed")), 0);
 }
 
-/// Every warning shows its line; a file of thousands must not take minutes over it.
+/// Each warning contains its line, so the number of warnings is limited; otherwise a large file would take minutes.
 #[test]
 fn a_file_full_of_oddities_is_told_of_the_first() {
     let mut text = String::from("{ \"stickslip\": 1, \"run\": { \"duration\": 1 }, \"materials\": {\n");

@@ -1,4 +1,4 @@
-//! What a scenario asks to be written of the insides of its contacts, and what it means without saying more.
+//! Output of the inner state of contacts, and default output.
 
 use stickslip_drive::Moments;
 use stickslip_scenario::Scenario;
@@ -8,7 +8,7 @@ const FRETTING: &str = "../../scenarios/fretting_sphere.json";
 
 fn with(file: &str, overrides: &[(&str, &str)]) -> Scenario {
     let scenario = Scenario::load_with(file, overrides).unwrap_or_else(|error| panic!("{error}"));
-    // Read back, the resolved scenario asks for the same.
+    // The resolved scenario has the same output.
     let again = Scenario::from_str(&scenario.resolved(), "resolved", "").unwrap();
     assert_eq!((&again.springs, &again.memory), (&scenario.springs, &scenario.memory));
     scenario
@@ -56,12 +56,12 @@ fn curves_are_written_over_the_last_period_by_default() {
         }
         assert_eq!(times(&scenario).last(), Some(&0.1), "the end is the end");
     }
-    // Five waveforms of one period, none of which is named: the slowest.
+    // Five waveforms with periods, none of them named: the slowest counts.
     let unasked = ("output", "{}");
     assert!((times(&with(FRETTING, &[unasked, plot]))[0] - (2.0 + 1.0 / 6.0)).abs() < 1e-15);
     let slower = ("waveforms.sine 200.sine.period", "2 s");
     assert!((times(&with(FRETTING, &[unasked, plot, slower]))[0] - 4.0 / 3.0).abs() < 1e-15);
-    // A run shorter than a period is shown whole.
+    // In a run shorter than a period, the samples cover the run.
     assert!((times(&with(QUICKSTART, &[plot, ("run.duration", "6 ms")]))[0] - 1e-3).abs() < 1e-18);
 }
 

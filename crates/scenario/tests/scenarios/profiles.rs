@@ -1,11 +1,11 @@
-//! Profiles of the form, written out and in files: what comes out is the profile that the contact crate makes of the same numbers.
+//! Profiles in scenarios and in files: they must equal those of the contact crate for the same numbers.
 
 use std::fs;
 use std::path::Path;
 use stickslip_contact::{Profile, SelfAffine};
 use stickslip_scenario::Scenario;
 
-/// A scenario with one contact of a profile, in a folder.
+/// Loads a scenario with one contact of a profile, in a folder.
 fn load(profile: &str, folder: &Path) -> Scenario {
     let text = format!(
         r#"{{ "stickslip": 1, "materials": {{ "m": {{ "youngs_modulus": "210 GPa", "poisson_ratio": 0.3 }} }},
@@ -22,7 +22,7 @@ fn profile(scenario: &Scenario) -> &Profile {
     scenario.scene.contacts[0].part.interface.profile()
 }
 
-/// Loaded, it is this profile, also after it is written out in full and read again.
+/// Checks that a scenario has this profile, also after it is resolved and read again.
 #[track_caller]
 fn is(text: &str, folder: &Path, want: &Profile, word: &str) {
     let scenario = load(text, folder);
@@ -88,7 +88,7 @@ fn points_and_lines_are_read_from_files_in_their_units() {
     write("law.csv", "d (nm),F (mN)\n0,0\n5,1\n10,3\n");
     let file = r#"{ "normal_law": { "file": "law.csv", "indentation": "d", "force": "F" } }"#;
     let scenario = load(file, folder.path());
-    // The points are those of the force itself, whatever E*.
+    // The points are forces, independent of E*.
     let law = &scenario.scene.contacts[0].part.interface;
     for (d, force) in [(5e-9, 1e-3), (10e-9, 3e-3)] {
         assert!((law.normal_force(d) / force - 1.0).abs() < 1e-13);
@@ -114,7 +114,8 @@ fn a_line_made_by_numbers_keeps_its_recipe() {
     assert!(load(text, Path::new("")).resolved().contains("self_affine"));
 }
 
-/// A line of a profilometer with a preamble, tabs and decimal commas, 1 % askew: its places tell the spacing, its tilt goes by `level`, and `within` takes a part.
+/// Line of a profilometer with a preamble, tabs, decimal commas and a tilt of 1 %. The positions give the spacing, `level` removes the
+/// tilt, and `within` crops it.
 #[test]
 fn lines_of_instruments_are_read_and_levelled() {
     let folder = tempfile::tempdir().unwrap();
@@ -136,7 +137,7 @@ fn lines_of_instruments_are_read_and_levelled() {
     let (spacing, plain) = heights("");
     assert!((spacing - 0.2e-6).abs() < 1e-15 && (plain[3] - 1e-9 * (11.0 + wave(3))).abs() < 1e-14);
     let (_, level) = heights(r#", "level": "line""#);
-    // Least squares leave neither a mean nor a first moment.
+    // A least-squares fit leaves neither a mean nor a first moment.
     let moment: f64 = level.iter().enumerate().map(|(k, height)| k as f64 * height).sum();
     assert!(level.iter().sum::<f64>().abs() < 1e-20 && moment.abs() < 1e-18);
     assert!((level[40] - level[37] - 1e-9 * (wave(40) - wave(37))).abs() < 0.3e-9);

@@ -1,7 +1,6 @@
-//! The schema: generated from the form's types, equal to the copy in `schema/`, and true of good scenarios.
+//! The schema is generated from the types of the keys. It must equal the copy in `schema/` and accept all valid scenarios.
 //!
-//! After a change of the form: run `STICKSLIP_WRITE=1 cargo test -p stickslip-scenario --test scenarios schema`, and read the
-//! difference.
+//! After a change of the keys, run `STICKSLIP_WRITE=1 cargo test -p stickslip-scenario --test scenarios schema`, and read the difference.
 
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
@@ -30,7 +29,7 @@ fn the_copy_is_the_schema_of_the_types() {
     assert_eq!(fs::read_to_string(STUDIES).unwrap(), study_schema());
 }
 
-/// The study file of the docs, and one with every kind of variation.
+/// Study file of the documentation, and one with every kind of variation.
 #[test]
 fn good_studies_are_valid() {
     let schema: Value = serde_json::from_str(&study_schema()).unwrap();
@@ -128,14 +127,14 @@ fn what_the_loader_refuses_by_form_the_schema_refuses() {
     assert!(!validator.is_valid(&scenario), "keys of later versions are marked in an editor");
 }
 
-/// A key of the schema: its name, what is said about it, whether it must be there.
+/// Key of the schema: its name, its schema, and whether it is required.
 struct Key<'a> {
     name: &'a str,
     schema: &'a Value,
     is_required: bool,
 }
 
-/// All keys that the schema describes; conditions such as "this or that" are none.
+/// Collects all keys that the schema describes, without conditions.
 fn keys<'a>(schema: &'a Value, found: &mut Vec<Key<'a>>) {
     let Value::Object(entries) = schema else { return };
     let required = entries.get("required").and_then(Value::as_array);
@@ -150,7 +149,7 @@ fn keys<'a>(schema: &'a Value, found: &mut Vec<Key<'a>>) {
     kinds.filter(|kind| kind.get("type").is_some()).for_each(|kind| keys(kind, found));
 }
 
-/// The unit of a quantity: what the description of its type says a bare number is in.
+/// Returns the unit in the description of a quantity.
 fn unit<'a>(root: &'a Value, schema: &Value) -> Option<&'a str> {
     let named = root.pointer(schema["$ref"].as_str()?.strip_prefix('#')?)?;
     let described = named["description"].as_str().unwrap_or("");
@@ -201,13 +200,13 @@ fn what_an_editor_offers_for_an_empty_file_runs() {
     assert!(validator().is_valid(&serde_json::from_str(&body).unwrap()));
 }
 
-/// What a schema cannot tell: names of other parts, relations between values, quantities beyond the largest or smallest
-/// number, other files, what only the equations say, and duplicate keys, which are gone when a schema looks.
+/// Reasons why a schema cannot detect an error: names of other parts, relations between values, largest and smallest numbers, other
+/// files, the model, duplicate keys.
 const REASONS: [&str; 6] = ["name", "relation", "number", "file", "model", "duplicate"];
 
 const MISSES: &str = "tests/schema_misses.txt";
 
-/// An editor marks every bad scenario but those in `tests/schema_misses.txt`, each listed there with the reason.
+/// The schema refuses every invalid scenario except those in `tests/schema_misses.txt`, each listed with the reason.
 #[test]
 fn the_schema_catches_what_a_schema_can() {
     let validator = validator();
@@ -243,10 +242,9 @@ fn the_schema_catches_what_a_schema_can() {
     for (name, reason) in &missed {
         assert!(REASONS.contains(&reason.as_str()), "{name}: {reason}");
         let told = fs::read_to_string(format!("tests/bad/{name}.txt")).unwrap();
-        assert_eq!(told.contains("stands here twice"), reason == "duplicate", "{name}");
+        assert_eq!(told.contains("occurs twice"), reason == "duplicate", "{name}");
     }
     let written = fs::read_to_string(MISSES).unwrap();
     assert_eq!(written, format!("{count}\n{}\n", lines.join("\n")));
-    // What passes the schema is wrong in its meaning alone.
     assert!(missed.values().filter(|reason| *reason != "duplicate").count() >= 25);
 }

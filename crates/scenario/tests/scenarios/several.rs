@@ -1,7 +1,7 @@
-//! Several things wrong with one scenario: all of them are told, and nothing that is a consequence of them.
+//! Several errors in one scenario: all of them must be reported, without follow-on errors.
 //!
-//! What is wrong comes from the bad scenarios: each is a good one with an edit. Edits at places apart are put together, and
-//! what is told must be what is told of each by itself. The gate takes a part; `STICKSLIP_CASES=100000` takes that many.
+//! The errors come from the invalid scenarios, each of which is a valid one with an edit. Independent edits are combined, and the reports
+//! must be those of each edit by itself. The usual test run checks some cases; `STICKSLIP_CASES=100000` checks that many.
 
 use serde_json::Value;
 use std::collections::BTreeSet;
@@ -9,7 +9,7 @@ use std::fs;
 use stickslip_drive::Model;
 use stickslip_scenario::{Scenario, ScenarioError};
 
-/// What is wrong with a text before its run starts.
+/// Returns the error of a text before its run starts.
 fn refusal(text: &str) -> Option<ScenarioError> {
     let scenario = match Scenario::from_str(text, "several.json", "tests/bad") {
         Ok(scenario) => scenario,
@@ -19,25 +19,25 @@ fn refusal(text: &str) -> Option<ScenarioError> {
     started.err().map(|error| scenario.refusal(&error))
 }
 
-/// What is told, without places.
+/// Returns the reported errors without positions.
 fn told(text: &str) -> BTreeSet<String> {
     let error = refusal(text);
     let reports = error.iter().flat_map(|error| error.reports());
     reports.map(|report| format!("{}: {}", report.path, report.message)).collect()
 }
 
-/// Cases that are judged by other places than their own: where these are wrong, too, they are told when those are right.
+/// Cases whose check depends on other paths. An error there may suppress theirs.
 const JUDGED_BY: &[(&[&str], &[&str])] = &[
-    // The whole scene.
+    // The whole model.
     (&["no_equilibrium"], &[""]),
-    // What a contact comes to.
+    // Contacts.
     (&["row_too_narrow", "sphere_beyond_equator"], &["contacts.ball", "materials", "bodies", "waveforms"]),
     (&["start_force_slips", "radius_falls"], &["contacts.ball"]),
     (&["memory_of_row", "memory_plot_of_row"], &["contacts"]),
     (&["fields_at_beyond", "fields_extent", "fields_every", "fields_radii"], &["contacts.ball.profile"]),
-    // How far a stack goes is what its waveform says.
+    // The waveform of a stack.
     (&["hysteresis_without_stroke"], &["waveforms"]),
-    // Who moves and what acts.
+    // Moving bodies and what acts on them.
     (&["nothing_acts_on_body"], &["bodies.slider", "actuators", "contacts", "gravity", "loads", "springs"]),
     (&["loop_without_contact", "state_without_contact"], &["bodies", "plots", "loads"]),
     (&["mass_missing", "inertia_missing", "position_in_equilibrium"], &["bodies.slider", "contacts"]),
@@ -46,7 +46,7 @@ const JUDGED_BY: &[(&[&str], &[&str])] = &[
     (&["figures_", "until_steady"], &["bodies", "waveforms", "figures"]),
     (&["unknown_material"], &["materials"]),
     (&["unknown_body", "load_on_ground", "contact_with_itself", "point_on_another_body"], &["bodies"]),
-    // A waveform: what it follows from, and who follows it.
+    // A waveform and the parts that follow it.
     (
         &["waveform_of_wrong_dimension", "input_of_wrong", "table_unit_of_a_force"],
         &["waveforms", "bodies.foot"],
@@ -56,37 +56,37 @@ const JUDGED_BY: &[(&[&str], &[&str])] = &[
         &["waveforms", "bodies", "actuators", "contacts.ball.between", "figures", "loads"],
     ),
     (&["too_steep", "flyback_too_long"], &["waveforms"]),
-    // How long the run is.
+    // The duration of the run.
     (
         &["fields_at", "memory_at", "springs_every", "step_longer", "frame_longer", "own_plot_after"],
         &["run.duration", "run.cycles"],
     ),
 ];
 
-/// Cases that make another mistake of what another one says of these places: contacts that are gone cannot be looked into.
+/// Pairs of cases whose combination is another error, such as an output of contacts without contacts.
 const MEDDLING: &[(&[&str], &[&str])] = &[
     (&["loop_without_contact", "state_without_contact"], &["contacts", "output", "plots"]),
     (&["row_too_narrow", "row_springs", "springs_count", "engine"], &["output.memory", "plots"]),
     (&["memory_of_row", "memory_plot_of_row"], &["output.memory", "plots"]),
     (&["duration_and_cycles", "duration_missing"], &["run.duration", "run.cycles"]),
     (&["body_is_ground"], &["springs", "loads", "actuators"]),
-    // A force where a length is followed, by one more; a key that is given elsewhere, or at last.
+    // Another dimension of a waveform, or a key that another edit adds.
     (&["input_of_wrong", "table_unit_of_a_force"], &["actuators"]),
     (&["period_missing", "period_and_frequency"], &["waveforms.drive"]),
     (&["friction_missing", "friction_in_material"], &["contacts.ball.friction", "materials"]),
 ];
 
-/// A value at a place, or none.
+/// Value at a path, or its removal.
 type Edit = (Vec<String>, Option<Value>);
 
-/// A bad scenario as edits of the good one.
+/// Invalid scenario as edits of a valid one.
 struct Case {
     name: String,
     edits: Vec<Edit>,
     told: BTreeSet<String>,
 }
 
-/// Where two trees differ.
+/// Collects the differences of two trees.
 fn difference(good: &Value, bad: &Value, here: &[String], found: &mut Vec<Edit>) {
     if good == bad {
         return;
@@ -124,7 +124,7 @@ fn lies_in(a: &[String], b: &[String]) -> bool {
     a.len() >= b.len() && a[..b.len()] == *b
 }
 
-/// Whether no edit of one lies where one of the other does; several kinds in one place are another mistake.
+/// Returns whether no edit of one case contains one of the other. Two variants of one value also count as related.
 fn apart(a: &Case, b: &Case) -> bool {
     let kind = |path: &[String]| {
         let parent = &path[..path.len() - 1];
@@ -142,7 +142,7 @@ fn apart(a: &Case, b: &Case) -> bool {
     })
 }
 
-/// Whether a case is judged by what another one edits, as a table says.
+/// Returns whether a case depends on the edits of another one, according to a table.
 fn meets(table: &[(&[&str], &[&str])], case: &Case, other: &Case) -> bool {
     let places = table.iter().filter(|(names, _)| names.iter().any(|name| case.name.starts_with(name)));
     let mut places = places.flat_map(|(_, places)| places.iter());
@@ -167,7 +167,7 @@ fn cases(good: &Value) -> Vec<Case> {
         let is_edit = bad.is_object() && (1..=2).contains(&case.edits.len());
         if is_edit && case.edits.iter().all(|(path, _)| path[0] != "title" && path[0] != "stickslip") {
             let told = told(&edited(good, [&case]));
-            // What the tree no longer has is no case: a key that stands there twice.
+            // Duplicate keys do not exist in the tree and give no case.
             if !told.is_empty() {
                 cases.push(Case { told, ..case });
             }
@@ -182,7 +182,7 @@ fn what_is_wrong_apart_is_told_together() {
     let cases = cases(&good);
     assert!(cases.len() > 150, "only {} cases", cases.len());
     let count = std::env::var("STICKSLIP_CASES").map_or(1500, |count| count.parse().unwrap());
-    // Knuth's multiplicative generator, MMIX: which cases meet is a matter of a seed.
+    // Knuth's multiplicative generator, MMIX; the seed selects the combinations.
     let mut seed = 17_u64;
     let mut next = |below: usize| {
         seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
@@ -219,7 +219,7 @@ fn what_is_wrong_apart_is_told_together() {
     assert!(wrong.is_empty(), "{} of {met}\n{}", wrong.len(), wrong.join("\n"));
 }
 
-/// The mistakes of a first afternoon, one on each of twelve lines.
+/// Twelve common errors, one on each of twelve lines.
 #[test]
 fn twelve_mistakes_are_told_as_twelve() {
     let good = fs::read_to_string("tests/good/several.json").unwrap();
@@ -263,15 +263,18 @@ fn of_thirty_mistakes_the_first_twenty_are_told_and_that_there_are_more() {
     let paths: Vec<&str> = error.reports().map(|report| report.path.as_str()).collect();
     let first: Vec<String> = (0..20).map(|i| format!("loads[{i}].x")).collect();
     assert_eq!(paths, first, "{error}");
-    assert!(error.has_more() && error.to_string().ends_with("\n\nand more: these are 20"), "{error}");
+    assert!(
+        error.has_more() && error.to_string().ends_with("\n\nand more faults: the first are 20"),
+        "{error}"
+    );
 }
 
-/// One mistake is told once, whatever it brings about.
+/// One error is reported once, without follow-on errors.
 #[test]
 fn consequences_are_not_told() {
     let good = fs::read_to_string("tests/good/several.json").unwrap();
     for (right, wrong, paths) in [
-        // Nobody is told that there is no slider.
+        // The missing slider is not reported.
         ("\"mass\": \"10 g\", \"x\": \"free\"", "\"x\": \"fre\"", &["bodies.slider.x"][..]),
         // The material is used by a contact.
         ("\"ruby\":  {", "\"ruby \":  {", &["materials.ruby "]),
@@ -282,7 +285,7 @@ fn consequences_are_not_told() {
         ("\"friction\": 0.2", "\"colour\": \"red\"", &["contacts.ball", "contacts.ball.colour"]),
         ("\"duration\": \"100 ms\"", "\"duration\": \"100 m\"", &["run.duration"]),
         ("\"run\":    {", "\"runs\":    {", &["runs"]),
-        // What is written goes by the run, and by the waveform of the figures.
+        // The output depends on the run, and on the waveform in `figures`.
         (
             "\"duration\": \"100 ms\", \"stepper\": { \"event\": { \"tolerance\": 1e-8 } } },\n  \"output\": {",
             "\"duration\": \"0.1 m\" },\n  \"output\": { \"window\": { \"from\": \"90 s\" },",
@@ -296,7 +299,7 @@ fn consequences_are_not_told() {
     }
 }
 
-/// How much is looked for is counted, not timed: three and a half megabytes are read three times more, on every machine.
+/// The search is limited by bytes, not by time. A file of three and a half megabytes is read three more times on every machine.
 #[test]
 fn where_not_everything_is_judged_it_is_said() {
     let good = fs::read_to_string("tests/good/several.json").unwrap();
@@ -306,8 +309,8 @@ fn where_not_everything_is_judged_it_is_said() {
     let error = refusal(&long).unwrap();
     assert_eq!(error.reports().count(), 4, "{error}");
     assert!(!error.has_more() && error.may_have_more());
-    assert!(error.to_string().ends_with("\n\nand maybe more: the rest was not judged"));
-    // Of one mistake it is known that it is the only one.
+    assert!(error.to_string().ends_with("\n\nand possibly more: the rest was not checked"));
+    // A single error is known to be the only one.
     let one = format!("{}{}", good.replacen("\"10 g\"", "\"-10 g\"", 1), " ".repeat(7 << 19));
     let error = refusal(&one).unwrap();
     assert!(error.reports().count() == 1 && !error.has_more() && !error.may_have_more(), "{error}");

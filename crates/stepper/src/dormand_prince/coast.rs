@@ -1,15 +1,16 @@
-//! Steps in which nothing changes what acts: parabolas.
+//! Steps under constant accelerations: parabolas.
 //!
-//! With constant accelerations x₁ = x₀ + h(v₀ + h a/2), v₁ = v₀ + h a, and every other component runs along a straight line.
-//! A body in gross slip under a constant load moves so, and one in flight.
+//! x₁ = x₀ + h(v₀ + h a/2), v₁ = v₀ + h a; every other component is linear in time. Bodies in gross slip under constant load or
+//! in flight move so.
 
 use super::DormandPrince;
 use crate::System;
 
 impl DormandPrince {
-    /// The end of a parabola and its slopes, without an evaluation; 0, or infinity where it is not finite.
+    /// Computes the end of a parabola and its slopes without an evaluation. Returns the error 0, or infinity if the end is not
+    /// finite.
     pub(super) fn coast<S: System + ?Sized>(&mut self, system: &S) -> f64 {
-        // The stages would sum up the same parabola for 12 evaluations, and estimate the rounding of their sums.
+        // The stages would give the same parabola after 12 evaluations, plus rounding.
         let (h, n) = (self.extent.step, system.positions());
         for i in 0..self.end.len() {
             let slope = self.ends.first[i];
@@ -21,7 +22,7 @@ impl DormandPrince {
         if self.end.iter().sum::<f64>().is_finite() { 0.0 } else { f64::INFINITY }
     }
 
-    /// Its dense output, without an evaluation: the first three coefficients of the nested form hold a parabola.
+    /// Sets the dense output of a parabola without an evaluation: its first three coefficients represent the parabola.
     pub(super) fn dense_coast(&mut self) {
         let h = self.extent.step;
         let ends = self.begin.iter().zip(&self.end);

@@ -6,16 +6,15 @@ use super::tableau::{Pair, Row, Slopes, pairs_of};
 use super::{DormandPrince, Grade};
 use crate::System;
 
-/// The polynomial of one component over a step in nested form:
-/// c₀ + s(c₁ + (1-s)(c₂ + s(c₃ + (1-s)(c₄ + s(c₅ + (1-s)(c₆ + s c₇)))))), s the fraction of the step.
+/// Dense output of one component in nested form: c₀ + s(c₁ + (1-s)(c₂ + s(c₃ + (1-s)(c₄ + s(c₅ + (1-s)(c₆ + s c₇)))))), with s
+/// the fraction of the step.
 pub(super) type Polynomial = [f64; 8];
 
 impl DormandPrince {
-    /// Makes the dense output of the step tried: the end slopes if they are not known yet, and three evaluations.
-    /// Nothing happens if it is there already.
+    /// Computes the dense output of the step attempted, unless it is known. Costs three evaluations, and one more if the end
+    /// slopes are unknown.
     ///
-    /// The first four coefficients make a cubic through both ends with their slopes; the other four lift it to order 7 by
-    /// the three stages that are evaluated here.
+    /// The first four coefficients are the cubic through both ends with their slopes. Three more stages raise it to order 7.
     pub(super) fn interpolate<S: System + ?Sized>(&mut self, system: &S) {
         if self.dense_known {
             return;
@@ -25,7 +24,7 @@ impl DormandPrince {
             return;
         }
         if self.extent.grade == Grade::Few {
-            // The slopes at the end are a stage: all is there.
+            // The end slopes are a stage of this method: no further evaluation is needed.
             self.polynomials_of::<order5::Weights>(order5::END, |k| {
                 [order5::Dense5::dot(k), Pair::default(), Pair::default(), Pair::default()]
             });
@@ -35,14 +34,13 @@ impl DormandPrince {
         self.dense_known = true;
     }
 
-    /// Three more stages, and the polynomials that they lift to order 7.
+    /// Evaluates three more stages and computes the polynomials of order 7.
     fn refine<S: System + ?Sized>(&mut self, system: &S) {
         self.end_slopes(system);
         self.newest.copy_from_slice(&self.ends.last);
         self.pace(self.extent.grade.pace(1.0));
         self.keep::<END>();
-        // Only steps in which something is looked at pay for these three. The cubic through both ends costs none, but misses
-        // a swing by 1.6e-4 inside a step of half a radian, and this by 5e-9: an event would undo what the step has gained.
+        // The cubic through both ends would cost nothing, but is too inaccurate to locate events.
         self.stage::<Stage14, S, 0, 0, true>(system, NODES[13]);
         self.stage::<Stage15, S, 0, 0, true>(system, NODES[14]);
         self.stage::<Stage16, S, 0, 0, true>(system, NODES[15]);
@@ -52,7 +50,7 @@ impl DormandPrince {
         });
     }
 
-    /// The polynomials of all components, from the slopes at both ends and four forms of the stages.
+    /// Computes the polynomials of all components from the slopes at both ends and four linear forms of the stages.
     #[inline(always)]
     fn polynomials_of<R: Row>(&mut self, last: usize, lift: impl Fn(&Slopes) -> [Pair; 4]) {
         let (h, grade) = (self.extent.step, self.extent.grade);
@@ -68,7 +66,7 @@ impl DormandPrince {
                 *c = [first, second, third, fourth, fifth, sixth, seventh, eighth];
             }
         }
-        // The straight part that graded stages leave out: φ = σ ∓ σ(1-σ).
+        // The linear part that graded stages leave out: φ = σ ∓ σ(1-σ).
         let bend = match grade {
             Grade::Even | Grade::Few => 0.0,
             Grade::Start => -h,
@@ -82,7 +80,7 @@ impl DormandPrince {
         }
     }
 
-    /// All components at time `t` of the step, by the dense output; NaN where there is none.
+    /// Writes all components at time `t` (s) of the step by the dense output; NaN without dense output.
     pub fn values(&self, t: f64, out: &mut [f64]) {
         if !self.dense_known {
             out.fill(f64::NAN);
@@ -94,8 +92,7 @@ impl DormandPrince {
         }
     }
 
-    /// Time derivative of the dense output of component `i` at time `t` of the step (order 6); NaN where there is
-    /// none.
+    /// Returns the time derivative of component `i` at time `t` (s) by the dense output (order 6); NaN without dense output.
     #[must_use]
     #[inline]
     pub fn rate(&self, i: usize, t: f64) -> f64 {
@@ -103,16 +100,16 @@ impl DormandPrince {
         self.polynomial(i).map_or(f64::NAN, |c| rate(c, s) / (self.extent.step * self.extent.grade.pace(s)))
     }
 
-    /// The polynomial of component `i`, if there is a dense output.
+    /// Returns the polynomial of component `i` if the dense output is known.
     #[inline]
     pub(super) fn polynomial(&self, i: usize) -> Option<&Polynomial> {
         self.polynomials.get(i).filter(|_| self.dense_known)
     }
 
-    /// σ at time `t` of the step attempted, exactly 0 and 1 at its ends.
+    /// Returns σ at time `t` (s) of the step attempted, exactly 0 and 1 at its ends.
     #[inline]
     pub(super) fn fraction(&self, t: f64) -> f64 {
-        // By division the end may come out a bit beside 1, and a value there beside the state that was accepted.
+        // A division may miss 1 by rounding; the value there would differ from the accepted state.
         if t == self.extent.target {
             1.0
         } else {
@@ -124,14 +121,14 @@ impl DormandPrince {
     }
 }
 
-/// Value of the nested form at s.
+/// Returns the value of the nested form at s.
 #[inline]
 pub(super) fn value(c: &Polynomial, s: f64) -> f64 {
     let r = 1.0 - s;
     c[0] + s * (c[1] + r * (c[2] + s * (c[3] + r * (c[4] + s * (c[5] + r * (c[6] + s * c[7]))))))
 }
 
-/// Derivative by s: the nested form and its derivative are carried from the innermost bracket outwards.
+/// Returns the derivative of the nested form by s, from the innermost bracket outwards.
 #[inline]
 fn rate(c: &Polynomial, s: f64) -> f64 {
     let r = 1.0 - s;

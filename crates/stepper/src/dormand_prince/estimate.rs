@@ -1,4 +1,4 @@
-//! What a step may be: its error, and the length of a first one.
+//! Error estimate, and length of the first step.
 
 use super::order5::Error4;
 use super::order8::{Error3, Error5};
@@ -7,7 +7,8 @@ use super::{DormandPrince, Grade, ORDER};
 use crate::System;
 
 impl DormandPrince {
-    /// A first step for a fresh start (Hairer, Nørsett, Wanner, section II.4), at most `longest`; one evaluation.
+    /// Returns the length of a first step, at most `longest`, by the rule of Hairer, Nørsett, Wanner, section II.4. Costs one
+    /// evaluation.
     pub(super) fn starting_step<S: System + ?Sized>(
         &mut self,
         system: &S,
@@ -21,7 +22,7 @@ impl DormandPrince {
             scale.iter().enumerate().take(self.dimension).map(|(i, s)| (of(i) / s).abs()).fold(0.0, f64::max)
         };
         let (size, speed) = (norm(&|i| self.begin[i]), norm(&|i| self.ends.first[i]));
-        // Hairer's rule: an explicit Euler step that moves the state by a hundredth shows how slopes change.
+        // An explicit Euler step that moves the state by a hundredth shows how the slopes change.
         let trial = if size > 1e-5 && speed > 1e-5 { 0.01 * size / speed } else { 1e-6 * longest };
         let trial = trial.min(longest);
         for ((to, y), slope) in self.stage.iter_mut().zip(&self.begin).zip(&self.ends.first) {
@@ -37,13 +38,16 @@ impl DormandPrince {
         step.min(100.0 * trial).min(longest)
     }
 
-    /// The estimate of DOP853, h e₅² / √(e₅² + 0.01 e₃²), with the largest component for e₅ and e₃ instead of the root of the
-    /// mean square; of all components that `scale` has values for.
+    /// Returns the error estimate in units of `scale`, over all components that `scale` has values for.
+    ///
+    /// The estimate of DOP853 is h e₅² / √(e₅² + 0.01 e₃²). e₅ and e₃ are maxima over the components instead of root mean
+    /// squares.
     pub(super) fn error(&self, scale: &[f64]) -> f64 {
         if self.extent.grade == Grade::Few { self.error_of_fifth(scale) } else { self.error_of_eighth(scale) }
     }
 
-    /// The embedded estimate of DOPRI5, h e₄ with the largest component, as if it fell with h⁸ as the other does: e^{8/5}.
+    /// Returns the embedded estimate of DOPRI5, h e₄, raised to the power 8/5 so that it is of order h⁸. e₄ is the largest
+    /// component.
     fn error_of_fifth(&self, scale: &[f64]) -> f64 {
         let (mut most, mut probe) = (0.0_f64, 0.0_f64);
         for (k, scales) in self.k.iter().zip(scale.chunks(2)) {
@@ -68,15 +72,12 @@ impl DormandPrince {
         if norm > 0.0 { self.extent.step.abs() * five * (five / norm) } else { 0.0 }
     }
 
-    /// The largest component of an estimate in units of `scale`, and the sum of all: of what is no number the largest tells
-    /// nothing.
-    // Each estimate by itself: two at once are summed one component at a time.
+    /// Returns the largest component of an estimate in units of `scale`, and the sum of all: the sum detects NaN.
+    // One estimate per call: two at once would not be vectorised.
     #[inline(never)]
     fn largest<R: Row>(&self, scale: &[f64]) -> [f64; 2] {
         let (mut largest, mut sum) = ([0.0_f64; 2], [0.0_f64; 2]);
-        // With a mean, components at rest dilute the one that matters: a swing with a true error of 54 is told as 504 by the
-        // largest, as 321 by the mean, and with fifteen others at rest beside it as 80. A scene of more bodies would be
-        // computed less exactly.
+        // A mean would dilute the error of one component by others at rest. The error would depend on the number of bodies.
         for (k, scales) in self.k.iter().zip(scale.chunks(2)) {
             let units = match scales {
                 [a, b] => [1.0 / a, 1.0 / b],

@@ -1,34 +1,31 @@
-//! Steps whose stages crowd towards an end, where forces go with the root of the time from there.
+//! Graded steps: steps with stages concentrated near one end, where forces vary with the square root of the time to it.
 
-/// How the moments of a step lie in it: its stages run evenly over σ from 0 to 1, time goes as φ(σ).
+/// Distribution of the stages in a step. The stages are evenly distributed over σ from 0 to 1; the fraction of time is φ(σ).
 ///
-/// A force that goes with a power 3/2 of the time from a singular moment (a contact that begins or ends, the last of its
-/// springs that begin to slip) costs every method its order. In √ of that time it is smooth: where the singular moment is
-/// an end of the step, a step of full length keeps all of the order.
-// For ẍ = (35/4) s^{3/2} - 9(x - s^{7/2}) up to s = 0 one step of 0.1 misses by 2e-6 even and by 3e-8 graded, one of 0.2 by
-// 1e-5 and 3e-6; one of 0.4 by 7e-5 and 3e-4: where the step is long for the swing itself, even stages see more of it. Who
-// takes a step grades it only where the singular moment is an end of it; inside it neither helps.
+/// Some forces vary with the power 3/2 of the time to a singular moment, for example where gross slip begins. Every method loses
+/// its order there. In the square root of that time the force is smooth, so a graded step keeps the order.
+// A step is graded only if the singular moment is one of its ends.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Grade {
     /// φ = σ.
     #[default]
     Even,
-    /// φ = σ as well, and few of them: the pair of order 5, for a step that something near will end.
+    /// φ = σ with few stages: the pair of order 5, for a step that an event is expected to cut.
     Few,
-    /// φ = σ²: the step starts at a singular moment.
+    /// φ = σ²: the step begins at a singular moment.
     Start,
-    /// φ = 1 - (1-σ)²: it ends at one.
+    /// φ = 1 - (1-σ)²: the step ends at a singular moment.
     End,
 }
 
 impl Grade {
-    /// Whether the stages lie evenly.
+    /// Whether the stages are evenly distributed in time.
     #[inline]
     pub(crate) fn is_even(self) -> bool {
         matches!(self, Self::Even | Self::Few)
     }
 
-    /// φ(σ), the part of the time.
+    /// Returns φ(σ), the fraction of time.
     #[inline]
     pub(super) fn time(self, s: f64) -> f64 {
         match self {
@@ -38,7 +35,7 @@ impl Grade {
         }
     }
 
-    /// φ'(σ).
+    /// Returns φ'(σ).
     #[inline]
     pub(super) fn pace(self, s: f64) -> f64 {
         match self {
@@ -48,7 +45,7 @@ impl Grade {
         }
     }
 
-    /// σ at a part of the time, with the part that is left.
+    /// Returns σ at the fraction of time `done`; `left` is 1 - `done`.
     #[inline]
     pub(super) fn fraction(self, done: f64, left: f64) -> f64 {
         match self {

@@ -1,41 +1,41 @@
-//! Coefficients of the explicit Runge–Kutta method 5(4) of Dormand and Prince, DOPRI5.
+//! Coefficients of the explicit Runge–Kutta method DOPRI5, order 5(4), by Dormand and Prince.
 //!
-//! Source: J. R. Dormand, P. J. Prince, *J. Comput. Appl. Math.* 6 (1980) 19; dense output of order 4 and the form of the numbers:
-//! E. Hairer, S. P. Nørsett, G. Wanner, *Solving Ordinary Differential Equations I*, 2nd ed., Springer 1993, sections II.4 and
-//! II.6. Ratios rounded to the nearest double. Stage 7 is the slope at the end of the step.
+//! Source: J. R. Dormand, P. J. Prince, *J. Comput. Appl. Math.* 6 (1980) 19; dense output of order 4 and the numerical form: E.
+//! Hairer, S. P. Nørsett, G. Wanner, *Solving Ordinary Differential Equations I*, 2nd ed., Springer 1993, sections II.4 and II.6.
+//! Ratios are rounded to the nearest double. Stage 7 is the slope at the end of the step.
 
 use super::tableau::rows;
 
 /// Index of the slope at the end of the step (k₇).
 pub(super) const END: usize = 6;
 
-/// Nodes c of the stages as fractions of the step.
+/// Nodes c of the stages, as fractions of the step.
 pub(super) const NODES: [f64; 7] = [0.0, 0.2, 0.3, 0.8, 0.888_888_888_888_888_8, 1.0, 1.0];
 
 rows! {
-    /// Stage 2.
+    /// Coefficients a₂ⱼ of stage 2.
     Stage2 {
         newest 0 => 0.2
     }
-    /// Stage 3.
+    /// Coefficients a₃ⱼ of stage 3.
     Stage3 {
         0 => 0.075,
         newest 1 => 0.225
     }
-    /// Stage 4.
+    /// Coefficients a₄ⱼ of stage 4.
     Stage4 {
         0 => 0.9777777777777777,
         1 => -3.7333333333333334,
         newest 2 => 3.5555555555555554
     }
-    /// Stage 5.
+    /// Coefficients a₅ⱼ of stage 5.
     Stage5 {
         0 => 2.9525986892242035,
         1 => -11.595793324188385,
         2 => 9.822892851699436,
         newest 3 => -0.2908093278463649
     }
-    /// Stage 6.
+    /// Coefficients a₆ⱼ of stage 6.
     Stage6 {
         0 => 2.8462752525252526,
         1 => -10.757575757575758,
@@ -43,7 +43,7 @@ rows! {
         3 => 0.2784090909090909,
         newest 4 => -0.2735313036020583
     }
-    /// Weights of the solution of order 5; stage 7 lies at its end.
+    /// Weights of the solution of order 5.
     Weights {
         0 => 0.09114583333333333,
         2 => 0.44923629829290207,
@@ -51,7 +51,7 @@ rows! {
         4 => -0.322376179245283,
         newest 5 => 0.13095238095238096
     }
-    /// Solution of order 5 less the embedded one of order 4.
+    /// Weights of the solution of order 5 minus those of the embedded solution of order 4.
     Error4 {
         0 => 0.0012326388888888888,
         2 => -0.0042527702905061394,
@@ -60,7 +60,7 @@ rows! {
         5 => 0.0419047619047619,
         newest 6 => -0.025
     }
-    /// Coefficient 5 of the dense output.
+    /// Weights of coefficient 5 of the dense output.
     Dense5 {
         0 => -1.1270175653862835,
         2 => 2.675424484351598,
@@ -76,7 +76,7 @@ mod tests {
     use super::*;
     use crate::dormand_prince::tableau::Row;
 
-    /// Rows of the stages 2 to 7 by columns.
+    /// Coefficients of the stages 2 to 7 as a dense matrix.
     fn stages() -> [[f64; 7]; 7] {
         let mut a = [[0.0; 7]; 7];
         let rows =
@@ -128,7 +128,7 @@ mod tests {
             assert!((weigh(tree) * order - 1.0).abs() < 1e-13, "{k}: {}", weigh(tree) * order);
         }
         assert!((weigh(product(c3, c2)) * 6.0 - 1.0).abs() > 1e-4);
-        // Rows sum to their nodes, forms of differences to nothing.
+        // Rows sum to their nodes, differences to zero.
         for (row, node) in stages().into_iter().zip(NODES) {
             assert!((row.iter().sum::<f64>() - node).abs() < 1e-14, "{node}");
         }

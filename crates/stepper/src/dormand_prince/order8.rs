@@ -1,22 +1,20 @@
 //! Coefficients of the explicit Runge–Kutta method DOP853.
 //!
-//! Source: E. Hairer, S. P. Nørsett, G. Wanner, *Solving Ordinary Differential Equations I*, 2nd ed., Springer 1993,
-//! section II.5 (method of order 8 by Dormand and Prince with 12 stages), section II.6 (dense output of order 7) and
-//! section II.10 (the estimators of order 5 and 3), as printed in their program DOP853 and rounded to the nearest double.
+//! Source: E. Hairer, S. P. Nørsett, G. Wanner, *Solving Ordinary Differential Equations I*, 2nd ed., Springer 1993, section II.5
+//! (method of order 8 by Dormand and Prince with 12 stages), section II.6 (dense output of order 7) and section II.10 (estimators
+//! of order 5 and 3). The numbers are those of their program DOP853, rounded to the nearest double.
 //!
-//! The state of stage i is y + h Σ a_ij k_j at the time t + c_i h, the end y + h Σ b_i k_i. Stages 1 to 12 make the step;
-//! k₁₃ is the slope at its end, stages 14 to 16 are for the dense output alone. Tests hold the rows against the conditions
-//! of order: Σ_j a_ij = c_i, Σ b_i c_i^{q-1} = 1/q, and those of the taller trees.
+//! Stage i has the state y + h Σ a_ij k_j at the time t + c_i h; the end is y + h Σ b_i k_i. Stages 1 to 12 make the step. k₁₃ is
+//! the slope at its end; stages 14 to 16 serve the dense output. Tests compare the rows with order conditions: Σ_j a_ij = c_i, Σ
+//! b_i c_i^{q-1} = 1/q, and those of taller trees.
 
 use super::tableau::rows;
 
 /// Index of the slope at the end of the step (k₁₃).
 pub(super) const END: usize = 12;
 
-/// Nodes c of all stages as fractions of the step.
-// The crate `ode_solvers` 0.6.2 has 0 for the twelfth of them: its method has no order where slopes depend on the time. For
-// ẏ = y cos t up to t = 4 at a tolerance of 1e-6 it takes 6 530 evaluations and ends anywhere; this one takes 165 and is
-// 9e-8 off. So the coefficients stand here.
+/// Nodes c of all stages, as fractions of the step.
+// The crate `ode_solvers` 0.6.2 has 0 as the twelfth node: its method has no order where slopes depend on time.
 pub(super) const NODES: [f64; 16] = [
     0.0,
     0.05260015195876773,
@@ -37,40 +35,40 @@ pub(super) const NODES: [f64; 16] = [
 ];
 
 rows! {
-    /// Stage 2.
+    /// Coefficients a₂ⱼ of stage 2.
     Stage2 {
         newest 0 => 0.05260015195876773
     }
-    /// Stage 3.
+    /// Coefficients a₃ⱼ of stage 3.
     Stage3 {
         0 => 0.0197250569845379,
         newest 1 => 0.0591751709536137
     }
-    /// Stage 4.
+    /// Coefficients a₄ⱼ of stage 4.
     Stage4 {
         0 => 0.02958758547680685,
         newest 2 => 0.08876275643042054
     }
-    /// Stage 5.
+    /// Coefficients a₅ⱼ of stage 5.
     Stage5 {
         0 => 0.2413651341592667,
         2 => -0.8845494793282861,
         newest 3 => 0.924834003261792
     }
-    /// Stage 6.
+    /// Coefficients a₆ⱼ of stage 6.
     Stage6 {
         0 => 0.037037037037037035,
         3 => 0.17082860872947386,
         newest 4 => 0.12546768756682242
     }
-    /// Stage 7.
+    /// Coefficients a₇ⱼ of stage 7.
     Stage7 {
         0 => 0.037109375,
         3 => 0.17025221101954405,
         4 => 0.06021653898045596,
         newest 5 => -0.017578125
     }
-    /// Stage 8.
+    /// Coefficients a₈ⱼ of stage 8.
     Stage8 {
         0 => 0.03709200011850479,
         3 => 0.17038392571223998,
@@ -78,7 +76,7 @@ rows! {
         5 => -0.015319437748624402,
         newest 6 => 0.008273789163814023
     }
-    /// Stage 9.
+    /// Coefficients a₉ⱼ of stage 9.
     Stage9 {
         0 => 0.6241109587160757,
         3 => -3.3608926294469414,
@@ -87,7 +85,7 @@ rows! {
         6 => 20.154067550477894,
         newest 7 => -43.48988418106996
     }
-    /// Stage 10.
+    /// Coefficients of stage 10.
     Stage10 {
         0 => 0.47766253643826434,
         3 => -2.4881146199716677,
@@ -97,7 +95,7 @@ rows! {
         7 => -33.28821096898486,
         newest 8 => -0.020331201708508627
     }
-    /// Stage 11.
+    /// Coefficients of stage 11.
     Stage11 {
         0 => -0.9371424300859873,
         3 => 5.186372428844064,
@@ -108,7 +106,7 @@ rows! {
         8 => 2.4936055526796523,
         newest 9 => -3.0467644718982196
     }
-    /// Stage 12.
+    /// Coefficients of stage 12.
     Stage12 {
         0 => 2.273310147516538,
         3 => -10.53449546673725,
@@ -131,7 +129,7 @@ rows! {
         10 => 0.20136540080403034,
         newest 11 => 0.04471061572777259
     }
-    /// Solution of order 8 less the embedded one of order 5.
+    /// Weights of the solution of order 8 minus those of the embedded solution of order 5.
     Error5 {
         0 => 0.01312004499419488,
         5 => -1.2251564463762044,
@@ -142,7 +140,7 @@ rows! {
         10 => 0.08192320648511571,
         newest 11 => -0.022355307863886294
     }
-    /// Solution of order 8 less the embedded one of order 3.
+    /// Weights of the solution of order 8 minus those of the embedded solution of order 3.
     Error3 {
         0 => -0.18980075407240762,
         5 => 4.450312892752409,
@@ -153,7 +151,7 @@ rows! {
         10 => 0.20136540080403034,
         newest 11 => 0.02265179219836082
     }
-    /// Stage 14, for the dense output only.
+    /// Coefficients of stage 14, for the dense output only.
     Stage14 {
         0 => 0.056167502283047954,
         6 => 0.25350021021662483,
@@ -164,7 +162,7 @@ rows! {
         11 => 0.007567897660545699,
         newest 12 => -0.008298
     }
-    /// Stage 15, for the dense output only.
+    /// Coefficients of stage 15, for the dense output only.
     Stage15 {
         0 => 0.03183464816350214,
         5 => 0.028300909672366776,
@@ -175,7 +173,7 @@ rows! {
         12 => -0.00034046500868740456,
         newest 13 => 0.1413124436746325
     }
-    /// Stage 16, for the dense output only.
+    /// Coefficients of stage 16, for the dense output only.
     Stage16 {
         0 => -0.42889630158379194,
         5 => -4.697621415361164,
@@ -186,7 +184,7 @@ rows! {
         13 => 2.9475147891527724,
         newest 14 => -9.15095847217987
     }
-    /// Coefficient 5 of the dense output.
+    /// Weights of coefficient 5 of the dense output.
     Dense5 {
         0 => -8.428938276109013,
         5 => 0.5667149535193777,
@@ -201,7 +199,7 @@ rows! {
         14 => -9.194632392478356,
         newest 15 => -4.436036387594894
     }
-    /// Coefficient 6 of the dense output.
+    /// Weights of coefficient 6 of the dense output.
     Dense6 {
         0 => 10.427508642579134,
         5 => 242.28349177525817,
@@ -216,7 +214,7 @@ rows! {
         14 => -9.35292435884448,
         newest 15 => 35.81684148639408
     }
-    /// Coefficient 7 of the dense output.
+    /// Weights of coefficient 7 of the dense output.
     Dense7 {
         0 => 19.985053242002433,
         5 => -387.0373087493518,
@@ -231,7 +229,7 @@ rows! {
         14 => 84.32040550667716,
         newest 15 => 11.99229113618279
     }
-    /// Coefficient 8 of the dense output.
+    /// Weights of coefficient 8 of the dense output.
     Dense8 {
         0 => -25.69393346270375,
         5 => -154.18974869023643,
@@ -257,7 +255,7 @@ mod tests {
         R::TERMS.iter().map(|term| term.1).sum()
     }
 
-    /// Dense columns of the stages 2 to 12, from the sparse rows.
+    /// Coefficients of the stages 2 to 12 as a dense matrix.
     fn stages() -> [[f64; 12]; 12] {
         let mut a = [[0.0; 12]; 12];
         let rows: [&[(usize, f64)]; 11] = [
@@ -303,7 +301,7 @@ mod tests {
         {
             assert!((sum - node).abs() < 2e-15);
         }
-        // The node that another implementation has as 0.
+        // The twelfth node, which another implementation has as 0.
         assert_eq!(NODES[11], 1.0);
         for difference in [sum::<Error5>(), sum::<Error3>(), sum::<Dense5>(), sum::<Dense8>()] {
             assert!(difference.abs() < 1e-13, "{difference}");

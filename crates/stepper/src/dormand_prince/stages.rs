@@ -1,4 +1,4 @@
-//! The stages of a step, and its end.
+//! Stages and end of a step.
 
 use super::order5;
 use super::order8::{
@@ -8,8 +8,10 @@ use super::tableau::{Pair, Row, pairs_of};
 use super::{DormandPrince, Grade};
 use crate::{System, Target};
 
-/// Stages summed without a loop, in 0.7 of the instructions, over pairs of coupled components and of others: bodies with up to five coordinates,
-/// some of whose contacts grow. All other numbers are right by the last arm.
+/// Calls a stage function with the number of pairs of components as constants, so that its loops are unrolled.
+///
+/// The pairs are those of coupled components and those of quadratures. The listed combinations cover bodies with up to five
+/// coordinates; the last arm is generic.
 macro_rules! of_pairs {
     ($step:ident, $by:ident, $may_grade:literal, $system:ident) => {
         match ($step.stage.len() / 2, $step.k.len() - $step.stage.len() / 2) {
@@ -27,7 +29,7 @@ macro_rules! of_pairs {
 }
 
 impl DormandPrince {
-    /// Tries a step: all stages, the end y + h Σ b_i k_i, the error.
+    /// Attempts a step: all stages, the end y + h Σ b_i k_i, the error.
     pub(super) fn attempt_span<S: System + ?Sized>(
         &mut self,
         system: &S,
@@ -53,7 +55,7 @@ impl DormandPrince {
         self.error(scale)
     }
 
-    /// The stages of the pair of order 5, the end, and the slopes there: they are the last stage.
+    /// Computes the stages of DOPRI5, the end of the step and the slopes there, which are the last stage.
     #[inline(never)]
     fn by_fifth<const PAIRS: usize, const RATES: usize, const MAY_GRADE: bool, S: System + ?Sized>(
         &mut self,
@@ -72,7 +74,7 @@ impl DormandPrince {
         self.keep::<{ order5::END }>();
     }
 
-    /// The stages of the pair of order 8 and the end.
+    /// Computes the stages of DOP853 and the end of the step.
     #[inline(never)]
     fn by_eighth<const PAIRS: usize, const RATES: usize, const MAY_GRADE: bool, S: System + ?Sized>(
         &mut self,
@@ -93,7 +95,7 @@ impl DormandPrince {
         self.end_by::<Weights>();
     }
 
-    /// y + h Σ b_i k_i, and the straight part that graded stages leave out.
+    /// Computes y + h Σ b_i k_i, plus the linear part that graded stages leave out.
     #[inline(always)]
     fn end_by<R: Row>(&mut self) {
         let h = self.extent.step;
@@ -107,12 +109,10 @@ impl DormandPrince {
         }
     }
 
-    /// One stage, y + h Σ a k at the time of a node: keep the newest slope, combine all so far over the coupled components, evaluate the next.
+    /// Computes one stage: stores the newest slope, combines all slopes so far, and evaluates at the stage's node.
     ///
-    /// Evaluations follow on one another, so what counts is the path from one slope to the next: a product and a sum.
-    ///
-    /// `PAIRS` is the number of pairs of coupled components, known when compiled, and `RATES` that of those on which nothing depends; 0 is any
-    /// number. Unless it `MAY_GRADE` the step is even.
+    /// `PAIRS` is the number of pairs of coupled components and `RATES` that of quadratures; 0 means any number. Without
+    /// `MAY_GRADE` the step is even.
     #[inline(always)]
     pub(super) fn stage<
         R: Row,
@@ -125,11 +125,11 @@ impl DormandPrince {
         system: &S,
         node: f64,
     ) {
-        // The newest slope comes last into the sum, apart from all that is known before it: 157 ns instead of 170 for a step
-        // of one oscillator. Rounding differs from the order of the books by a last place.
+        // The newest slope is added last: all other terms can be summed before it is known. The order of summation affects
+        // rounding.
         let h = self.extent.step;
         let last = h * R::LAST;
-        // Lists cut to one length and then read by place: zips of five cost as much as the sums.
+        // Slices cut to one length: the compiler drops the bounds checks.
         let stage = self.stage.as_chunks_mut::<2>().0;
         let pairs = if PAIRS > 0 { PAIRS } else { stage.len() };
         let (coupled, quadratures) = self.k.split_at_mut(pairs);
@@ -144,8 +144,7 @@ impl DormandPrince {
         for (k, rates) in quadratures[..others].iter_mut().zip(&rates[..others]) {
             k[R::NEWEST] = Pair(*rates);
         }
-        // Over σ the slopes begin with 0 at a singular start; the straight motion with the first slope is taken apart from
-        // them and added here exactly.
+        // The derivatives by σ vanish at a singular start. The linear motion with the first slope is split off and added here.
         let is_even = !MAY_GRADE || self.extent.grade.is_even();
         if !is_even {
             let past = h * self.extent.grade.time(node);
@@ -154,7 +153,7 @@ impl DormandPrince {
                 *to = (Pair(*to) + past * Pair(*first)).0;
             }
         }
-        // A node of 1 is the very end of the step, not t + h, which may differ in the last bit.
+        // A node of 1 is the exact end of the step, which may differ from t + h in the last bit.
         let t = if node == 1.0 {
             self.extent.target
         } else if is_even {
@@ -173,7 +172,7 @@ impl DormandPrince {
         }
     }
 
-    /// From slopes over the part of the time to those over σ, less the straight part: φ'(σ) (f - f₀).
+    /// Converts the newest slopes to derivatives by σ without the linear part: φ'(σ) (f - f₀).
     #[inline(always)]
     pub(super) fn pace(&mut self, pace: f64) {
         if !self.extent.grade.is_even() {
@@ -184,7 +183,7 @@ impl DormandPrince {
         }
     }
 
-    /// Keeps the newest slopes as those of stage `J`.
+    /// Stores the newest slopes as those of stage `J`.
     #[inline(always)]
     pub(super) fn keep<const J: usize>(&mut self) {
         for (k, slopes) in self.k.iter_mut().zip(pairs_of(&self.newest)) {
@@ -192,7 +191,7 @@ impl DormandPrince {
         }
     }
 
-    /// The slopes at the start as the newest ones: what a rejected attempt left of them is another stage's.
+    /// Makes the slopes at the start the newest ones; a rejected attempt leaves those of another stage.
     fn recall_first(&mut self) {
         self.newest.copy_from_slice(&self.ends.first);
         self.pace(self.extent.grade.pace(0.0));

@@ -1,22 +1,22 @@
-//! Moments inside a step, as exactly as its end.
+//! Accurate states inside a step, by a separate step to the moment.
 //!
-//! Where something fades five times within a step the dense output swings between its ends, by ten times the error of the end and more. A
-//! step from the same start to the moment does not.
+//! If a component decays several times within a step, the dense output oscillates between the ends. Its error can exceed ten
+//! times that of the end. A separate step from the same start does not have this error.
 
 use super::{DormandPrince, Grade};
 use crate::{System, Target};
 use std::ops::Range;
 
 impl DormandPrince {
-    /// Makes the one that visits, whole as this one is.
+    /// Creates the stepper for moments inside the step, unless it exists.
     pub(super) fn invite(&mut self) {
         if self.visitor.is_none() {
             self.visitor = Some(Box::new(self.clone()));
         }
     }
 
-    /// All components at time `t` inside the step; false, with nothing done, at its end, of a parabola, and where a step to there is no
-    /// better.
+    /// Writes all components at time `t` inside the step into `out`. Returns false without a result at the ends, for a parabola,
+    /// and where the separate step fails.
     pub(super) fn visit_inside<S: System + ?Sized>(
         &mut self,
         system: &S,
@@ -41,7 +41,7 @@ impl DormandPrince {
         found
     }
 
-    /// Puts some components of a step that was cut as exactly as a step up to there has them.
+    /// Replaces the given components at the end of a cut step by those of a separate step up to there.
     pub(super) fn settle_cut<S: System + ?Sized>(
         &mut self,
         system: &S,

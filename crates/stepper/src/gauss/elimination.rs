@@ -1,21 +1,22 @@
-//! Gauss's elimination for many right sides at a time.
+//! Gaussian elimination for many right-hand sides.
 
-/// Numbers that are worked on at once.
+/// Number of values that are processed together.
 const LANES: usize = 4;
 
-/// Room of a row of a linear system with its right sides: whole lanes.
+/// Returns the length of a row of the linear system with its right-hand sides, a multiple of the lanes.
 pub(super) fn wide_of(size: usize, count: usize) -> usize {
     (size + count).next_multiple_of(LANES)
 }
 
-/// Solves a linear system for many right sides, which stand at the end of its rows; false where it has no solution.
+/// Solves a linear system of order `size` with `count` right-hand sides at the end of its rows. Returns false if the matrix is
+/// singular or not finite.
 pub(super) fn solve(system: &mut [f64], size: usize, count: usize, solution: &mut Vec<f64>) -> bool {
     let wide = wide_of(size, count);
     for k in 0..size {
         let height = |i: usize| system[i * wide + k].abs();
         let mut pivot = (k, height(k));
         for i in k + 1..size {
-            // What is no number counts as the largest.
+            // NaN counts as the largest.
             if height(i).total_cmp(&pivot.1).is_gt() {
                 pivot = (i, height(i));
             }
@@ -29,7 +30,7 @@ pub(super) fn solve(system: &mut [f64], size: usize, count: usize, solution: &mu
             line.swap_with_slice(&mut below[row * wide + k..(row + 1) * wide]);
         }
         let value = line[0];
-        // In whole lanes: what lies before the pivot is done with.
+        // In whole lanes: columns before the pivot are no longer needed.
         let (lines, _) = above[k * wide..].as_chunks::<LANES>();
         let from = (k + 1) / LANES;
         for row in below.chunks_exact_mut(wide) {

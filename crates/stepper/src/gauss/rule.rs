@@ -1,10 +1,10 @@
-//! The rule of Gauss's method: nodes, weights, and what slopes at the nodes add up to.
+//! Quadrature rule of Gauss's method: nodes, weights, and integrals of the interpolant of slopes.
 
 use super::{Each, NODES};
 use std::array;
 use std::sync::LazyLock;
 
-/// Gauss and Legendre's nodes and weights over [-1, 1], the latter halved.
+/// Gauss–Legendre nodes in [-1, 1], and half their weights.
 pub(super) const PLACES: Each =
     [-0.906_179_845_938_664, -0.538_469_310_105_683_1, 0.0, 0.538_469_310_105_683_1, 0.906_179_845_938_664];
 pub(super) const SHARES: Each = [
@@ -19,19 +19,19 @@ pub(super) fn dot(a: &[f64], b: &Each) -> f64 {
     a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
 
-/// The method over [0, 1].
+/// Coefficients of the method over [0, 1].
 pub(super) struct Rule {
-    /// Legendre's polynomials at the nodes.
+    /// Legendre polynomials at the nodes.
     values: [[f64; NODES + 1]; NODES],
-    /// a: what the slopes at all nodes add up to at each.
+    /// Coefficients a_ij: integrals of the interpolated slopes up to each node.
     pub(super) inner: [Each; NODES],
-    /// The last four Legendre coefficients, from the first, of what has these values at the nodes.
+    /// Weights of the Legendre coefficients 1 to 4 of a function given at the nodes.
     tail: [Each; NODES - 1],
-    /// All of it in a step of length 1.
+    /// All integrals of an even step of length 1.
     even: Reach,
 }
 
-/// Legendre's polynomials at x.
+/// Returns the Legendre polynomials at x.
 fn legendre(x: f64) -> [f64; NODES + 1] {
     let mut values = [1.0, x, 0.0, 0.0, 0.0, 0.0];
     for k in 1..NODES {
@@ -42,7 +42,7 @@ fn legendre(x: f64) -> [f64; NODES + 1] {
 }
 
 impl Rule {
-    /// What slopes at the nodes add up to from -1 to x, over [0, 1]: a_j = b_j Σ (2k + 1) P_k(c_j) ∫P_k.
+    /// Returns the weights of the slopes in their integral from -1 to x, scaled to [0, 1]: a_j = b_j Σ (2k + 1) P_k(c_j) ∫P_k.
     pub(super) fn row(&self, x: f64) -> Each {
         let ends = legendre(x);
         let integral = |k: usize| if k == 0 { x + 1.0 } else { ends[k + 1] - ends[k - 1] };
@@ -63,13 +63,13 @@ pub(super) static RULE: LazyLock<Rule> = LazyLock::new(|| {
     rule
 });
 
-/// What the slopes at the nodes add up to, once and twice integrated, at each node and at the end.
+/// Weights of the slopes in their single and double time integrals, up to each node and to the end.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Reach {
     pub(super) paces: Each,
     pub(super) once: [Each; NODES],
     pub(super) twice: [Each; NODES],
-    /// Time to each node, and all of it, s.
+    /// Time to each node, and of the whole step, s.
     pub(super) time: Each,
     pub(super) length: f64,
     pub(super) end_once: Each,
@@ -86,7 +86,7 @@ impl Reach {
         Self::by(rule, paces)
     }
 
-    /// Of an even step that is so many times as long.
+    /// Returns the weights of an even step that is `pace` times as long.
     fn times(&self, pace: f64) -> Self {
         let once = |row: &Each| row.map(|a| pace * a);
         let twice = |row: &Each| row.map(|a| pace * pace * a);

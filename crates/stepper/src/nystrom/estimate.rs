@@ -1,12 +1,12 @@
-//! What a step may be: its error, and the length of a first one.
+//! Error estimate, and length of the first step.
 
 use super::tableau::{POSITION_ERROR, STAGES, VELOCITY_ERROR};
 use super::track::dot;
 use super::{Nystrom, ORDER, Storage};
 
 impl<N: Storage> Nystrom<N> {
-    /// Largest difference of the two orders in units of `scale`: of positions, velocities and, where `scale` has values for
-    /// them, quadratures. Why the largest, says the estimate of [`DormandPrince`](crate::DormandPrince).
+    /// Returns the largest difference between both orders in units of `scale`. Positions and velocities count, and quadratures
+    /// for which `scale` has values.
     #[inline]
     pub(super) fn error(&self, scale: &[f64]) -> f64 {
         let (h, n) = (self.step, self.positions());
@@ -15,7 +15,7 @@ impl<N: Storage> Nystrom<N> {
         let mut add = |error: f64, scale: f64| {
             let error = (error / scale).abs();
             largest = if error > largest { error } else { largest };
-            // A comparison drops NaN, a sum does not.
+            // Comparisons ignore NaN, a sum does not.
             sum += error;
         };
         for (track, scale) in self.tracks.as_ref().iter().zip(positions) {
@@ -28,11 +28,10 @@ impl<N: Storage> Nystrom<N> {
         if sum.is_finite() { largest } else { f64::INFINITY }
     }
 
-    /// A first step for a fresh start, without an evaluation: 0.01 (s/a)^{1/7} T^{6/7} with T the longest step and s/a the
-    /// shortest time (s) in which an acceleration at the start makes the tolerance of its velocity.
+    /// Returns a first step without an evaluation: 0.01 (s/a)^{1/7} T^{6/7}. T is the largest step. s/a (s) is the shortest time
+    /// in which an initial acceleration a changes a velocity by its tolerance s.
     pub(super) fn starting_step(&self, longest: f64, scale: &[f64]) -> f64 {
-        // A hundredth of the longest step where nothing acts. The rule that the other method takes costs an evaluation, and a
-        // first step is taken once a run.
+        // Without accelerations the first step is a hundredth of the longest.
         let n = self.positions();
         let bend = self.tracks.as_ref()[..n]
             .iter()

@@ -1,17 +1,18 @@
-//! Nyström's method of order 5, for steps that something near will end.
+//! Nyström's method of order 5, for steps that an event is expected to cut.
 //!
-//! Source: E. J. Nyström, *Über die numerische Integration von Differentialgleichungen*, Acta Soc. Sci. Fennicae 50 (1925) No. 13;
-//! E. Hairer, S. P. Nørsett, G. Wanner, *Solving Ordinary Differential Equations I*, 2nd ed., Springer 1993, table II.14.2.
+//! Source: E. J. Nyström, *Über die numerische Integration von Differentialgleichungen*, Acta Soc. Sci. Fennicae 50 (1925) No.
+//! 13; E. Hairer, S. P. Nørsett, G. Wanner, *Solving Ordinary Differential Equations I*, 2nd ed., Springer 1993, table II.14.2.
 //!
-//! Four stages and the acceleration at the end, which is the first one of the next step: four evaluations, or five after a jump,
-//! where order 8 takes eight or nine. The dense output costs none where that costs four more: positions by the polynomial of
-//! degree 5 with the places, velocities and accelerations of both ends, velocities by its derivative, quadratures by the cubic
-//! through the rates of the stages.
+//! A step has four stages and the acceleration at its end, which the next step reuses: four evaluations, or five after a
+//! discontinuity. The dense output costs none. Positions are the polynomial of degree 5 with positions, velocities and
+//! accelerations of both ends; velocities are its derivative. Quadratures are the integral of the cubic through the rates.
 //!
-//! The last stage stands at c = 1, but not where the step ends. The acceleration at the end in its stead makes a velocity of
-//! order 3: the difference is the error told. For ẍ = -x it is at most 8e-4 h⁴, where the step itself misses by 5e-4 h⁶ and
-//! its dense output by 1e-3 h⁵. Both stand at one moment: what time alone makes of a rate, as a fast follower does, the difference
-//! does not see. That is told by the Legendre coefficients of the cubic through the stages: they go on to fall as they do.
+//! The last stage is at c = 1, but its position differs from the end of the step. With the acceleration at the end in its place,
+//! the velocity has order 3. The difference of both velocities is the error estimate. For ẍ = -x the estimate is at most 8e-4 h⁴,
+//! the error of the step 5e-4 h⁶ and that of the dense output 1e-3 h⁵.
+//!
+//! This estimate vanishes for rates that depend on time only, because both accelerations belong to the same time. A second
+//! estimate extrapolates the Legendre coefficients of the cubic through the stages.
 
 use super::tableau::END;
 use super::track::dot;
@@ -23,7 +24,7 @@ const STAGES: usize = 4;
 /// Nodes c.
 const NODES: [f64; STAGES] = [0.0, 0.2, 2.0 / 3.0, 1.0];
 
-/// Positions of the stages: x(c) = x + c h v + h² Σ a k.
+/// Coefficients of the stage positions: x(c) = x + c h v + h² Σ a k.
 const POSITIONS: [[f64; 3]; STAGES] = [
     [0.0, 0.0, 0.0],
     [1.0 / 50.0, 0.0, 0.0],
@@ -31,14 +32,14 @@ const POSITIONS: [[f64; 3]; STAGES] = [
     [3.0 / 10.0, -2.0 / 35.0, 9.0 / 35.0],
 ];
 
-/// Position at the end: x + h v + h² Σ b k.
+/// Weights of the position at the end: x + h v + h² Σ b k.
 const POSITION: [f64; 3] = [14.0 / 336.0, 100.0 / 336.0, 54.0 / 336.0];
 
-/// Velocity or quadrature at the end: v + h Σ b' k.
+/// Weights of a velocity or quadrature at the end: v + h Σ b' k.
 const VELOCITY: [f64; STAGES] = [14.0 / 336.0, 125.0 / 336.0, 162.0 / 336.0, 35.0 / 336.0];
 
-/// Integral of the cubic through the rates of the stages over a fraction θ, over θ: coefficients column by column, one for each
-/// stage. At θ = 1 they sum to [`VELOCITY`].
+/// Coefficients of the integral of the cubic through the stage rates up to θ, divided by θ. One row per stage; at θ = 1 they sum
+/// to [`VELOCITY`].
 const INTEGRALS: [[f64; STAGES]; STAGES] = [
     [1.0, -15.0 / 4.0, 14.0 / 3.0, -15.0 / 8.0],
     [0.0, 125.0 / 28.0, -625.0 / 84.0, 375.0 / 112.0],
@@ -46,18 +47,18 @@ const INTEGRALS: [[f64; STAGES]; STAGES] = [
     [0.0, 1.0 / 4.0, -13.0 / 12.0, 15.0 / 16.0],
 ];
 
-/// The Legendre coefficients of degree 1, 2 and 3 of that cubic.
+/// Weights of the Legendre coefficients of degree 1, 2 and 3 of that cubic.
 const LEGENDRE: [[f64; STAGES]; 3] = [
     [-1.0 / 8.0, -75.0 / 112.0, 27.0 / 56.0, 5.0 / 16.0],
     [11.0 / 24.0, -125.0 / 336.0, -27.0 / 56.0, 19.0 / 48.0],
     [-3.0 / 8.0, 75.0 / 112.0, -27.0 / 56.0, 3.0 / 16.0],
 ];
 
-/// What the weights make of the Legendre polynomial of degree 5, the first that they miss.
+/// Quadrature of the Legendre polynomial of degree 5 by the weights; its exact integral is zero.
 const MISSED: f64 = 0.28;
 
 impl<N: Storage> Nystrom<N> {
-    /// Takes the stages up to a time, the step's end and what acts there.
+    /// Computes the stages, the end of the step and the accelerations there.
     pub(super) fn step_by_fifth<S: Conservative + ?Sized>(&mut self, system: &S, end: f64) {
         let (t, h, n) = (self.time, self.step, self.positions());
         self.advance_fifth::<1, S>(system, t + NODES[1] * h);
@@ -73,7 +74,7 @@ impl<N: Storage> Nystrom<N> {
         self.evaluate(system, end, END);
     }
 
-    /// Positions of stage `J`, and what acts there.
+    /// Computes the positions of stage `J` and evaluates the accelerations there.
     #[inline(always)]
     fn advance_fifth<const J: usize, S: Conservative + ?Sized>(&mut self, system: &S, t: f64) {
         let h = self.step;
@@ -83,9 +84,10 @@ impl<N: Storage> Nystrom<N> {
         self.evaluate(system, t, J);
     }
 
-    /// The error of velocities and, where `scale` has values for them, quadratures in units of `scale`, as if it fell with h⁷ as
-    /// that of order 8 does: e^{7/4} of the difference, and e^{7/6} of what falls with h⁶. Positions miss less: by a part h of what
-    /// velocities do.
+    /// Returns the error of velocities in units of `scale`, and of quadratures for which `scale` has values.
+    ///
+    /// The first estimate is raised to the power 7/4 and the second to 7/6, so that both are of order h⁷ as for the method of
+    /// order 8. Errors of positions are smaller by a factor h.
     pub(super) fn error_of_fifth(&self, scale: &[f64]) -> f64 {
         let (h, n) = (self.step, self.positions());
         let (mut largest, mut missed, mut sum) = (0.0_f64, 0.0_f64, 0.0);
@@ -93,7 +95,7 @@ impl<N: Storage> Nystrom<N> {
             let error = (h * VELOCITY[3] * (track.k[END] - track.k[3]) / scale).abs();
             largest = largest.max(error);
             missed = missed.max((h * track.missed() / scale).abs());
-            // A comparison drops NaN, a sum does not.
+            // Comparisons ignore NaN, a sum does not.
             sum += error;
         }
         sum += self.end.as_ref().iter().sum::<f64>();
@@ -101,7 +103,7 @@ impl<N: Storage> Nystrom<N> {
         if sum.is_finite() { by_difference.max(missed * math::cbrt(missed.sqrt())) } else { f64::INFINITY }
     }
 
-    /// The dense output.
+    /// Computes the dense output.
     pub(super) fn interpolate_fifth(&mut self) {
         let n = self.positions();
         let (positions, quadratures) = self.tracks.as_mut().split_at_mut(n);
@@ -111,16 +113,16 @@ impl<N: Storage> Nystrom<N> {
 }
 
 impl Track {
-    /// What the weights miss of the mean of a rate: its coefficient of degree 5, where the two degrees from 3 on take as much off as
-    /// the third has less than those before.
+    /// Estimates the quadrature error of the mean rate from the Legendre coefficient of degree 5. That coefficient is
+    /// extrapolated from degree 3 by the decrease of the coefficients.
     fn missed(&self) -> f64 {
         let [first, second, third] = LEGENDRE.each_ref().map(|weights| dot(weights, &self.k, STAGES).abs());
         let before = first.max(second);
         if third < before { MISSED * third * (third / before) } else { MISSED * third }
     }
 
-    /// The polynomial of degree 5 with place, velocity and acceleration of both ends, and its derivative. By accelerations
-    /// alone: differences of places would be rounding in a short step.
+    /// Computes the polynomial of degree 5 with position, velocity and acceleration of both ends, and its derivative. Uses
+    /// accelerations only: differences of positions would be dominated by rounding in short steps.
     fn join_ends(&mut self) {
         let first = self.k[0];
         let place = dot(&POSITION, &self.k, 3) - 0.5 * first;
@@ -137,7 +139,7 @@ impl Track {
         }
     }
 
-    /// The integral of the cubic through the rates of the stages.
+    /// Computes the integral of the cubic through the stage rates.
     fn join_stages(&mut self) {
         self.velocity = Default::default();
         for (column, rate) in INTEGRALS.iter().zip(self.k) {
@@ -156,7 +158,7 @@ mod tests {
         weights.iter().zip(values).map(|(weight, value)| weight * value).sum()
     }
 
-    /// Σ a_ij v_j.
+    /// Returns Σ a_ij v_j.
     fn apply(v: [f64; STAGES]) -> [f64; STAGES] {
         POSITIONS.map(|row| weigh(&row, v))
     }
@@ -165,7 +167,7 @@ mod tests {
         NODES.map(|c| c.powi(exponent))
     }
 
-    /// Legendre's polynomial of a degree over [0, 1] at the nodes.
+    /// Returns the Legendre polynomial of a degree over [0, 1] at the nodes.
     fn shifted(degree: u32) -> [f64; STAGES] {
         NODES.map(|c| {
             let (x, mut p) = (2.0 * c - 1.0, [1.0, 2.0 * c - 1.0]);
@@ -183,7 +185,7 @@ mod tests {
 
     #[test]
     fn all_conditions_of_order_5_hold_and_one_of_order_6_does_not() {
-        // Hairer, Nørsett, Wanner, theorem II.14.2 and table II.14.3: for every special Nyström tree of velocities up to order 5 …
+        // Hairer, Nørsett, Wanner, theorem II.14.2 and table II.14.3: special Nyström trees up to order 5, for velocities …
         let conditions = [
             (power(0), 1.0),
             (power(1), 2.0),
@@ -197,14 +199,14 @@ mod tests {
         for (k, (tree, order)) in conditions.into_iter().enumerate() {
             assert!((weigh(&VELOCITY, tree) * order - 1.0).abs() < 1e-14, "{k}");
         }
-        // … and of positions, one order less of the slopes.
+        // … and for positions, up to one order less.
         let conditions =
             [(power(0), 2.0), (power(1), 6.0), (power(2), 12.0), (power(3), 20.0), (apply(power(1)), 120.0)];
         for (k, (tree, order)) in conditions.into_iter().enumerate() {
             assert!((weigh(&POSITION, tree) * order - 1.0).abs() < 1e-14, "{k}");
         }
         assert!((weigh(&POSITION, power(4)) * 30.0 - 1.0).abs() > 1e-3);
-        // Legendre's polynomials have themselves as coefficients.
+        // Each Legendre polynomial has itself as its only coefficient.
         for (degree, weights) in LEGENDRE.iter().enumerate() {
             for (k, polynomial) in [shifted(1), shifted(2), shifted(3)].into_iter().enumerate() {
                 let exact = f64::from(u8::from(k == degree));
@@ -213,7 +215,7 @@ mod tests {
             assert!(weigh(weights, power(0)).abs() < 1e-14);
         }
         assert!((weigh(&VELOCITY, shifted(5)) - MISSED).abs() < 1e-14);
-        // Half squares of the nodes, and the weights at the end of the dense output.
+        // Rows of positions sum to half the square of their node; integrals sum to the weights at θ = 1.
         for (row, node) in POSITIONS.into_iter().zip(NODES) {
             assert!((row.iter().sum::<f64>() - 0.5 * node * node).abs() < 1e-15);
         }

@@ -1,11 +1,11 @@
-//! The stages of a step, and its end.
+//! Stages and end of a step.
 
 use super::tableau::{NODES, POSITIONS, STAGES, VELOCITY};
 use super::track::dot;
 use super::{Conservative, Nystrom, Storage};
 
 impl<N: Storage> Nystrom<N> {
-    /// Takes all stages up to a time and concludes the step.
+    /// Computes all stages up to time `end` (s) and the end of the step.
     #[inline(always)]
     pub(super) fn step_to<S: Conservative + ?Sized>(&mut self, system: &S, end: f64, few: bool) {
         if !self.known.first {
@@ -36,7 +36,7 @@ impl<N: Storage> Nystrom<N> {
         self.known.last = true;
     }
 
-    /// Evaluates what acts at the positions in `stage`, and keeps it as that of a stage.
+    /// Evaluates the accelerations at the positions in `stage`, and stores them as those of a stage.
     #[inline(always)]
     pub(super) fn evaluate<S: Conservative + ?Sized>(&mut self, system: &S, t: f64, stage: usize) {
         system.accelerations(t, self.stage.as_ref(), self.rates.as_mut());
@@ -46,12 +46,11 @@ impl<N: Storage> Nystrom<N> {
         }
     }
 
-    /// Positions of stage `J`, and what acts there.
+    /// Computes the positions of stage `J` and evaluates the accelerations there.
     #[inline(always)]
     fn advance<const J: usize, S: Conservative + ?Sized>(&mut self, system: &S, t: f64) {
         let h = self.step;
-        // Of all that a position is made of only the stage before is new: it comes last, and nothing waits for it. In the
-        // order of the tables a step of one oscillator takes 109 ns instead of 90, in storage of any size 163 instead of 122.
+        // The newest acceleration is added last: all other terms can be summed before it is known.
         let (before, last) = (&POSITIONS[J], J - 1);
         for (to, track) in self.stage.as_mut().iter_mut().zip(self.tracks.as_ref()) {
             let known = track.x + h * (NODES[J] * track.v + h * dot(before, &track.k, last));
@@ -60,7 +59,7 @@ impl<N: Storage> Nystrom<N> {
         self.evaluate(system, t, J);
     }
 
-    /// All stages at once where nothing changes, without an evaluation: the end is the parabola's.
+    /// Fills all stages under constant accelerations without an evaluation; the end is that of a parabola.
     #[inline(never)]
     fn advance_constant(&mut self) {
         let h = self.step;
@@ -72,7 +71,7 @@ impl<N: Storage> Nystrom<N> {
         }
     }
 
-    /// The end of the step by the weights of order 8; the last stage has the end's positions.
+    /// Computes the end of the step by the weights of order 8. The last stage already has its positions.
     #[inline]
     fn conclude(&mut self) {
         let (h, n) = (self.step, self.positions());

@@ -1,25 +1,24 @@
-//! Storage of a step: for any number of components, or for one, with all loops unrolled.
+//! Storage of a step: vectors of any length, or arrays for one component.
 
 use super::Track;
 
-/// How many positions and quadratures there are: the storage of a [`Nystrom`](super::Nystrom).
+/// Storage types of a [`Nystrom`](super::Nystrom) method.
 ///
-/// A single slider is what most drives are. With arrays of its size all loops over components are unrolled.
-// 34 ns for a step of one oscillator instead of 81 with vectors.
+/// Most drives have one slider. Arrays of fixed size let the compiler unroll all loops over components.
 pub trait Storage {
-    /// A number for each position.
+    /// One number per position.
     type Positions: Values<f64>;
-    /// A number for each position and quadrature.
+    /// One number per position and quadrature.
     type Rates: Values<f64>;
-    /// A number for each position, velocity and quadrature.
+    /// One number per position, velocity and quadrature.
     type State: Values<f64>;
-    /// A track for each position and quadrature.
+    /// One track per position and quadrature.
     type Tracks: Values<Track>;
 }
 
-/// Values of one kind, as many as there are components of theirs.
+/// List of values, one per component.
 pub trait Values<T>: AsRef<[T]> + AsMut<[T]> + std::fmt::Debug + Clone {
-    /// `count` values to begin with.
+    /// Returns `count` default values.
     fn of(count: usize) -> Self;
 }
 
@@ -30,13 +29,13 @@ impl<T: Default + Clone + std::fmt::Debug> Values<T> for Vec<T> {
 }
 
 impl<T: Default + Copy + std::fmt::Debug, const N: usize> Values<T> for [T; N] {
-    /// Those of any other `count` than `N` are left out or too many.
+    /// Returns `N` values, whatever `count` is.
     fn of(_: usize) -> Self {
         [T::default(); N]
     }
 }
 
-/// Any number of positions and quadratures.
+/// Vectors for any number of positions and quadratures.
 #[derive(Debug, Clone, Copy)]
 pub struct Many;
 
@@ -47,7 +46,7 @@ impl Storage for Many {
     type Tracks = Vec<Track>;
 }
 
-/// One position and one quadrature: all loops fall out at compile time.
+/// Arrays for one position and one quadrature.
 #[derive(Debug, Clone, Copy)]
 pub struct One;
 

@@ -1,11 +1,11 @@
 //! Coefficients of the Runge–Kutta–Nyström pair RKN8(6)9.
 //!
-//! Source: J. R. Dormand, M. E. A. El-Mikkawy, P. J. Prince, *High-order embedded Runge–Kutta–Nyström formulae*,
-//! IMA Journal of Numerical Analysis 7 (1987) 423–430.
+//! Source: J. R. Dormand, M. E. A. El-Mikkawy, P. J. Prince, *High-order embedded Runge–Kutta–Nyström formulae*, IMA Journal of
+//! Numerical Analysis 7 (1987) 423–430.
 //!
-//! The position of stage i is x + c_i h v + h² Σ a_ij k_j with k_j the acceleration at stage j; at the end
-//! x + h v + h² Σ b_j k_j and v + h Σ b'_j k_j. The last stage stands at the end itself, with the weights b for its row:
-//! its acceleration is the first one of the next step. What the paper has as fractions stands here as fractions.
+//! Stage i has the position x + c_i h v + h² Σ a_ij k_j, with the accelerations k_j. The end is x + h v + h² Σ b_j k_j and v + h
+//! Σ b'_j k_j. The last stage is at the end of the step, with the weights b as its row; the next step reuses its acceleration.
+//! Fractions are those of the paper.
 
 /// Number of stages; the last one is the first of the next step.
 pub(super) const STAGES: usize = 9;
@@ -15,7 +15,7 @@ pub(super) const END: usize = 8;
 /// Nodes c.
 pub(super) const NODES: [f64; STAGES] = [0.0, 0.05, 0.1, 0.3, 0.5, 0.7, 0.9, 1.0, 1.0];
 
-/// Positions of the stages: x(c) = x + c h v + h² Σ a k.
+/// Coefficients of the stage positions: x(c) = x + c h v + h² Σ a k.
 pub(super) const POSITIONS: [[f64; 8]; STAGES] = [
     [0.0; 8],
     [1.0 / 800.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0],
@@ -64,7 +64,7 @@ pub(super) const POSITIONS: [[f64; 8]; STAGES] = [
     ],
 ];
 
-/// Velocity at the end: v + h Σ b' k, order 8.
+/// Weights of the velocity at the end, order 8: v + h Σ b' k.
 pub(super) const VELOCITY: [f64; STAGES] = [
     223.0 / 7938.0,
     0.0,
@@ -77,7 +77,7 @@ pub(super) const VELOCITY: [f64; STAGES] = [
     0.0,
 ];
 
-/// Position of order 8 less that of order 6.
+/// Weights of the position of order 8 minus those of order 6.
 pub(super) const POSITION_ERROR: [f64; STAGES] = [
     -544307.0 / 12215700.0,
     0.0,
@@ -90,7 +90,7 @@ pub(super) const POSITION_ERROR: [f64; STAGES] = [
     0.0,
 ];
 
-/// Velocity of order 8 less that of order 6.
+/// Weights of the velocity of order 8 minus those of order 6.
 pub(super) const VELOCITY_ERROR: [f64; STAGES] = [
     -544307.0 / 12215700.0,
     0.0,
@@ -103,17 +103,15 @@ pub(super) const VELOCITY_ERROR: [f64; STAGES] = [
     -3.0 / 20.0,
 ];
 
-/// Number of nodes that the dense output goes through, by a polynomial of degree 6 for the acceleration.
+/// Number of nodes of the dense output, whose acceleration is a polynomial of degree 6.
 pub(super) const SAMPLES: usize = 7;
-/// Their stages: nodes 0, 0.1, 0.3, 0.5, 0.7, 0.9 and 1 …
+/// Stages at the nodes 0, 0.1, 0.3, 0.5, 0.7, 0.9 and 1 of the dense output.
 pub(super) const SAMPLED: [usize; SAMPLES] = [0, 2, 3, 4, 5, 6, END];
-/// … of which these are evaluated once more: the stages there are of order 4 only.
+/// Samples that are evaluated again, because the stages there have order 4 only.
 pub(super) const REFINED: std::ops::Range<usize> = 2..6;
 
-/// Monomial coefficients of the polynomial through the samples: inverse of the Vandermonde matrix of its nodes.
-// Monomials, because their integrals are divisions by constants. On [0, 1] with seven nodes these coefficients reach 2 100
-// and cost three digits of what bends most, which counts for the least; they are exact fractions, not the outcome of a
-// computation in doubles.
+/// Monomial coefficients of the polynomial through the samples: the inverse Vandermonde matrix of the nodes.
+// Monomials have simple integrals. The coefficients are exact fractions; their size costs three digits of the highest power.
 const MONOMIALS: [[f64; SAMPLES]; SAMPLES] = [
     [1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0],
     [-1189.0 / 63.0, 875.0 / 32.0, -125.0 / 8.0, 189.0 / 16.0, -375.0 / 56.0, 875.0 / 288.0, -1.0],
@@ -164,7 +162,7 @@ const MONOMIALS: [[f64; SAMPLES]; SAMPLES] = [
     ],
 ];
 
-/// Coefficients of the integral of that polynomial over a fraction θ, over θ: column by column, one for each sample.
+/// Coefficients of the integral of that polynomial up to θ, divided by θ. One row per sample.
 pub(super) const INTEGRALS: [[f64; SAMPLES]; SAMPLES] = {
     let mut columns = [[0.0; SAMPLES]; SAMPLES];
     let mut j = 0;
@@ -179,7 +177,7 @@ pub(super) const INTEGRALS: [[f64; SAMPLES]; SAMPLES] = {
     columns
 };
 
-/// Its double integral over θ, over θ², at the nodes that are refined: x(θ) = x + θh(v + θh Σ w k).
+/// Coefficients of its double integral, divided by θ², at the refined nodes: x(θ) = x + θh(v + θh Σ w k).
 pub(super) const REFINED_POSITIONS: [[f64; SAMPLES]; REFINED.end - REFINED.start] = {
     let mut rows = [[0.0; SAMPLES]; REFINED.end - REFINED.start];
     let mut r = 0;

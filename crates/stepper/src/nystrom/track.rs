@@ -1,28 +1,28 @@
-//! One component in the course of a step.
+//! Data of one component during a step.
 
 use super::tableau::{INTEGRALS, REFINED, SAMPLED, SAMPLES, STAGES};
 
-/// One position with its velocity, or one quadrature, in the course of a step.
+/// Data of one position with its velocity, or of one quadrature, during a step.
 ///
-/// All that belongs to one component lies together: sums of stages run over one track, 232 bytes of it.
+/// The data of a component are contiguous, as sums over stages run over one component.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Track {
-    /// Position at the start of the step; of no meaning to a quadrature.
+    /// Position at the start of the step; unused for a quadrature.
     pub(super) x: f64,
-    /// Velocity, or quadrature, at the start of the step.
+    /// Velocity or quadrature at the start of the step.
     pub(super) v: f64,
-    /// Acceleration, or rate of the quadrature, at the stages.
+    /// Accelerations or quadrature rates at the stages.
     pub(super) k: [f64; STAGES],
-    /// Positions at which the samples are refined.
+    /// Interpolated positions at the refined nodes.
     pub(super) refined: [f64; REFINED.end - REFINED.start],
-    /// The dense output: v + hθ Σ cθʲ …
+    /// Coefficients c of the dense output v + hθ Σ cθʲ of the velocity or quadrature.
     pub(super) velocity: [f64; SAMPLES],
-    /// … and x + hθ(v + hθ Σ cθʲ).
+    /// Coefficients c of the dense output x + hθ(v + hθ Σ cθʲ) of the position.
     pub(super) position: [f64; SAMPLES],
 }
 
 impl Track {
-    /// The polynomials through the samples.
+    /// Computes the polynomials through the samples.
     pub(super) fn interpolate(&mut self) {
         self.velocity = [0.0; SAMPLES];
         for (column, stage) in INTEGRALS.iter().zip(SAMPLED) {
@@ -35,26 +35,26 @@ impl Track {
         }
     }
 
-    /// Position at a fraction θ of the step h.
+    /// Returns the position at fraction θ of the step h (s).
     #[inline]
     pub(super) fn position(&self, h: f64, share: f64) -> f64 {
         self.x + share * h * (self.v + h * share * horner(&self.position, share))
     }
 
-    /// Velocity, or quadrature.
+    /// Returns the velocity or quadrature at fraction θ of the step h (s).
     #[inline]
     pub(super) fn velocity(&self, h: f64, share: f64) -> f64 {
         self.v + h * share * horner(&self.velocity, share)
     }
 }
 
-/// Σ cⱼxʲ.
+/// Returns Σ cⱼxʲ.
 #[inline]
 fn horner(coefficients: &[f64; SAMPLES], x: f64) -> f64 {
     coefficients.iter().rev().fold(0.0, |sum, c| sum * x + c)
 }
 
-/// Σ over the first `count` stages; where that is known at compile time, stages of weight zero fall out.
+/// Returns Σ wⱼkⱼ over the first `count` stages, skipping zero weights.
 #[inline(always)]
 pub(super) fn dot(weights: &[f64], k: &[f64; STAGES], count: usize) -> f64 {
     let mut sum = 0.0;

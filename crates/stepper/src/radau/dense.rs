@@ -1,14 +1,14 @@
-//! The dense output: the polynomial of degree 5 through the start and the stages.
+//! Dense output: the polynomial of degree 5 through the start and the stages.
 
 use super::Radau;
 use super::tableau::{NODES, STAGES, Stages};
 
-/// Divided differences of a component over the start and the nodes:
-/// y₀ + s(c₀ + (s-n₀)(c₁ + (s-n₁)(c₂ + …))) with the nodes n of the stages but the last.
+/// Divided differences c of a component over the start and the nodes: y₀ + s(c₀ + (s-n₀)(c₁ + (s-n₁)(c₂ + …))) with the nodes n
+/// of all stages but the last.
 pub(super) type Polynomial = Stages;
 
 impl Radau {
-    /// Lays it out; nothing is evaluated.
+    /// Computes the dense output of the step attempted, unless it is known; needs no evaluation.
     pub(super) fn interpolate(&mut self) {
         if self.dense_known {
             return;
@@ -19,18 +19,18 @@ impl Radau {
         self.dense_known = true;
     }
 
-    /// The polynomial of component `i`, if there is a dense output.
+    /// Returns the polynomial of component `i` if the dense output is known.
     pub(super) fn polynomial(&self, i: usize) -> Option<&Polynomial> {
         self.polynomials.get(i).filter(|_| self.dense_known)
     }
 
-    /// The part of the step attempted at time t, exactly 1 at its end.
+    /// Returns the fraction of the step attempted at time t (s), exactly 1 at its end.
     pub(super) fn fraction(&self, t: f64) -> f64 {
         if t == self.extent.target { 1.0 } else { (t - self.extent.time) / self.extent.step }
     }
 }
 
-/// Divided differences of values z over the nodes, and of 0 at the start.
+/// Returns the divided differences of values z at the nodes, and of 0 at the start.
 fn differences(z: &Stages) -> Polynomial {
     let mut c: Stages = std::array::from_fn(|i| z[i] / NODES[i]);
     for order in 1..STAGES {
@@ -41,7 +41,7 @@ fn differences(z: &Stages) -> Polynomial {
     c
 }
 
-/// What it has risen by at s.
+/// Returns the change since the start at fraction s.
 #[inline]
 pub(super) fn rise(c: &Polynomial, s: f64) -> f64 {
     let mut value = c[STAGES - 1];
@@ -51,7 +51,7 @@ pub(super) fn rise(c: &Polynomial, s: f64) -> f64 {
     s * value
 }
 
-/// Its derivative by s.
+/// Returns the derivative of the polynomial by s.
 pub(super) fn rate(c: &Polynomial, s: f64) -> f64 {
     let (mut value, mut slope) = (c[STAGES - 1], 0.0);
     for i in (0..STAGES - 1).rev() {
@@ -65,7 +65,7 @@ pub(super) fn rate(c: &Polynomial, s: f64) -> f64 {
 mod tests {
     use super::*;
 
-    /// s - 3s⁵ with its derivative 1 - 15s⁴.
+    /// Interpolates s - 3s⁵, with the derivative 1 - 15s⁴, exactly.
     #[test]
     fn polynomials_of_degree_5_are_met() {
         let c = differences(&NODES.map(|s| s - 3.0 * s.powi(5)));

@@ -1,11 +1,11 @@
-//! Linear equations, by elimination with pivots, in room made once.
+//! Gaussian elimination with partial pivoting in fixed storage.
 
-/// A square matrix as a product of triangles, row by row.
+/// Square matrix as a product of triangular matrices, row by row.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Elimination {
     order: usize,
     entries: Vec<f64>,
-    /// The row with which each was exchanged.
+    /// Row with which each row was exchanged.
     exchanged: Vec<usize>,
 }
 
@@ -14,7 +14,7 @@ impl Elimination {
         Self { order, entries: vec![0.0; order * order], exchanged: vec![0; order] }
     }
 
-    /// Sets every entry, by row and column, and factors; false where the matrix is singular or not finite.
+    /// Sets all entries by row and column and factors the matrix. Returns false if the matrix is singular or not finite.
     pub(super) fn factor(&mut self, entry: impl Fn(usize, usize) -> f64) -> bool {
         let n = self.order;
         for (place, to) in self.entries.iter_mut().enumerate() {
@@ -23,13 +23,14 @@ impl Elimination {
         (0..n).all(|column| self.eliminate(column))
     }
 
-    /// Brings the largest entry of a column to the diagonal and takes it out of the rows below.
+    /// Moves the largest entry of a column to the diagonal and eliminates the column from the rows below. Returns false if the
+    /// pivot is zero or not finite.
     fn eliminate(&mut self, column: usize) -> bool {
         let n = self.order;
         let size = |row: usize| self.entries[row * n + column].abs();
         let pivot = (column + 1..n).fold(column, |most, row| if size(row) > size(most) { row } else { most });
         self.exchanged[column] = pivot;
-        // A sum with a number that is none is none.
+        // A sum with NaN is NaN.
         if !(size(pivot) > 0.0 && (column..n).map(size).sum::<f64>().is_finite()) {
             return false;
         }
@@ -49,7 +50,7 @@ impl Elimination {
         true
     }
 
-    /// Solves in place.
+    /// Solves the linear system in place.
     pub(super) fn solve(&self, x: &mut [f64]) {
         let n = self.order;
         for column in 0..n {
@@ -69,7 +70,7 @@ impl Elimination {
 mod tests {
     use super::*;
 
-    /// Hilbert's matrix of order 5 with its rows in another order, and its inverse in whole numbers.
+    /// Hilbert matrix of order 5 with permuted rows, and its integer inverse.
     #[test]
     fn rows_are_exchanged_and_solutions_found() {
         let row = |i: usize| (i * 3 + 2) % 5;

@@ -1,21 +1,22 @@
-//! What a step may be: its error, and the length of a first one.
+//! Error estimate, and length of the first step.
 
 use super::Radau;
 use super::tableau::{ESTIMATE, FIRST, dot};
 use crate::System;
 
-/// Rounding of the state, in last places, that the power of something stiff may be mistaken for.
-// A stack's power goes with the rate of a voltage that is a difference of two over a resistance. Of one of 0.1 mΩ steps went as the
-// inverse of the tolerance below 1e-9, each ten times as many as before for nothing.
+/// Rounding of the state that the error of a quadrature must exceed, in units of the last place.
+// The power in a piezo driver contains the difference of two voltages over a small resistance: rounding dominates it.
 const ROUNDING: f64 = 8.0;
 
 impl Radau {
-    /// The error of a step in units of `scale`, infinite where it is not finite.
+    /// Returns the error of a step in units of `scale`, infinite if it is not finite.
     ///
-    /// The difference r = h (γ f₀ + Σ eᵢ kᵢ) of two quadratures, and (1 - hγJ)⁻¹ r of the coupled components: a stiff component
-    /// that is where it belongs but for rounding has slopes f₀ far beyond what will become of it. Quadratures go with what is
-    /// left of them, and are judged no finer than the rounding of the state makes their slopes. It falls with h⁶, as the error of the dense output does. One more evaluation, as Hairer and Wanner have it
-    /// for first steps, would let steps pass over what fades within them; the work that is lost there counts.
+    /// For coupled components it is (1 - hγJ)⁻¹ r, with the difference r = h (γ f₀ + Σ eᵢ kᵢ) of two quadratures. The inverse
+    /// filters stiff components, whose slopes f₀ are dominated by rounding. Quadratures follow from the filtered components;
+    /// rounding of the state limits their accuracy. The estimate is of order h⁶, as the error of the dense output.
+    ///
+    /// Hairer and Wanner filter the error of first steps a second time. Here the steps resolve fast decays, because the work lost
+    /// in them counts.
     pub(super) fn error(&mut self, scale: &[f64]) -> f64 {
         let (p, n) = (self.positions, self.dimension);
         let (m, g) = (n - p, FIRST * self.extent.step);
@@ -58,7 +59,7 @@ impl Radau {
         if probe.is_finite() { most } else { f64::INFINITY }
     }
 
-    /// A first step for a fresh start: one that moves the state by a hundredth at its first slopes, at most `longest`.
+    /// Returns a first step that moves the state by a hundredth at its initial slopes, at most `longest` (s).
     pub(super) fn starting_step<S: System + ?Sized>(
         &mut self,
         system: &S,
@@ -73,7 +74,7 @@ impl Radau {
                 values.iter().zip(scale).take(self.dimension).map(|(value, scale)| (value / scale).abs());
             sizes.fold(0.0, f64::max)
         };
-        // What an explicit step of Euler's may move: control lengthens it sixfold from step to step.
+        // The step control lengthens this short step by up to a factor of six per step.
         let (size, speed) = (norm(&self.begin).max(1.0), norm(&self.first));
         if speed > 0.0 { (0.01 * size / speed).min(longest) } else { longest }
     }

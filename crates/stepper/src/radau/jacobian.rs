@@ -1,20 +1,20 @@
-//! How slopes go with the state, by differences.
+//! Jacobian of the slopes by finite differences.
 
 use crate::System;
 
-/// Least difference, in last places of what it is added to.
-// Fewer leave more rounding in a derivative than the simplified Newton iteration has use for: its errors shrink by that much.
+/// Smallest difference of a component, in units of its last place.
+// Rounding of the derivatives then limits the convergence of the simplified Newton iteration only slightly.
 const PLACES: f64 = 4096.0;
 
-/// Derivatives of the slopes of all components by the coupled ones, about the start of a step.
+/// Derivatives of the slopes of all components by the coupled components, at the start of a step.
 #[derive(Debug, Clone)]
 pub(super) struct Jacobian {
-    /// By component and by coupled component.
+    /// Entries by component and coupled component.
     entries: Vec<f64>,
     dimension: usize,
-    /// How far each coupled component is moved.
+    /// Finite difference of each coupled component.
     differences: Vec<f64>,
-    /// Slopes at the start, which are needed for the differences.
+    /// Slopes at the start of the step.
     pub(super) base: Vec<f64>,
     moved: Vec<f64>,
     slopes: Vec<f64>,
@@ -35,19 +35,19 @@ impl Jacobian {
         }
     }
 
-    /// Takes over what another one of the same size knows, in the room there is.
+    /// Copies the derivatives of another Jacobian of the same size.
     pub(super) fn copy(&mut self, of: &Self) {
         self.entries.copy_from_slice(&of.entries);
         self.base.copy_from_slice(&of.base);
         self.known = of.known;
     }
 
-    /// Evaluations that it takes.
+    /// Number of evaluations for one Jacobian.
     pub(super) fn cost(&self) -> u64 {
         self.dimension as u64 + 1
     }
 
-    /// Takes the differences at a time and a state.
+    /// Computes the finite differences at time `t` (s) and state `y`.
     pub(super) fn take<S: System + ?Sized>(&mut self, system: &S, t: f64, y: &[f64]) {
         let n = self.dimension;
         self.moved.copy_from_slice(&y[..n]);
@@ -58,7 +58,7 @@ impl Jacobian {
             self.moved[j] = to;
             system.slopes(t, &self.moved, &mut self.slopes);
             self.moved[j] = at;
-            // What was really added, after rounding.
+            // The difference after rounding.
             let by = (to - at).recip();
             for (i, (slope, base)) in self.slopes.iter().zip(&self.base).enumerate() {
                 self.entries[i * n + j] = (slope - base) * by;
@@ -67,20 +67,21 @@ impl Jacobian {
         self.known = true;
     }
 
-    /// ∂(slope of `i`)/∂(component `j`).
+    /// Returns ∂(slope of `i`)/∂(component `j`).
     #[inline]
     pub(super) fn at(&self, i: usize, j: usize) -> f64 {
         self.entries[i * self.dimension + j]
     }
 
-    /// Change of the slope of `i` with changes of the coupled components.
+    /// Returns the change of slope `i` for changes of the coupled components.
     #[inline]
     pub(super) fn along(&self, i: usize, changes: &[f64]) -> f64 {
         let row = &self.entries[i * self.dimension..(i + 1) * self.dimension];
         row.iter().zip(changes).map(|(a, change)| a * change).sum()
     }
 
-    /// Σ |∂(slope of `i`)/∂(component `j`) · component `j`|: what a relative change of every component may make of a slope.
+    /// Returns Σ |∂(slope of `i`)/∂(component `j`) · component `j`|, the sensitivity of a slope to relative changes of all
+    /// components.
     pub(super) fn size(&self, i: usize, y: &[f64]) -> f64 {
         let row = &self.entries[i * self.dimension..(i + 1) * self.dimension];
         row.iter().zip(y).map(|(a, y)| (a * y).abs()).sum()

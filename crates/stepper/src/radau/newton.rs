@@ -1,24 +1,22 @@
-//! The stages of a step, by the simplified Newton iteration.
+//! Solution of the stages by the simplified Newton iteration.
 //!
-//! Unknown are the slopes k of all coupled components but the positions, whose stages follow from those of the velocities:
-//! w = w₀ + h A k and x = x₀ + h c v₀ + h² A² k. A correction δ obeys [1 - h A ⊗ ∂f/∂w - h² A² ⊗ ∂f/∂x] δ = f - k with the
-//! derivatives at the start of the step. It begins with k = 0: nothing of an earlier step is needed, so that a step depends on its
-//! start alone.
+//! The unknowns are the slopes k of all coupled components except positions. Stages are w = w₀ + h A k and x = x₀ + h c v₀ + h²
+//! A² k. A correction δ satisfies [1 - h A ⊗ ∂f/∂w - h² A² ⊗ ∂f/∂x] δ = f - k, with the Jacobian at the start of the step. The
+//! iteration begins with k = 0, so that a step depends on its start only.
 
 use super::Radau;
 use super::tableau::{A, NODES, SQUARE, STAGES, dot};
 use crate::System;
 
-/// Most corrections of one step; more say that it is too long.
+/// Largest number of corrections in one step; more mean that the step is too long.
 const CORRECTIONS: u32 = 10;
-/// Part of what is allowed of the step that the iteration may leave.
-// Corrections fall by a factor of a hundred and more where the derivatives hold: a tenth of it costs less than one of them.
+/// Allowed remaining error of the iteration, as a fraction of the tolerance of the step.
 const LEFT: f64 = 1e-2;
-/// Corrections that no longer fall are rounding where they are below this part of what is allowed.
+/// Corrections below this fraction of the tolerance that no longer decrease are rounding.
 const ROUNDING: f64 = 0.1;
 
 impl Radau {
-    /// Finds the slopes of all stages, and the stages; false where the iteration fails.
+    /// Solves for the slopes of all stages and the stages. Returns false if the iteration fails.
     pub(super) fn solve_stages<S: System + ?Sized>(&mut self, system: &S, scale: &[f64]) -> bool {
         if !self.factor_stages() {
             return false;
@@ -27,7 +25,7 @@ impl Radau {
         self.correct_stages(system, scale)
     }
 
-    /// The same from slopes that are there, by the matrix that is there.
+    /// Iterates from the present slopes with the present matrix. Returns false if the iteration fails.
     pub(super) fn correct_stages<S: System + ?Sized>(&mut self, system: &S, scale: &[f64]) -> bool {
         self.follow();
         let mut before = f64::INFINITY;
@@ -39,7 +37,7 @@ impl Radau {
             if size == 0.0 || (round == 0 || decay < 1.0) && left <= LEFT {
                 return true;
             }
-            // The first ratio tells of the start more than of the iteration. Not a number is no progress, either.
+            // The first ratio depends on the initial guess. NaN is no progress.
             if decay.is_nan() || round > 1 && decay > 0.5 {
                 return size <= ROUNDING;
             }
@@ -48,20 +46,20 @@ impl Radau {
         false
     }
 
-    /// The matrix of the corrections, stage by stage.
+    /// Assembles and factors the matrix of the corrections, stage by stage.
     pub(super) fn factor_stages(&mut self) -> bool {
         let (p, m, h) = (self.positions, self.dimension - self.positions, self.extent.step);
         let jacobian = &self.jacobian;
         self.matrix.factor(|row, column| {
             let ((i, a), (j, b)) = ((row / m, row % m), (column / m, column % m));
             let unit = if row == column { 1.0 } else { 0.0 };
-            // The first of what is unknown are velocities, which move positions.
+            // The first unknowns are velocities, which determine positions.
             let moved = if b < p { h * h * SQUARE[i][j] * jacobian.at(p + a, b) } else { 0.0 };
             unit - h * A[i][j] * jacobian.at(p + a, p + b) - moved
         })
     }
 
-    /// Stages that follow from the slopes, less the state at the start.
+    /// Computes the stages from the slopes, minus the state at the start.
     fn follow(&mut self) {
         let (p, n, h) = (self.positions, self.dimension, self.extent.step);
         for component in p..n {
@@ -74,7 +72,7 @@ impl Radau {
         }
     }
 
-    /// Slopes of all stages as they are now, and of the coupled ones what they miss.
+    /// Evaluates the slopes of all stages and the residuals of the coupled ones.
     fn evaluate_stages<S: System + ?Sized>(&mut self, system: &S) {
         let (p, n) = (self.positions, self.dimension);
         let m = n - p;
@@ -98,10 +96,10 @@ impl Radau {
         self.evaluations += STAGES as u64;
     }
 
-    /// Corrects slopes and stages; the size of what was corrected, in units of what is allowed.
+    /// Corrects slopes and stages. Returns the size of the correction in units of the tolerance.
     ///
-    /// Quadratures are corrected with them by their derivatives: the power of a stiff damper goes with differences of velocity
-    /// that are far below what is allowed of a velocity.
+    /// The Jacobian corrects quadratures, too: the power of a stiff damper depends on velocity differences far below the
+    /// tolerance.
     fn correct(&mut self, scale: &[f64]) -> f64 {
         let (p, n, h) = (self.positions, self.dimension, self.extent.step);
         let m = n - p;
@@ -127,11 +125,11 @@ impl Radau {
                 k[i] += self.jacobian.along(q, &self.stage);
             }
         }
-        // `max` drops NaN, a sum does not.
+        // `max` ignores NaN, a sum does not.
         if probe.is_finite() { most } else { f64::NAN }
     }
 
-    /// Stages of the positions' slopes and of the quadratures, and the end of the step.
+    /// Computes the stages of positions and quadratures, and the end of the step.
     pub(super) fn arrive(&mut self) {
         let (p, n, h) = (self.positions, self.dimension, self.extent.step);
         for x in 0..p {

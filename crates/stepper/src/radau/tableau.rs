@@ -1,17 +1,18 @@
 //! Coefficients of Radau IIA with five stages.
 //!
-//! Nodes are the zeros of d⁴/dx⁴ [x⁴ (x-1)⁵]; all else follows from them: A integrates Lagrange's polynomials of the nodes up to
-//! each of them, and the weights are its last row. Source: E. Hairer, G. Wanner, *Solving Ordinary Differential Equations II*,
-//! 2nd ed., Springer 1996, section IV.5 (nodes) and IV.8 (estimate). Worked out to 50 digits and rounded; tests hold them to the
-//! conditions of their orders.
+//! The nodes are the zeros of d⁴/dx⁴ [x⁴ (x-1)⁵]. A integrates the Lagrange polynomials of the nodes up to each node; the weights
+//! are its last row. Computed to 50 digits and rounded; tests compare them with the order conditions.
+//!
+//! Source: E. Hairer, G. Wanner, *Solving Ordinary Differential Equations II*, 2nd ed., Springer 1996, section IV.5 (nodes) and
+//! IV.8 (estimate).
 
 /// Number of stages.
 pub(super) const STAGES: usize = 5;
 
-/// A number for every stage.
+/// One number per stage.
 pub(super) type Stages = [f64; STAGES];
 
-/// Where the stages lie in a step of length 1.
+/// Nodes of the stages, as fractions of the step.
 pub(super) const NODES: Stages = [
     0.057_104_196_114_517_68,
     0.276_843_013_638_123_8,
@@ -20,7 +21,7 @@ pub(super) const NODES: Stages = [
     1.0,
 ];
 
-/// Stage i is at y + h Σ aᵢⱼ kⱼ.
+/// Coefficients aᵢⱼ: stage i is at y + h Σ aᵢⱼ kⱼ.
 pub(super) const A: [Stages; STAGES] = [
     [
         0.072_998_864_317_903_32,
@@ -59,14 +60,14 @@ pub(super) const A: [Stages; STAGES] = [
     ],
 ];
 
-/// A², by which positions follow from accelerations.
+/// A², which gives positions from accelerations.
 pub(super) const SQUARE: [Stages; STAGES] = square();
 
-/// Weight of the slopes at the start in the estimate: the real eigenvalue of A.
+/// Weight of the slopes at the start in the error estimate: the real eigenvalue of A.
 pub(super) const FIRST: f64 = 0.159_065_844_427_469_1;
 
-/// Weights of the stages in the estimate: with [`FIRST`] the quadrature of order 5 on the start and the nodes, less that of the
-/// method.
+/// Weights of the stages in the error estimate. With [`FIRST`] they are the quadrature of order 5 on the start and the nodes,
+/// minus that of the method.
 pub(super) const ESTIMATE: Stages = [
     -0.252_343_312_249_546_4,
     0.160_357_122_102_969_94,
@@ -86,7 +87,7 @@ const fn square() -> [Stages; STAGES] {
     square
 }
 
-/// Σ of the products of two rows.
+/// Returns the scalar product of two rows.
 #[inline]
 pub(super) fn dot(row: &Stages, k: &Stages) -> f64 {
     row.iter().zip(k).map(|(a, k)| a * k).sum()
@@ -100,7 +101,7 @@ mod tests {
         row.iter().zip(NODES).map(|(a, c)| a * c.powi(power)).sum()
     }
 
-    /// Conditions B(9) and C(5), which make the method one of order 9 (Hairer, Wanner, theorem IV.5.1).
+    /// Conditions B(9) and C(5), which imply order 9 (Hairer, Wanner, theorem IV.5.1).
     #[test]
     fn weights_and_stages_integrate_powers() {
         for power in 0..9_i32 {
@@ -115,7 +116,7 @@ mod tests {
         }
     }
 
-    /// The estimate is the difference of two quadratures: it integrates powers up to the fourth to nothing, and no fifth.
+    /// The estimate is the difference of two quadratures: it is zero for powers up to 4 but not for power 5.
     #[test]
     fn the_estimate_integrates_low_powers_to_nothing() {
         for power in 0..6_i32 {

@@ -1,9 +1,8 @@
-//! Moments inside a step, as exactly as its end.
+//! Accurate states inside a step, by a separate step to the moment.
 //!
-//! The dense output lies on the stages, and between them a stiff component is off from where it belongs by what the polynomial misses: a
-//! current that is the rest of two large voltages over a small resistance is then off by thousandths of its peak. A step from the
-//! same start to the moment ends where everything belongs. Its stages are those of the dense output but for that, so that a correction
-//! or two find them.
+//! The dense output interpolates the stages. Between them a stiff component, such as a driver current, has a large interpolation
+//! error. A separate step from the same start has none. Its stages are close to the dense output, so one or two corrections
+//! suffice.
 
 use super::{Radau, dense};
 use crate::System;
@@ -11,15 +10,15 @@ use crate::radau::tableau::NODES;
 use std::ops::Range;
 
 impl Radau {
-    /// Makes the one that visits, whole as this one is.
+    /// Creates the stepper for moments inside the step, unless it exists.
     pub(super) fn invite(&mut self) {
         if self.visitor.is_none() {
             self.visitor = Some(Box::new(self.clone()));
         }
     }
 
-    /// All components at time `t` inside the step; false, with nothing done, where the dense output is all there is: at its end, of a
-    /// parabola, and where no stages are found.
+    /// Writes all components at time `t` inside the step into `out`. Returns false without a result at the ends, for a parabola,
+    /// without dense output, and where the Newton iteration fails.
     pub(super) fn visit_inside<S: System + ?Sized>(
         &mut self,
         system: &S,
@@ -39,7 +38,7 @@ impl Radau {
         found
     }
 
-    /// Puts some components of a step that was cut as exactly as a step up to there has them, and their slopes with them.
+    /// Replaces the given components and their slopes at the end of a cut step by those of a separate step up to there.
     pub(super) fn settle_cut<S: System + ?Sized>(
         &mut self,
         system: &S,
@@ -60,7 +59,7 @@ impl Radau {
         self.newest = end;
     }
 
-    /// Makes the step of another one up to time `t`; whether its stages are found.
+    /// Repeats the step `of` up to time `t` (s). Returns false if the Newton iteration fails.
     fn go_to<S: System + ?Sized>(&mut self, of: &Self, system: &S, t: f64, scale: &[f64]) -> bool {
         self.begin.clone_from(&of.begin);
         self.first.clone_from(&of.first);

@@ -1,4 +1,4 @@
-//! DOP853 against closed forms: orders, dense output, error estimate, redone steps.
+//! DOP853 compared with closed forms: orders, dense output, error estimate, repeated steps.
 
 use crate::systems::{Forced, Kepler, Oscillator, order};
 use stickslip_stepper::{
@@ -29,7 +29,7 @@ fn order_8_on_a_nonlinear_system_with_time() {
     });
     let order = order(&points);
     assert!((order - 8.0).abs() < 0.4, "{order} {points:?}");
-    // The error that SciPy 1.17's own step of this method leaves at the same eight steps, to rounding.
+    // Error of SciPy 1.17 for the same eight steps, to rounding.
     assert!((points[0].1 - 2.728_549_6e-10).abs() < 1e-14, "{points:?}");
 }
 
@@ -48,7 +48,7 @@ fn a_step_cut_short_ends_on_the_dense_output_and_goes_on_from_there() {
     assert_eq!((stepper.span().end, stepper.span().end_time), (&there[..], 0.25));
     // Dense output of order 7 over a step of 0.4.
     assert!(distance(stepper.span().end, &system.exact(0.25)) < 1e-9);
-    // A cut step was once read at its old end where its new one was asked for.
+    // At the new end of a cut step.
     let end: Vec<f64> = (0..4).map(|i| stepper.value(i, 0.25)).collect();
     assert_eq!(end, there);
     stepper.accept();
@@ -95,7 +95,7 @@ fn dense_errors(h: f64) -> [f64; 2] {
 
 #[test]
 fn dense_output_has_order_7_and_its_rate_6() {
-    // A polynomial of order 7 misses by h⁸ inside one step, its derivative by h⁷.
+    // The error inside a step is of order h⁸, that of its derivative of order h⁷.
     let steps = [0.12, 0.1, 0.08, 0.06];
     for (which, expected) in [(0, 8.0), (1, 7.0)] {
         let points = steps.map(|h| (h, dense_errors(h)[which]));
@@ -150,7 +150,7 @@ fn counts_evaluations_and_forgets_trials() {
     assert_eq!(stepper.evaluations(), 16 + 12);
     stepper.attempt(&system, Target::even(0.6), &[1.0; 2]);
     assert_eq!(stepper.evaluations(), 28 + 11);
-    // Without the trial, bit for bit the same.
+    // Identical bits without the trial.
     let mut direct = DormandPrince::new(2, 4);
     direct.start(&system, 0.0, &[1.0, 0.0, 0.0, 0.0]);
     direct.attempt(&system, Target::even(0.3), &[1.0; 2]);
@@ -234,14 +234,14 @@ fn kepler_under_control_keeps_its_tolerance() {
             h = verdict.next;
         }
         let error = distance(&stepper.span().begin[..2], &system.exact(t1));
-        // Errors in phase grow with the number of orbits: SciPy 1.17's DOP853 leaves 1.4e-4, 3.7e-8 and 1.5e-11 at these
+        // Phase errors grow with the number of orbits. SciPy 1.17's DOP853 has errors of 1.4e-4, 3.7e-8 and 1.5e-11 at these
         // absolute tolerances, with 758, 1634 and 2858 evaluations.
         assert!(error < 200.0 * tolerance, "{tolerance}: {error}");
         assert!(stepper.evaluations() < most, "{tolerance}: {}", stepper.evaluations());
     }
 }
 
-/// ẏ = -r y cos t for each of some rates, and the integral of the first one's square.
+/// ẏ = -r y cos t for several rates, and the integral of the square of the first.
 struct Fading<'a>(&'a [f64]);
 
 impl System for Fading<'_> {
@@ -264,8 +264,8 @@ impl System for Fading<'_> {
     }
 }
 
-/// What lies side by side is stepped to the bits that it has alone, whether it has a neighbour or not: even, few and graded
-/// steps, their ends, dense output and error.
+/// A component has the same bits with or without others: for even, few-stage and graded steps, their ends, dense output and
+/// error.
 #[test]
 fn neighbours_change_no_bit() {
     let rates = [0.3, 1.1, -0.7, 2.3, 0.9];
@@ -290,7 +290,7 @@ fn neighbours_change_no_bit() {
             assert_eq!(stepper.span().end[count], alone[0].0.span().end[1]);
             assert!(stepper.value(count + 1, 0.45).is_nan() && stepper.slope(count + 1, End::End).is_nan());
             let most = alone[..count].iter().fold(0.0, |most: f64, (_, error)| most.max(*error));
-            // Of order 5 the largest error is the largest of all; of order 8 it is made of the largest of two estimates.
+            // The error of order 5 is the largest of all; that of order 8 combines the maxima of two estimates.
             assert!(if grade == Grade::Few { error == most } else { error > 0.0 }, "{error} {most}");
         }
     }

@@ -49,7 +49,7 @@ fn verlet_has_order_2_under_damping_and_drive() {
 
 #[test]
 fn verlet_carries_further_components_and_quadratures_at_order_2() {
-    // Both compared with RK4 at a step whose error is a million times smaller.
+    // Compared with RK4 at a step whose error is a million times smaller.
     let exact = rk4(&Driven, vec![0.0; 4], 7.0, 4000);
     for i in 2..4 {
         let points = [100, 200, 400, 800].map(|n| {

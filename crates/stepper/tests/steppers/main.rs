@@ -1,6 +1,6 @@
-//! Steppers against closed forms: orders, dense output, error estimates, steps that are cut, rejected and taken up again.
+//! Steppers compared with closed forms: orders, dense output, error estimates; cut, rejected and resumed steps.
 //!
-//! One binary, linked once. `systems` are what is stepped; every other module is a subject.
+//! All tests are one binary. `systems` has the equations; every other module is a subject.
 
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 

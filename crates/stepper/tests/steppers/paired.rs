@@ -1,4 +1,4 @@
-//! Nyström's method and DOP853 in turn on one motion.
+//! Nyström's method and DOP853 alternately on one motion.
 
 use crate::systems::order;
 use stickslip_stepper::{Attempt, Completion, Conservative, Grade, Paired, Step, System, Target};
@@ -53,8 +53,8 @@ fn error(got: &[f64], exact: [f64; 3]) -> f64 {
     got.iter().zip(exact).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
 }
 
-/// One step up to the singular moment: graded its error falls with the power 4.5 of the length that [`Grade`] promises for
-/// the slopes or more; even ones are stuck at 2.5 for the velocity.
+/// One step up to the singular moment: graded, its error is of order 4.5 or higher, as for [`Grade`]; even steps have order 2.5
+/// for the velocity.
 #[test]
 fn graded_steps_keep_their_order() {
     let errors = |grade: Grade| {
@@ -72,8 +72,7 @@ fn graded_steps_keep_their_order() {
     assert!(graded[5].1 < 1e-2 * even[5].1, "{graded:?} {even:?}");
 }
 
-/// Even and graded steps in turn: each goes on where the other one ended, also after an attempt that nobody accepted, and
-/// a step that is cut.
+/// Even and graded steps alternately: each continues where the other one ended, also after a rejected attempt and a cut step.
 #[test]
 fn both_methods_follow_one_motion() {
     let system = Closing { singular: 2.0, omega: 3.0 };

@@ -1,5 +1,5 @@
-//! Radau IIA of order 9 against closed forms and published values: orders on systems that are stiff and that are not, dense
-//! output, steps that are cut, taken up again and rejected.
+//! Radau IIA of order 9 compared with closed forms and published values: orders for stiff and nonstiff systems, dense output;
+//! cut, resumed and rejected steps.
 
 use crate::systems::{Forced, Oscillator, order};
 use stickslip_stepper::{
@@ -11,7 +11,7 @@ fn stepper<S: System>(system: &S) -> Radau {
     Radau::new((n, system.positions()), system.total(), vec![1e-7; n])
 }
 
-/// In equal steps, without a word on their errors.
+/// With equal steps, without error control.
 fn run<S: System>(system: &S, y: &[f64], t1: f64, steps: u32) -> Radau {
     let mut stepper = stepper(system);
     let scale = vec![1e-13; system.total()];
@@ -24,7 +24,7 @@ fn run<S: System>(system: &S, y: &[f64], t1: f64, steps: u32) -> Radau {
     stepper
 }
 
-/// Under control of the errors; gives the number of accepted steps.
+/// With error control; also returns the number of accepted steps.
 fn adapt<S: System>(system: &S, y: &[f64], t1: f64, tolerance: f64) -> (Radau, u32) {
     let mut stepper = stepper(system);
     let limits = StepLimits { shrink: 0.1, ..StepLimits::default() };
@@ -54,7 +54,7 @@ fn distance(a: &[f64], b: &[f64]) -> f64 {
 
 #[test]
 fn order_9_where_nothing_is_stiff() {
-    // In fewer steps the corrections with the derivatives of the start do not end.
+    // With fewer steps the simplified Newton iteration fails.
     let points = [4, 5, 6, 8].map(|n| {
         let stepper = run(&Forced, &[0.5, 1.0, 0.0], 0.9, n);
         (0.9 / f64::from(n), distance(stepper.span().begin, &Forced::exact(0.9)))
@@ -63,7 +63,7 @@ fn order_9_where_nothing_is_stiff() {
     assert!((order - 9.0).abs() < 0.6, "{order} {points:?}");
 }
 
-/// Positions are not unknowns: their stages follow from the velocities'.
+/// Positions, which follow from velocities, have the same order.
 #[test]
 fn positions_follow_at_the_same_order() {
     let system = Oscillator { omega: 2.0 };
@@ -75,7 +75,7 @@ fn positions_follow_at_the_same_order() {
     assert!((order - 9.0).abs() < 0.6, "{order} {points:?}");
 }
 
-/// ẏ = -λ(y - cos t) - sin t with the solution cos t, and ∫y² dt beside it (Prothero and Robinson 1974).
+/// ẏ = -λ(y - cos t) - sin t with the solution cos t, and the quadrature ∫y² dt (Prothero and Robinson 1974).
 struct ProtheroRobinson {
     rate: f64,
 }
@@ -96,8 +96,7 @@ impl System for ProtheroRobinson {
     }
 }
 
-/// Where hλ is 10⁹ the end, a stage, is where the equation holds it, and is off by no more than its stages' order makes of 1/λ;
-/// the quadrature has the order of its nodes.
+/// At hλ = 10⁹ the error at the end is limited by the stage order divided by λ; the quadrature has its own order.
 #[test]
 fn what_is_stiff_stays_on_its_solution() {
     let system = ProtheroRobinson { rate: 1e10 };
@@ -109,8 +108,8 @@ fn what_is_stiff_stays_on_its_solution() {
     }
 }
 
-/// Inside a step a visit stays there, too, and the polynomial does not: off by a part of 10⁻¹⁰, at 10⁷/s it is no longer where the equation
-/// has slopes of the order of 1. Neither moves the step.
+/// A visit inside a step is on the solution. The dense output is off by 10⁻¹⁰, which is large for slopes at λ = 10⁷/s. Neither
+/// changes the step.
 #[test]
 fn a_visit_inside_a_step_is_where_what_is_stiff_belongs() {
     let system = ProtheroRobinson { rate: 1e7 };
@@ -132,13 +131,13 @@ fn a_visit_inside_a_step_is_where_what_is_stiff_belongs() {
     assert!(dense > 1e-2, "{dense}");
     assert!(!stepper.visit(&system, 0.5, &scale, &mut [0.0; 2]), "the end is as exact");
     assert!(stepper.span().end == end && stepper.evaluations() == evaluations);
-    // Cut there, it ends so.
+    // A step cut there has the same end.
     stepper.cut_exactly(&system, 0.3, &scale);
     let cut = stepper.span().end[0];
     assert!((slope(0.3, cut) + 0.3_f64.sin()).abs() < 1e-6 && stepper.span().end_time == 0.3);
 }
 
-/// A fall from beside the solution at 10⁹/s is resolved, and then forgotten: ∫(y-cos t)² of it is 1/(2λ).
+/// A fast decay at 10⁹/s is resolved: its integral ∫(y-cos t)² is 1/(2λ).
 #[test]
 fn a_layer_is_resolved_and_left_behind() {
     let rate = 1e9;
@@ -147,7 +146,7 @@ fn a_layer_is_resolved_and_left_behind() {
     for tolerance in [1e-3, 1e-6, 1e-9, 1e-11] {
         let (stepper, steps) = adapt(&system, &[2.0, 0.0], 2.0, tolerance);
         let end = stepper.span().begin;
-        // y = cos t + e^{-λt}: y² has 2 cos t e^{-λt} and e^{-2λt}, of which 2λ/(λ²+1) + 1/(2λ) is left.
+        // y = cos t + e^{-λt}: y² contains 2 cos t e^{-λt} and e^{-2λt}, with the integrals 2λ/(λ²+1) and 1/(2λ).
         let exact = 1.0 + 0.25 * 4.0_f64.sin() + 2.0 * rate / (rate * rate + 1.0) + 0.5 / rate;
         let off = (end[0] - 2.0_f64.cos()).abs().max((end[1] - exact).abs());
         assert!(off < tolerance, "{tolerance:e}: {off:e} after {steps}");
@@ -156,8 +155,8 @@ fn a_layer_is_resolved_and_left_behind() {
     }
 }
 
-/// Van der Pol's oscillator, ẋ = v, εv̇ = (1-x²)v - x with ε = 10⁻⁶ from (2, 0): the values at t = 2 of the Test Set for IVP Solvers
-/// (Mazzia, Magherini, release 2.4, II-1).
+/// Van der Pol oscillator, ẋ = v, εv̇ = (1-x²)v - x with ε = 10⁻⁶ from (2, 0). Published values at t = 2: Test Set for IVP
+/// Solvers (Mazzia, Magherini, release 2.4, II-1).
 #[test]
 fn van_der_pol_comes_to_the_published_values() {
     struct VanDerPol;
@@ -183,11 +182,11 @@ fn van_der_pol_comes_to_the_published_values() {
     }
 }
 
-/// The dense output has order 5 and is read off between the ends; a step that is cut goes on from it.
+/// The dense output has order 5; a cut step continues from it.
 #[test]
 fn dense_output_and_steps_cut_short() {
     let system = Oscillator { omega: 1.0 };
-    // From where no derivative vanishes.
+    // From a point where no derivative vanishes.
     let (from, start) = (0.5, system.exact(0.5));
     let points = [0.8, 0.4, 0.2].map(|h| {
         let mut stepper = stepper(&system);
@@ -214,7 +213,7 @@ fn dense_output_and_steps_cut_short() {
     assert!(distance(stepper.span().end, &system.exact(0.4)) < 1e-7);
 }
 
-/// Rejected attempts leave nothing behind, and a stepper that takes up where another stood goes on to the same bits and counts.
+/// Rejected attempts leave no trace, and a resumed stepper has the same bits and counts.
 #[test]
 fn nothing_is_left_behind_and_nothing_is_forgotten() {
     let (system, scale) = (ProtheroRobinson { rate: 1e6 }, [1e-9, 1e-9]);
@@ -239,9 +238,8 @@ fn nothing_is_left_behind_and_nothing_is_forgotten() {
     assert_eq!(one.evaluations() - spent, third.evaluations());
 }
 
-/// A capacitor follows a ramp through a resistance, τẏ = t - y, and what that loses is a coupled component, τq̇ = (t - y)². Its
-/// first correction is off by the square of a step, whatever is allowed, which says nothing of the second: steps above about
-/// √τ were refused, 2 800 of them where 60 will do. In the end y = t - τ and q = τt - 3τ²/2.
+/// Capacitor that follows a ramp through a resistance, τẏ = t - y, with its loss as a coupled component, τq̇ = (t - y)². Its
+/// first Newton correction is large, which must not reject long steps. The solution approaches y = t - τ and q = τt - 3τ²/2.
 struct Charged {
     time: f64,
 }

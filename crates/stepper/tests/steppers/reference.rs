@@ -1,14 +1,14 @@
-//! The plain explicit reference against closed forms and with a memory.
+//! Reference method compared with closed forms, and with a memory.
 
 use crate::systems::{Forced, Oscillator};
 use stickslip_stepper::System;
 use stickslip_stepper::reference::{Accepting, ReferenceError, ReferenceOptions, integrate};
 
-/// A system that writes down when it was told to accept.
+/// System that records accepted steps.
 struct Log<S> {
     system: S,
     accepted: Vec<(f64, Vec<f64>)>,
-    /// Time from which on it has had enough, s.
+    /// Time from which it refuses steps, s.
     enough: f64,
 }
 
@@ -65,7 +65,7 @@ impl System for Many {
 
 #[test]
 fn every_size_of_state_meets_the_closed_form() {
-    // Totals 3 to 21: each padded size and the dynamic one.
+    // Totals from 3 to 21: all padded sizes and the generic one.
     for pairs in 1..=10 {
         let mut system = log(Many { pairs });
         let mut y = vec![0.0; 2 * pairs + 1];
@@ -106,7 +106,7 @@ fn accepts_each_step_once_in_order_with_its_own_state() {
 
 #[test]
 fn tolerance_counts_coupled_components_only() {
-    // The same oscillator with and without padding and quadratures: same steps.
+    // The same oscillator with and without padding and quadratures has the same steps.
     struct Bare;
     impl System for Bare {
         fn dimension(&self) -> usize {

@@ -1,4 +1,4 @@
-//! DOP853 where slopes go with a root of the time, and where nothing changes them.
+//! DOP853 where slopes vary with a square root of time, and where they are constant.
 
 use crate::systems::order;
 use stickslip_stepper::{Attempt, Completion, DormandPrince, Grade, Method, Step, System, Target};
@@ -41,8 +41,8 @@ fn errors(system: &Root, h: f64, grade: Grade) -> [f64; 2] {
     [error(h), inside]
 }
 
-/// In √ of the time from its singular end the step has order 8 and its dense output order 7: 4.5 (the error of one step) and
-/// 4 in its length. Even stages keep 1.5 of it.
+/// A graded step has order 8 in the square root of time and its dense output order 7: 4.5 (error of one step) and 4 in its
+/// length. Even stages have order 1.5.
 #[test]
 fn a_graded_step_keeps_its_order_at_a_singular_end() {
     for (grade, at_end) in [(Grade::Start, false), (Grade::End, true)] {
@@ -58,7 +58,7 @@ fn a_graded_step_keeps_its_order_at_a_singular_end() {
     }
 }
 
-/// A stone's throw: ẍ = -g, and a work that grows evenly.
+/// Free fall, ẍ = -g, and a linear quadrature.
 struct Stone;
 
 impl System for Stone {

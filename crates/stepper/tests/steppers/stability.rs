@@ -1,4 +1,4 @@
-//! How long a step may be before motions that fade or swing begin to grow.
+//! Stability limits for decaying and oscillating motions.
 
 use stickslip_stepper::{Attempt, Conservative, DormandPrince, Method, Nystrom, Step, System, Target};
 
@@ -43,7 +43,7 @@ fn below_the_limit_of_dop853_nothing_grows_that_fades_or_swings() {
             assert!(within < 1.0 + 1e-12, "{angle} {part}: {within}");
         }
     }
-    // A swing of the longest step fades by a sixth, and one a quarter longer grows.
+    // An oscillation at the largest step decays by a sixth; one with a step longer by a quarter grows.
     assert!(growth(90_f64.to_radians(), limit) < 0.85 && growth(90_f64.to_radians(), 1.25 * limit) > 1.1);
 }
 
@@ -56,7 +56,7 @@ impl Conservative for Swings {
     }
 }
 
-/// Spectral radius of the step's matrix on (x, v).
+/// Spectral radius of the step's matrix for (x, v).
 fn spectral_radius(step: f64) -> f64 {
     let column = |start: [f64; 2]| {
         let mut stepper = Nystrom::new(1, 0);

@@ -61,7 +61,7 @@ impl System for Forced {
     }
 }
 
-/// Kepler's problem (μ = 1, a = 1), excentricity `e`, from the pericentre: positions, velocities.
+/// Kepler's problem (μ = 1, a = 1) with eccentricity `e`, from the pericentre: positions, velocities.
 pub(crate) struct Kepler {
     pub(crate) e: f64,
 }
@@ -98,8 +98,8 @@ impl System for Kepler {
     }
 }
 
-/// Damped and driven: ẍ = -x - 0.2 ẋ + sin 2t as position and velocity, a further component ż = x - z, the work
-/// ∫0.2 ẋ² dt. From rest at 0.
+/// Damped, driven oscillator: ẍ = -x - 0.2 ẋ + sin 2t as position and velocity, a further component ż = x - z, and the work ∫0.2
+/// ẋ² dt. From rest at 0.
 pub(crate) struct Driven;
 
 impl Driven {

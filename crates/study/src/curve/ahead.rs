@@ -1,26 +1,32 @@
-//! A search on several cores.
+//! Speculative parallel search.
 //!
-//! A search asks for one place after another: where it looks next hangs on what it has heard. To have more than one place to compute,
-//! it is led on by guesses of the answers that are not there yet, and all that it asks for so are computed side by side. Then it begins
-//! anew with what is known by now. An answer that is known is never guessed: what a search finds, and what it has asked for on its
-//! way, is the same for any number of cores. Where guesses mislead it something was computed in vain, on cores that had nothing to do.
+//! A sequential search evaluates one point after another; each point depends on the earlier results. To use several
+//! cores, unknown results are replaced by guesses, and all
+//! points that the search then requests are computed in parallel. Afterwards the search starts again with the new
+//! results.
+//!
+//! Known results are never replaced by guesses. The search and its points are therefore the same for any number of
+//! cores. Wrong guesses only waste the time of idle cores.
 
 use crate::each::each;
 
-/// What a search asks: for a place, and how much of its way is behind it, 0 to 1. None where it is to go no further for now.
+/// Evaluation function of a search. Arguments: the point and the progress of the search, 0 to 1. `Err(None)` ends the
+/// search for now.
 pub(super) type Ask<'a, A, E> = dyn FnMut(f64, f64) -> Result<A, Option<E>> + 'a;
 
-/// What a search has come to.
+/// Result of a search.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Found<T, A, E> {
-    /// What it finds, or the first answer that was none.
+    /// Result of the search, or its first error.
     pub(super) outcome: Result<T, E>,
-    /// The places that it asked for, with the answers.
+    /// Points that the search evaluated, with their results.
     pub(super) asked: Vec<(f64, Result<A, E>)>,
 }
 
-/// Leads a search to its end on so many cores. `guess` makes an answer for a place from those that are known; `of` computes it; `told`
-/// hears how much of the way is behind.
+/// Runs a search on `cores` threads.
+///
+/// `guess` predicts the result at a point from the known results. `of` computes it. `told` receives the progress of the
+/// search.
 pub(super) fn search<T, A: Clone + Send, E: Clone + Send>(
     cores: usize,
     mut search: impl FnMut(&mut Ask<'_, A, E>) -> Result<T, Option<E>>,
@@ -35,7 +41,7 @@ pub(super) fn search<T, A: Clone + Send, E: Clone + Send>(
             known.iter().filter_map(|(at, answer)| Some((*at, answer.clone().ok()?))).collect();
         let outcome = search(&mut |at, behind| {
             if let Some((_, answer)) = known.iter().find(|(place, _)| *place == at) {
-                // What comes after a guess may never be asked for.
+                // Points after a guess may never be requested.
                 if wanted.is_empty() {
                     asked.push((at, answer.clone()));
                     return answer.clone().map_err(Some);
@@ -62,13 +68,13 @@ pub(super) fn search<T, A: Clone + Send, E: Clone + Send>(
     }
 }
 
-/// A guess: the line through the two points nearest to a place, there; none of fewer.
+/// Returns linear interpolation at a point by its two nearest neighbours. Returns `None` for fewer than two points.
 pub(super) fn line(points: impl Iterator<Item = (f64, f64)>, at: f64) -> Option<f64> {
     let [(x, y), (other, higher)] = nearest(points, at).get(..2)?.try_into().ok()?;
     Some(y + (higher - y) * (at - x) / (other - x))
 }
 
-/// A guess: the parabola through the three points nearest to a place, there; not a number where there are fewer.
+/// Returns quadratic interpolation at a point by its three nearest neighbours. Returns NaN for fewer than three points.
 pub(super) fn parabola(points: impl Iterator<Item = (f64, f64)>, at: f64) -> f64 {
     let near = nearest(points, at);
     let Some([a, b, c]) = near.get(..3).and_then(|near| <[(f64, f64); 3]>::try_from(near).ok()) else {
@@ -80,7 +86,7 @@ pub(super) fn parabola(points: impl Iterator<Item = (f64, f64)>, at: f64) -> f64
     share(a, b, c) + share(b, c, a) + share(c, a, b)
 }
 
-/// Points by their distance from a place, each place once.
+/// Sorts points by their distance and removes duplicates.
 fn nearest(points: impl Iterator<Item = (f64, f64)>, at: f64) -> Vec<(f64, f64)> {
     let mut near: Vec<(f64, f64)> = points.collect();
     near.sort_by(|a, b| (a.0 - at).abs().total_cmp(&(b.0 - at).abs()).then(a.0.total_cmp(&b.0)));
@@ -95,10 +101,10 @@ mod tests {
     use std::cell::Cell;
     use std::sync::atomic::{AtomicUsize, Ordering};
 
-    /// What is found, how often all cores were busy with something, and what was computed.
+    /// Result of a search, number of parallel rounds and number of computed points.
     type Cost<T, A> = (Found<T, A, ()>, u32, usize);
 
-    /// The peak of a curve between 0.5 and 1, the answers guessed by another.
+    /// Searches for the maximum of `of` between 0.5 and 1, with guesses from `guess`.
     fn peak(cores: usize, of: fn(f64) -> f64, guess: fn(f64) -> f64) -> Cost<Peak, Seen> {
         let (rounds, computed) = (Cell::new(0), AtomicUsize::new(0));
         let seen = |at, value| Seen { at, value, error: 0.0 };
@@ -123,8 +129,8 @@ mod tests {
         2.0 - (at - 0.7).powi(2)
     }
 
-    /// Golden section asks for one place after another: guesses that are nearly right have as many as there are cores computed at a
-    /// time, and nothing in vain but near the top, where they take the wrong side.
+    /// With nearly correct guesses, golden section search computes as many points at a time as there are cores. Only
+    /// near the maximum are points wasted.
     #[test]
     fn good_guesses_divide_the_rounds_by_the_cores_and_change_nothing() {
         let (alone, rounds, computed) = peak(1, bent, parabola);
@@ -137,7 +143,7 @@ mod tests {
         }
     }
 
-    /// Guesses that are always wrong cost no round and change nothing.
+    /// Wrong guesses need no additional rounds and do not change the result.
     #[test]
     fn bad_guesses_change_nothing() {
         let (alone, rounds, _) = peak(1, bent, bent);
@@ -164,7 +170,7 @@ mod tests {
         assert!(bracket.still <= 0.74 && bracket.steps > 0.74 && bracket.half_width() <= 0.4e-6);
     }
 
-    /// The first answer that is none ends the search; one that only guesses led to does not.
+    /// An error ends the search if the search requested its point, but not if only guesses led to the point.
     #[test]
     fn a_fault_ends_it_only_where_it_is_asked_for() {
         let of = |at: f64| if at > 0.8 { Err(()) } else { Ok(Seen { at, value: bent(at), error: 0.0 }) };

@@ -1,57 +1,60 @@
-//! Where a curve meets zero: between a place where the drive steps and one where it does not.
+//! Bracketing of the value at which steps vanish: one end of the bracket has steps, the other has none.
 //!
-//! Beyond the edge there are no steps, or steps back, so there is no root to close in on from both sides. But the steps before it
-//! are nearly a straight line: the line through the two nearest places with a step says where it ends, and a place half a tolerance
-//! before that end is tried, or one half a tolerance beyond it where the last one was as near. Where the line misleads, the
-//! bracket is halved.
+//! Beyond this value the step length is zero or reversed, so ordinary root finding does not apply. The step length is
+//! nearly linear before it. The line through the two
+//! nearest points with steps predicts the zero, and the next evaluation is 0.45 tolerances before or beyond the
+//! prediction. The bracket is bisected if the prediction fails
+//! to halve it.
 
 use super::CurveError;
 
-/// A bracket: the drive steps at one of its ends and not at the other.
+/// Bracket of the value at which steps vanish.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Bracket {
-    /// A place with a step.
+    /// End with steps.
     pub steps: f64,
-    /// A place without.
+    /// End without steps.
     pub still: f64,
-    /// Places that were tried.
+    /// Number of evaluations.
     pub runs: u32,
 }
 
-/// Most places that are tried.
+/// Maximum number of evaluations.
 const MOST: u32 = 60;
-/// Where the end is tried, in widths of the tolerance before and beyond the line's.
+/// Distance of an evaluation from the predicted zero, relative to the tolerance.
 const ASIDE: f64 = 0.45;
-/// An edge this near to zero, as a share of the bracket that it was in, is at zero: it has no size to be a share of.
+/// Smallest scale of the relative tolerance, as a fraction of half the initial bracket. It bounds the search near zero.
 const NOTHING: f64 = 1e-2;
 
 impl Bracket {
-    /// Whether a tolerance is one that is closed in to.
+    /// Checks a relative tolerance.
     ///
     /// # Errors
-    /// A tolerance out of its range, 1e-9 to 0.1.
+    /// Fails if the tolerance is outside 1e-9 to 0.1.
     pub(super) fn check(tolerance: f64) -> Result<(), CurveError> {
         if (1e-9..=0.1).contains(&tolerance) { Ok(()) } else { Err(CurveError::Tolerance(tolerance)) }
     }
 
-    /// The middle.
+    /// Returns the midpoint of the bracket.
     #[must_use]
     pub fn middle(&self) -> f64 {
         0.5 * (self.steps + self.still)
     }
 
-    /// Half of what lies between.
+    /// Returns half of the width of the bracket.
     #[must_use]
     pub fn half_width(&self) -> f64 {
         0.5 * (self.steps - self.still).abs()
     }
 
-    /// Narrows a bracket until it is no wider than a share of its middle. `known` are places with their steps, the nearest to the
-    /// edge first, at least one; `still` one without; `try_at` gives the step at a place, or none where there is none, and hears how
-    /// much of the way is behind, 0 to 1: by how many times the bracket is narrower, as a power.
+    /// Narrows the bracket until its width is below `tolerance` times its midpoint. Returns `None` if `known` is empty.
+    ///
+    /// `known` has points with their step lengths, nearest to the zero first. `still` is a point without steps.
+    /// `try_at` returns the step length at a point, or `None` without steps. Its second argument is the progress of the
+    /// search, 0 to 1, on a logarithmic scale of the bracket width.
     ///
     /// # Errors
-    /// Those of a place that cannot be tried.
+    /// Returns the first error of `try_at`.
     pub fn narrow<E>(
         mut known: Vec<(f64, f64)>,
         still: f64,
@@ -84,14 +87,15 @@ impl Bracket {
     }
 }
 
-/// The place to be tried by the line through the two nearest places with steps; none where it leads out of the bracket.
+/// Returns the next point to evaluate by linear extrapolation of the two nearest step lengths. Returns `None` if it is
+/// outside the bracket.
 fn aimed(known: &[(f64, f64)], bracket: Bracket, width: f64) -> Option<f64> {
     let (&(x, step), &(farther, longer)) = (known.first()?, known.get(1)?);
     let end = x - step * (farther - x) / (longer - step);
     let inwards = (bracket.steps - bracket.still).signum();
     let is_within = |at: f64| inwards * (at - bracket.still) > 0.0 && inwards * (bracket.steps - at) > 0.0;
     let (before, beyond) = (end + inwards * ASIDE * width, end - inwards * ASIDE * width);
-    // What is not finite lies nowhere.
+    // Comparisons with NaN are false, so points that are not finite are excluded.
     [before, beyond].into_iter().find(|at| is_within(*at))
 }
 
@@ -100,7 +104,7 @@ mod tests {
     use super::*;
     use std::convert::Infallible;
 
-    /// Steps |S - S₀|ᵖ on the side of `known`, none on the other.
+    /// Bracket for step lengths |S - S₀|ᵖ on the side of `known` and no steps on the other side.
     fn found(edge: f64, power: f64, known: &[f64], still: f64, tolerance: f64) -> Bracket {
         let step = |at: f64| {
             let beyond = (at - edge) * (known[0] - still).signum();
@@ -117,7 +121,7 @@ mod tests {
         assert!(bracket.still < 0.74 && bracket.steps > 0.74 && bracket.half_width() <= 0.5e-4);
     }
 
-    /// A bent curve to 1e-4 in fewer than 20 tries, whether one place with a step is known or two.
+    /// Nonlinear curves need fewer than 20 evaluations for 1e-4, with one or two known steps.
     #[test]
     fn bent_curves_and_a_single_step_end_in_a_bracket() {
         for power in [0.5, 1.5, 3.0] {
@@ -136,7 +140,7 @@ mod tests {
         assert!(bracket.steps < 0.4 && bracket.still >= 0.4 && bracket.half_width() <= 2.1e-6, "{bracket:?}");
     }
 
-    /// A bracket about zero has no middle to be a share of.
+    /// The midpoint of a bracket around zero gives no scale for a relative tolerance.
     #[test]
     fn an_edge_at_zero_comes_to_an_end() {
         let bracket = found(0.0, 1.0, &[1.0], -1.0, 1e-4);

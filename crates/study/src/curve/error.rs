@@ -1,87 +1,85 @@
-//! Why there is no curve at all. What is wrong with a single point stands in its row.
+//! Errors of a whole curve. Errors of a single point are in its row.
 
 use stickslip_run::Refusal;
 use stickslip_scenario::ScenarioError;
 use thiserror::Error;
 
-/// Why there is no curve.
+/// Error: the curve cannot be computed.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum CurveError {
-    /// The scenario.
+    /// The scenario is rejected.
     #[error(transparent)]
     Refused(#[from] Refusal),
-    /// A path into it that names no number that can change by any amount.
+    /// The key path does not name a number that can be varied continuously.
     #[error(transparent)]
     Path(#[from] ScenarioError),
-    /// No waveform whose period is that of the steps.
-    #[error("{file}: no waveform makes the steps: {why}\n   help: {help}")]
+    /// There is no waveform whose period is the period of the steps.
+    #[error("{file}: no waveform determines the steps: {why}\n   help: {help}")]
     NoPeriod {
-        /// The scenario.
+        /// Name of the scenario.
         file: String,
-        /// What it lacks.
+        /// What is missing.
         why: String,
-        /// What to do.
+        /// Advice for the user.
         help: String,
     },
-    /// No body whose way is the step, or that could be loaded.
+    /// There is no body whose steps are evaluated or that can be loaded.
     #[error("{file}: {lacking}\n   help: {help}")]
     NoBody {
-        /// The scenario.
+        /// Name of the scenario.
         file: String,
-        /// What there is none of.
+        /// What is missing.
         lacking: &'static str,
-        /// What to do.
+        /// Advice for the user.
         help: String,
     },
-    /// A curve that this scene does not have.
-    #[error("{file}: there is no curve {kind}: {why}\n   help: {help}")]
+    /// The scenario does not have this curve.
+    #[error("{file}: the curve {kind} is not possible: {why}\n   help: {help}")]
     NotHere {
-        /// The scenario.
+        /// Name of the scenario.
         file: String,
         /// Name of the curve.
         kind: &'static str,
-        /// What the scene lacks.
+        /// What the scenario lacks.
         why: String,
-        /// What to do.
+        /// Advice for the user.
         help: String,
     },
-    /// Nobody knows in which range to vary something.
-    #[error(
-        "{file}: in which range the {varied} is to be varied is not known: {why}\n   help: give one, --range FROM..TO"
-    )]
+    /// The parameter has no default range.
+    #[error("{file}: no default range for {varied}: {why}\n   help: give a range, --range FROM..TO")]
     NoRange {
-        /// The scenario.
+        /// Name of the scenario.
         file: String,
-        /// What is varied.
+        /// Name of the parameter.
         varied: String,
-        /// What keeps it from being known.
+        /// Reason for the error.
         why: &'static str,
     },
-    /// A range that holds nothing.
+    /// The range is empty or not finite.
     #[error("expected a range that rises from one finite value to another, got {from} to {to}")]
     Range {
-        /// Where it begins, SI.
+        /// Start of the range, SI.
         from: f64,
-        /// Where it ends, SI.
+        /// End of the range, SI.
         to: f64,
     },
-    /// Decades from zero or below.
-    #[error("expected a range above 0 for points that are as many per decade, got {from} to {to}")]
+    /// A logarithmic range does not start above 0.
+    #[error("expected a range above 0 for logarithmic spacing, got {from} to {to}")]
     Decades {
-        /// Where it begins, SI.
+        /// Start of the range, SI.
         from: f64,
-        /// Where it ends, SI.
+        /// End of the range, SI.
         to: f64,
     },
-    /// A tolerance out of its range.
+    /// The tolerance is outside 1e-9 to 0.1.
     #[error("expected a tolerance from 1e-9 to 0.1, got {0}")]
     Tolerance(f64),
-    /// A number of points.
+    /// The number of points is invalid.
     #[error("expected 2 to {most} points, got {got}")]
     Points {
-        /// Most of them.
+        /// Maximum number of points.
         most: usize,
-        /// What was asked for.
+        /// Requested number of points.
         got: usize,
     },
 }

@@ -1,9 +1,10 @@
-//! The holding force: the largest load along x on the still drive that does not slide it away.
+//! Holding force: the largest load along x that the drive at rest holds.
 //!
-//! Waveforms rest at their values of t = 0 and nothing moves, so a load is held where it has a static equilibrium: with its
-//! contacts crept, but not slipping as a whole. That is what a start in equilibrium looks for, all loads put on in proportion
-//! (`stickslip_drive::Model::start`); where there is none, it names the body that gives way. The largest load is closed in on
-//! by halving, for a drive tells no more than whether it holds.
+//! Waveforms rest at their values at t = 0. A load is held if the drive has a static equilibrium in which contacts
+//! creep but do not slip as a whole. The start in
+//! equilibrium ([`stickslip_drive::Model::start`]) searches for it with all loads increased in proportion. Without an
+//! equilibrium it reports the body that gives way. The
+//! largest load is found by bisection, because the search only reports whether a load is held.
 
 mod held;
 mod table;
@@ -19,74 +20,78 @@ use held::Still;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use stickslip_run::{Job, Warning, Watcher};
 
-/// Its name as a curve.
+/// Name of the curve.
 pub const NAME: &str = "holding-force";
 
-/// Holding forces of a scenario over something that is varied.
+/// Holding force of a scenario versus a parameter.
 pub struct Holding {
     body: usize,
-    /// What is varied.
+    /// The varied parameter.
     pub variation: Variation,
-    /// The scenario without it.
+    /// The scenario without the variation.
     pub job: Job,
 }
 
-/// What the drive holds at a value.
+/// Holding forces at one value of the parameter.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Point {
-    /// What is varied, SI.
+    /// Value of the parameter, SI.
     pub value: f64,
-    /// What sets it in the scenario: pairs of key path and value, as `--set` takes them.
+    /// Arguments of `--set` that give this point: pairs of key path and value.
     pub set: Overrides,
-    /// What `check` warns of there.
+    /// Warnings of `check` at this point.
     pub warnings: Vec<Warning>,
-    /// Loads along x, and against it.
+    /// Holding forces against loads along +x and -x.
     pub ways: [Result<Held, Holdless>; 2],
 }
 
 impl Holding {
-    /// Over the number at a path, or else over what presses the contacts of the figures' body.
+    /// Creates the curve over the parameter at a key path, or by default over the preload of the body named in
+    /// `figures`.
     ///
     /// # Errors
-    /// A scenario that has no body to be loaded or no friction, or nothing that is varied so.
+    /// Fails if no body can be loaded, nothing has friction, or the parameter does not exist.
     pub fn new(job: Job, over: Option<&str>) -> Result<Self, CurveError> {
-        let body = body(&job, "no body is free along x, to be loaded")?;
+        let body = body(&job, "no body is free along x")?;
         let variation = match over {
             Some(path) => Variation::at(&job, path)?,
             None => Variation::preload(&job, body).map_err(|why| {
-                let help = "say over which number, such as --vary contacts.NAME.friction=0.1..0.5";
+                let help = "name a parameter, such as --vary contacts.NAME.friction=0.1..0.5";
                 not_here(&job, NAME, why, help)
             })?,
         };
         let scene = &job.scenario.scene;
         let rubs = scene.contacts.iter().any(|contact| contact.part.interface.friction() > 0.0);
         if !rubs && !variation.name.ends_with(".friction") {
-            let help = "give a contact of it a \"friction\" above 0";
-            let why = format!("nothing that could hold \"{}\" has friction", scene.bodies[body].name);
+            let help = "give one of its contacts a \"friction\" above 0";
+            let why = format!("no contact of \"{}\" has friction", scene.bodies[body].name);
             return Err(not_here(&job, NAME, why, help));
         }
         Ok(Self { body, variation, job })
     }
 
-    /// Name of the body that is loaded.
+    /// Returns the name of the loaded body.
     #[must_use]
     pub fn on(&self) -> &str {
         &self.job.scenario.scene.bodies[self.body].name
     }
 
-    /// A range worth looking at, SI.
+    /// Returns the default range of the parameter, SI.
     ///
     /// # Errors
-    /// Where nobody knows: of a number by its path.
+    /// Fails if no default is known, as for a parameter given by its path.
     pub fn range(&self) -> Result<[f64; 2], CurveError> {
         self.variation.range.ok_or_else(|| self.variation.no_range(&self.job))
     }
 
-    /// The holding forces at some values, to a share of their size, on so many cores; the same for any number. The watcher is told
-    /// how many points are done; where it wants an end, those not yet done are [`Holdless::NotRun`].
+    /// Computes the holding forces at the given values to a relative tolerance, on `cores` threads. The result does not
+    /// depend on the number of threads.
+    ///
+    /// The watcher receives the number of finished points. If it interrupts, the remaining points are
+    /// [`Holdless::NotRun`].
     ///
     /// # Errors
-    /// A tolerance out of its range, 1e-9 to 0.1.
+    /// Fails if the tolerance is outside 1e-9 to 0.1.
     pub fn trace(
         &self,
         values: &[f64],
@@ -109,7 +114,7 @@ impl Holding {
         }))
     }
 
-    /// The drive at rest with something set.
+    /// Returns the drive at rest with overrides applied.
     fn still(&self, set: &[(String, String)], watcher: &dyn Watcher) -> Result<Still, Holdless> {
         if !watcher.goes_on() {
             return Err(Holdless::NotRun);
@@ -119,13 +124,14 @@ impl Holding {
 }
 
 impl Point {
-    /// Whether both ways are done, found or not.
+    /// Returns whether both directions are finished, with or without a result.
     #[must_use]
     pub fn is_done(&self) -> bool {
         self.ways.iter().all(|way| *way != Err(Holdless::NotRun))
     }
 
-    /// Whether it holds as much both ways, for what is known of it.
+    /// Returns whether the holding forces in both directions agree within their uncertainties. If one of them has no
+    /// result, the other must not have one, either.
     #[must_use]
     pub fn is_alike(&self) -> bool {
         match &self.ways {

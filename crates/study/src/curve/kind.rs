@@ -1,28 +1,28 @@
-//! The curves that have a name, and those of any number.
+//! Types of curves.
 
-/// What a curve is of.
+/// Type of a curve.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Kind {
-    /// Step over the stroke, or amplitude, of the figures' waveform.
+    /// Step length versus stroke or amplitude of the waveform named in `figures`.
     StepAmplitude,
-    /// Mean speed over the frequency of the figures' waveform.
+    /// Mean velocity versus frequency of the waveform named in `figures`.
     SpeedFrequency,
-    /// Mean speed, and power, over a load against the steps of the figures' body.
+    /// Mean velocity and power versus a load against the steps of the body named in `figures`.
     ForceSpeed,
-    /// Step over such a load.
+    /// Step length versus the same load.
     StepLoad,
-    /// Step over the normal force of the body's contacts.
+    /// Step length versus the normal force of the body's contacts.
     Preload,
-    /// Step over any number of the scenario, by its key path.
+    /// Step length versus any parameter of the scenario, given by its key path.
     Vary(String),
 }
 
 impl Kind {
-    /// The curves that need no path.
+    /// All types without a key path.
     pub const NAMED: [Self; 5] =
         [Self::StepAmplitude, Self::SpeedFrequency, Self::ForceSpeed, Self::StepLoad, Self::Preload];
 
-    /// Its name, in arguments and files.
+    /// Returns the name in arguments and files.
     #[must_use]
     pub fn name(&self) -> &'static str {
         match self {
@@ -35,19 +35,19 @@ impl Kind {
         }
     }
 
-    /// The curve of a name that needs no path.
+    /// Returns the type with this name, unless it needs a key path.
     #[must_use]
     pub fn of_name(name: &str) -> Option<Self> {
         Self::NAMED.into_iter().find(|kind| kind.name() == name)
     }
 
-    /// Whether it varies a load.
+    /// Returns whether the parameter is a load.
     #[must_use]
     pub fn is_of_load(&self) -> bool {
         matches!(self, Self::ForceSpeed | Self::StepLoad)
     }
 
-    /// Whether it is one of speeds, and not of steps.
+    /// Returns whether the curve has velocities instead of step lengths.
     #[must_use]
     pub fn is_of_speed(&self) -> bool {
         matches!(self, Self::SpeedFrequency | Self::ForceSpeed)

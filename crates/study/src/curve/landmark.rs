@@ -1,4 +1,4 @@
-//! What is looked for on a curve: where it meets zero, and where it is best.
+//! Special points of a curve (landmarks): zero-step stroke, stall force, maxima.
 
 use super::ahead::{self, Found};
 use super::{Bracket, Curve, CurveError, Kind, Motion, Motionless, Peak, Point, Seen, Traced};
@@ -7,42 +7,43 @@ use std::sync::{Mutex, PoisonError};
 use stickslip_run::Watcher;
 use thiserror::Error;
 
-/// A point of a curve that has a name.
+/// Special point of a curve.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Landmark {
-    /// `zero_step` (S₀: the largest amplitude without a steady step), `stall` (the least load against which there is none), or
-    /// `best_speed`, `best_power`, `best_step`.
+    /// `zero_step` (S₀, the largest amplitude without a steady step), `stall` (the smallest load that stops the steps),
+    /// or the maxima `best_speed`, `best_power` and
+    /// `best_step`.
     pub name: &'static str,
-    /// What is varied there, SI, or why that is not known.
+    /// Value of the parameter at this point, SI, or the reason why it was not found.
     pub at: Result<f64, Unfound>,
-    /// How far it may be off: half of the bracket, and at edges by how much the error of the steps there moves it. 0 where it is
-    /// not known.
+    /// Uncertainty of the value: half of the bracket, and for `zero_step` and `stall` also the effect of the step
+    /// length errors. 0 if not found.
     pub half_width: f64,
-    /// What is largest there, SI; none of edges.
+    /// Maximum, SI. `None` for `zero_step` and `stall`.
     pub value: Option<f64>,
-    /// Points that were computed for it.
+    /// Number of points computed for it.
     pub runs: u32,
-    /// Of S₀: whether the drive steps the other way at smaller amplitudes, so that its step changes its sign here.
+    /// Of S₀: true if the drive steps in the opposite direction at smaller amplitudes.
     pub turns: bool,
-    /// Of S₀ where all points step: the smallest amplitude of them, below which it lies.
+    /// Upper bound of S₀ if all points of the curve have steps: their smallest amplitude.
     pub below: Option<f64>,
-    /// Of the amplitude beyond which a drive ceases to step: what cuts its stroke there.
+    /// Cause of the missing steps above the largest amplitude with a step. `None` for other landmarks.
     pub beyond: Option<Beyond>,
 }
 
-/// What cuts the stroke beyond the largest amplitude with a step.
+/// Cause of missing steps at large amplitudes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Beyond {
-    /// The command leaves the window of a driver.
+    /// The command exceeds the voltage window of a driver.
     Window,
-    /// A driver has a largest current, and its window is kept.
+    /// A driver has a current limit, and no command exceeds its window.
     Current,
-    /// Neither.
+    /// Another cause.
     Other,
 }
 
 impl Beyond {
-    /// As one word.
+    /// Returns the name in output files.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
@@ -53,22 +54,22 @@ impl Beyond {
     }
 }
 
-/// Why a landmark is not found.
+/// Reason why a landmark is not found.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum Unfound {
-    /// All points step, or none.
+    /// It lies outside the range of the curve.
     #[error("not within the range: {0}")]
     Outside(&'static str),
-    /// A point between that has no motion.
-    #[error("a point beside it has no motion: {0}")]
+    /// A point of the search has no motion.
+    #[error("a neighbouring point has no result: {0}")]
     Motionless(Motionless),
-    /// Nobody looked, or not to the end.
+    /// The search was not run or was interrupted.
     #[error("not run")]
     NotRun,
 }
 
-/// Why nothing is found where no point has steps at all.
-const NO_MOTION: &str = "no point has a motion";
+/// Reason if no point has a motion.
+const NO_MOTION: &str = "no point has a result";
 
 impl From<Motionless> for Unfound {
     fn from(why: Motionless) -> Self {
@@ -77,12 +78,15 @@ impl From<Motionless> for Unfound {
 }
 
 impl Curve {
-    /// Adds what is looked for on this curve, to a share of its place, on so many cores; the same for any number. Loads have a stall,
-    /// amplitudes S₀, and a largest one with a step where larger ones have none; speeds over frequencies, power against loads, and steps over anything else have a best point. The watcher is told
-    /// how much of the way to them is behind, 0 to 1.
+    /// Computes the landmarks of the curve to a relative tolerance, on `cores` threads. The result does not depend on
+    /// the number of threads.
+    ///
+    /// Curves over a load have a stall force; curves over an amplitude have S₀ and possibly a largest amplitude with a
+    /// step. Maxima are searched for velocity versus frequency, power versus load, and step length versus other
+    /// parameters. The watcher receives the progress of the search, 0 to 1.
     ///
     /// # Errors
-    /// A tolerance out of its range, 1e-9 to 0.1.
+    /// Fails if the tolerance is outside 1e-9 to 0.1.
     pub fn mark(
         &self,
         traced: &mut Traced,
@@ -99,11 +103,11 @@ impl Curve {
             watcher.reached(behind.iter().sum::<f64>() / behind.len() as f64);
         };
         let landmarks = each(sought.len(), cores, |place| {
-            // Several are looked for side by side, each on its part of the cores.
+            // Landmarks are computed in parallel, each with a part of the cores.
             let (cores, told) = (cores.div_ceil(sought.len()), &|share| told(place, share));
             let search = Search { traced, tolerance, watcher, cores, told };
             let landmark = match sought[place] {
-                // Of half a curve nobody knows where it is best.
+                // The maximum of an interrupted curve is unknown.
                 Sought::Edge { name, .. } | Sought::Best { name, .. } if search.traced.is_cut() => {
                     Some(Landmark::unfound(name, Unfound::NotRun, 0))
                 }
@@ -119,7 +123,7 @@ impl Curve {
         Ok(())
     }
 
-    /// What is looked for on a curve of its kind.
+    /// Returns the landmarks of this type of curve.
     fn sought(&self) -> Vec<Sought> {
         let edge = |name, rises| Sought::Edge { name, rises };
         let best = |name, yields| Sought::Best { name, yields };
@@ -132,13 +136,13 @@ impl Curve {
         }
     }
 
-    /// The motion at a place that is looked at.
+    /// Returns the motion at a point of the search.
     fn look(&self, search: &Search<'_>, at: f64) -> Result<Motion, Motionless> {
         self.motion_at(at, search.traced.direction, search.watcher)
     }
 
-    /// Where steps begin for the last time as something grows, whichever sign it has, or end for the first. They have the sense of the
-    /// longest.
+    /// Finds the value at which steps begin for the last time (`rises`), or end for the first time, as the size of the
+    /// parameter increases. Only steps in the direction of the largest one count.
     fn edge(&self, search: &Search<'_>, (name, rises): (&'static str, bool)) -> Landmark {
         let traced = search.traced;
         let (sense, lengths) = self.lengths(traced);
@@ -147,17 +151,17 @@ impl Curve {
         let steps: Vec<(f64, f64)> =
             known[from..].iter().map_while(|(at, step)| step.map(|step| (*at, step))).collect();
         let Some((smallest, _)) = steps.last().copied() else {
-            let why = if lengths.is_empty() { NO_MOTION } else { "the drive steps at none" };
+            let why = if lengths.is_empty() { NO_MOTION } else { "the drive makes no step at any point" };
             return Landmark::unfound(name, Unfound::Outside(why), 0);
         };
         let traced_still = known.get(from + steps.len()).map(|(still, _)| *still);
-        // An amplitude of 0 moves nothing.
+        // An amplitude of 0 makes no steps.
         let Some(still) = traced_still.or(rises.then_some(0.0)) else {
-            return Landmark::unfound(name, Unfound::Outside("the drive steps at all points"), 0);
+            return Landmark::unfound(name, Unfound::Outside("the drive makes steps at all points"), 0);
         };
         let below = traced_still.is_none().then_some(smallest);
         let nearest: Vec<(f64, f64)> = steps.iter().rev().take(2).copied().collect();
-        // Of the other sign it steps the other way anyway.
+        // At parameters of the other sign, the drive always steps in the opposite direction.
         let side = nearest.first().map_or(1.0, |(at, _)| at.signum());
         let is_smaller = |point: &&Point| (0.0..=(side * still).max(0.0)).contains(&(side * point.value));
         let is_back = |point: &Point| point.motion.as_ref().is_ok_and(|motion| motion.steps(-sense));
@@ -166,7 +170,8 @@ impl Curve {
         Landmark { turns, below, ..found }
     }
 
-    /// Where a drive ceases to step as its amplitude grows; none where the largest has a step, or none has.
+    /// Finds the largest amplitude with a step. Returns `None` if the largest amplitude of the curve has a step, or no
+    /// amplitude has one.
     fn upper_edge(&self, search: &Search<'_>, name: &'static str) -> Option<Landmark> {
         let (sense, lengths) = self.lengths(search.traced);
         let known = from_steps(&lengths, true);
@@ -179,7 +184,7 @@ impl Curve {
         Some(Landmark { beyond, ..found })
     }
 
-    /// What cuts the stroke at an amplitude.
+    /// Returns the cause of missing steps at an amplitude.
     fn beyond(&self, at: f64, direction: f64) -> Beyond {
         let Ok(job) = self.variant(&self.overrides(at, direction)) else { return Beyond::Other };
         let stacks = &job.scenario.stacks;
@@ -192,14 +197,14 @@ impl Curve {
         }
     }
 
-    /// The sense of the steps, and the lengths of all points that have one.
+    /// Returns the direction of the steps, and the step lengths of all points that have one.
     fn lengths(&self, traced: &Traced) -> (f64, Vec<(f64, Length)>) {
         let sense = if self.kind.is_of_load() { traced.direction } else { sense(traced) };
         let length = |point: &Point| Some((point.value, Length::of(point.motion.clone(), sense).ok()?));
         (sense, traced.points.iter().filter_map(length).collect())
     }
 
-    /// An edge among what is known around it.
+    /// Narrows the bracket of a zero of the step length.
     fn close_in(&self, search: &Search<'_>, (name, sense): (&'static str, f64), around: &Around) -> Landmark {
         let Around { lengths, nearest, still } = around;
         let Found { outcome, asked } = ahead::search(
@@ -232,12 +237,14 @@ impl Curve {
                     ..Landmark::unfound(name, Unfound::NotRun, runs)
                 }
             }
-            Ok(None) => Landmark::unfound(name, Unfound::Outside("the drive steps at none"), runs),
+            Ok(None) => {
+                Landmark::unfound(name, Unfound::Outside("the drive makes no step at any point"), runs)
+            }
             Err(fault) => Landmark::unfound(name, fault.into(), runs),
         }
     }
 
-    /// The best place, between the neighbours of the best point.
+    /// Finds the maximum between the neighbours of the best point.
     fn best(&self, search: &Search<'_>, (name, yields): (&'static str, Yield)) -> Landmark {
         let traced = search.traced;
         let sense = if self.kind.is_of_load() { traced.direction } else { sense(traced) };
@@ -258,8 +265,8 @@ impl Curve {
         let Some(place) = best.filter(|place| known[*place].value > known[*place].error) else {
             let why = match yields {
                 _ if known.is_empty() => NO_MOTION,
-                Yield::Power => "no point with a step does work against its load",
-                Yield::Step | Yield::Speed => "the drive steps at none",
+                Yield::Power => "the drive does no work against the load at any point",
+                Yield::Step | Yield::Speed => "the drive makes no step at any point",
             };
             return Landmark::unfound(name, Unfound::Outside(why), 0);
         };
@@ -281,7 +288,7 @@ impl Curve {
         match outcome {
             Ok(peak) => {
                 let half_width = 0.5 * (peak.within[1] - peak.within[0]);
-                // Of drives that go back it is below 0; power is what goes into a load whichever way.
+                // Backward steps and velocities are negative; power into the load is positive in both directions.
                 let value = if yields == Yield::Power { peak.best.value } else { sense * peak.best.value };
                 let blank = Landmark::unfound(name, Unfound::NotRun, runs);
                 Landmark { at: Ok(peak.best.at), half_width, value: Some(value), ..blank }
@@ -291,67 +298,69 @@ impl Curve {
     }
 }
 
-/// Why the best of the points that have a motion, that at `place`, has none beside it on one side; none where both are there.
+/// Returns the reason why the best point, with index `place`, has no neighbour with a motion on one side. Returns
+/// `None` if it has both.
 fn at_an_end(traced: &Traced, known: &[Seen], place: usize) -> Option<&'static str> {
     let is = |end: Option<&Point>| end.is_some_and(|point| point.value == known[place].at);
     match (place == 0, place + 1 == known.len()) {
         (false, false) => None,
-        (true, _) if is(traced.points.first()) => Some("the first point of the range is the best"),
-        (_, true) if is(traced.points.last()) => Some("the last point of the range is the best"),
-        _ => Some("the points on one side of the best one have no motion"),
+        (true, _) if is(traced.points.first()) => Some("the maximum is at the first point of the range"),
+        (_, true) if is(traced.points.last()) => Some("the maximum is at the last point of the range"),
+        _ => Some("the points on one side of the maximum have no result"),
     }
 }
 
-/// What is looked for.
+/// Landmark to be found.
 #[derive(Debug, Clone, Copy)]
 enum Sought {
-    /// Where steps begin for the last time (`rises`), or end for the first.
+    /// Value at which steps begin for the last time (`rises`), or end for the first time.
     Edge { name: &'static str, rises: bool },
-    /// Where a drive that stepped ceases to as its amplitude grows.
+    /// Largest amplitude with a step.
     Upper { name: &'static str },
-    /// Where something is largest.
+    /// Maximum of a quantity.
     Best { name: &'static str, yields: Yield },
 }
 
-/// How it is looked for.
+/// Settings of a search.
 struct Search<'a> {
     traced: &'a Traced,
     tolerance: f64,
     watcher: &'a (dyn Watcher + Sync),
     cores: usize,
-    /// Hears how much of the way is behind.
+    /// Receives the progress of the search.
     told: &'a (dyn Fn(f64) + Sync),
 }
 
-/// The length of a step, none where there is no step, and its error, where it has one, m.
+/// Step length with its error, m. `None` if there is no step.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Length {
     step: Option<f64>,
     error: Option<f64>,
-    /// What a step may have and count as none, where there is something of it: the edge is that much farther away.
+    /// Length of a step that is too short to count, m. The zero of the step length is that much farther away.
     rest: f64,
 }
 
-/// What is known around an edge: the lengths of all points, the nearest two with a step, and the nearest without.
+/// Data around a zero of the step length: step lengths at all points, the nearest two points with a step, and the
+/// nearest without.
 struct Around {
     lengths: Vec<(f64, Length)>,
     nearest: Vec<(f64, f64)>,
     still: f64,
 }
 
-/// What is largest at the best point of a curve.
+/// Quantity to be maximised.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Yield {
-    /// The step, m.
+    /// Step length, m.
     Step,
-    /// The mean speed, m/s.
+    /// Mean velocity, m/s.
     Speed,
-    /// Mean speed times load, W.
+    /// Mean velocity times load, W.
     Power,
 }
 
 impl Length {
-    /// Of a motion, along a sense; nothing where a drive without a motion makes no step.
+    /// Returns the step length of a motion in a direction. Also accepts a missing motion that implies no steps.
     fn of(motion: Result<Motion, Motionless>, sense: f64) -> Result<Self, Motionless> {
         match motion {
             Ok(motion) => {
@@ -367,29 +376,33 @@ impl Length {
 }
 
 impl Landmark {
-    /// What it is, in words.
+    /// Returns its name in words. `varied` is the name of the varied parameter: half of the zero-step stroke of a sine
+    /// is an amplitude.
     #[must_use]
-    pub fn words(&self) -> &'static str {
+    pub fn words(&self, varied: &str) -> String {
+        let is_amplitude = varied == "amplitude";
+        let size = if is_amplitude { "amplitude" } else { "stroke" };
         match self.name {
             "zero_step" if self.beyond == Some(Beyond::Window) => {
-                "largest amplitude with a step, by the driver's window"
+                format!("largest {size} with a step, limited by the window of the driver")
             }
             "zero_step" if self.beyond == Some(Beyond::Current) => {
-                "largest amplitude with a step, by the driver's current"
+                format!("largest {size} with a step, limited by the current of the driver")
             }
-            "zero_step" if self.beyond.is_some() => "largest amplitude with a step",
-            "zero_step" if self.turns => {
-                "S\u{2080}, zero-step amplitude: forward steps above it, backward steps below"
+            "zero_step" if self.beyond.is_some() => format!("largest {size} with a step"),
+            "zero_step" => {
+                let amplitude = if is_amplitude { " (as amplitude)" } else { "" };
+                let turns = if self.turns { ": forward steps above it, backward steps below" } else { "" };
+                format!("S\u{2080}, zero-step stroke{amplitude}{turns}")
             }
-            "zero_step" => "S\u{2080}, zero-step amplitude",
-            "stall" => "stall",
-            "best_speed" => "maximum speed",
-            "best_power" => "maximum power",
-            _ => "maximum step",
+            "stall" => "stall".to_owned(),
+            "best_speed" => "maximum speed".to_owned(),
+            "best_power" => "maximum power".to_owned(),
+            _ => "maximum step".to_owned(),
         }
     }
 
-    /// What its value is in.
+    /// Returns the unit of the maximum.
     #[must_use]
     pub fn unit(&self) -> &'static str {
         match self.name {
@@ -413,7 +426,8 @@ impl Landmark {
     }
 }
 
-/// The steps of points from the side on which there are some: from the largest amplitude where steps rise with it, from the least load.
+/// Returns the step lengths of points, starting on the side with steps: the largest amplitude if steps grow with it, or
+/// the smallest load.
 fn from_steps(lengths: &[(f64, Length)], rises: bool) -> Vec<(f64, Option<f64>)> {
     let mut known: Vec<(f64, Option<f64>)> = lengths.iter().map(|(at, length)| (*at, length.step)).collect();
     let size = |place: Option<&(f64, Option<f64>)>| place.map_or(0.0, |(at, _)| at.abs());
@@ -423,15 +437,15 @@ fn from_steps(lengths: &[(f64, Length)], rises: bool) -> Vec<(f64, Option<f64>)>
     known
 }
 
-/// By how much steps become longer with the distance from where there is none: between the two places nearest to it, or from the
-/// nearest to a place without.
+/// Returns the slope of the step length near its zero. It is computed from the two nearest points with steps, or from
+/// the nearest one and the point without.
 fn slope(nearest: &[(f64, f64)], still: f64) -> f64 {
     let (at, step) = nearest.first().copied().unwrap_or((still, 0.0));
     let (other, longer) = nearest.get(1).copied().unwrap_or((still, 0.0));
     ((step - longer) / (at - other)).abs()
 }
 
-/// Sense of the longest step, 1 or -1.
+/// Returns the direction of the step with the largest absolute value, 1 or -1.
 fn sense(traced: &Traced) -> f64 {
     let steps = traced.points.iter().filter_map(|point| point.motion.as_ref().ok()).map(|motion| motion.step);
     let longest = steps.max_by(|a, b| a.abs().total_cmp(&b.abs()));

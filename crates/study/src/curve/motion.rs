@@ -1,7 +1,7 @@
-//! Steady motion of a drive: found directly where that is possible, else by waiting for it.
+//! Steady motion of a drive: by shooting if possible, otherwise by simulation until it is steady.
 //!
-//! [`steady::find`] leads into the motion that repeats itself, whether or not a run would stay in it. Where it is not
-//! found, or a disturbance of it grows, the drive is run (`waiting`).
+//! [`steady::find`] finds periodic orbits, stable or not. If it fails or the orbit is unstable, the drive is simulated
+//! (`waiting`).
 
 use super::waiting::{Unstable, waited};
 use crate::steady::{self, Multiplier, Options, SteadyError};
@@ -11,130 +11,135 @@ use stickslip_run::{Job, Watcher};
 use stickslip_scenario::ScenarioError;
 use thiserror::Error;
 
-/// Most periods of the search for a motion that repeats itself, and where drivers or materials remember: what is found there is found
-/// soon, and plays of a ceramic are not.
+/// Maximum number of periods of the shooting search: without and with piezo drivers or materials that have a state.
+/// Searches that succeed with such states are short; states
+/// of ceramic hysteresis (play operators) often have no periodic orbit.
 const SHOT: u32 = 400;
 const SHOT_OF_BLOCKS: u32 = 100;
-/// Its local error per step.
+/// Tolerance of the local error per time step.
 const TOLERANCE: f64 = 1e-9;
 
-/// What the motion does at the end.
+/// Type of the motion.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Course {
-    /// The same step in every period.
+    /// Every period has the same step length.
     Steady,
-    /// Steps that swing about a mean.
+    /// The step length oscillates about a mean.
     Beats,
-    /// Steps that change without a pattern.
+    /// The step length varies irregularly.
     Irregular,
 }
 
-/// Motion of the figures' body.
+/// Motion of the body named in `figures`.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Motion {
-    /// Step along x in a period of the figures' waveform, m: of steps that swing or change without a pattern their mean.
+    /// Step length along x per period of the waveform named in `figures`, m. Mean of oscillating or irregular steps.
     pub step: f64,
-    /// How far the step may lie from its limit, m: an estimate. Of steps that swing or change without a pattern by 95 % how far
-    /// the mean of all later ones may lie from it, which is not by how much they swing.
+    /// Estimated error of the step length, m. For oscillating or irregular steps: 95 % confidence half-width of their
+    /// long-term mean.
     pub error: f64,
-    /// Amplitude of steps that swing, half the range of irregular ones, m; 0 of steady ones.
+    /// Amplitude of oscillating steps or half the range of irregular steps, m. 0 for steady steps.
     pub spread: f64,
-    /// Period of the figures' waveform, s.
+    /// Period of the waveform named in `figures`, s.
     pub period: f64,
-    /// What it does.
+    /// Type of the motion.
     pub course: Course,
-    /// The largest Floquet multiplier, where the motion was found directly and has one.
+    /// Floquet multiplier of largest modulus. `None` if the motion was found by simulation or the orbit has no
+    /// multipliers.
     pub multiplier: Option<Multiplier>,
-    /// Periods that were computed.
+    /// Number of simulated periods.
     pub work: u32,
-    /// Least u_c of the body's contacts, m: the scale of steps; 0 without contacts.
+    /// Smallest gross slip displacement u_c of the body's contacts, m: the scale of the step length. 0 without
+    /// contacts.
     pub natural: f64,
 }
 
-/// Why there is no motion.
+/// Reason why there is no steady motion.
 #[derive(Debug, Clone, PartialEq, Error, Serialize, Deserialize)]
 pub enum Motionless {
-    /// Nobody computed it: the curve was interrupted before.
+    /// The curve was interrupted before this point was computed.
     #[error("not run")]
     NotRun,
-    /// The value makes no scenario.
+    /// The value does not give a valid scenario.
     #[error(transparent)]
     #[serde(skip)]
     Scenario(#[from] ScenarioError),
-    /// No waveform with a period makes steps, or no body.
-    #[error("nothing has a period and a body whose steps could be counted")]
+    /// No periodic waveform, or no body whose steps are evaluated.
+    #[error("no periodic waveform and free body determine the steps")]
     NoSteps,
-    /// The waveform ends.
-    #[error("its waveform ends after {0} cycles: too few to become steady")]
+    /// The waveform ends after a few cycles.
+    #[error("the waveform ends after {0} cycles, before the steps are steady")]
     Ends(u32),
-    /// The run stops itself, or the search does where waiting does not help either.
+    /// The run or the search for the periodic orbit stopped with an error.
     #[error("{0}")]
     Stopped(String),
-    /// A load, or what else pulls, drags the body away: it accelerates, or slips all through and goes as far in every period.
-    #[error("slides away: after {periods} periods {step:.3e} m a period, {}", away(*step, *change))]
+    /// The body is dragged away: it accelerates, or it slips during the whole period and moves the same distance in
+    /// each.
+    #[error("slides away: after {periods} periods the body moves by {step:.3e} m per period, {}", away(*step, *change))]
     SlidesAway {
-        /// Periods that were run.
+        /// Number of simulated periods.
         periods: u32,
-        /// The last step, m.
+        /// Last step length, m.
         step: f64,
-        /// What it has changed, m.
+        /// Change of the last step length, m.
         change: f64,
     },
-    /// All contacts of the body are open: how far it flies in a period is no step.
+    /// All contacts of the body are open. The distance that it flies per period does not count as a step.
     #[error(
-        "in the air: after {periods} periods all contacts of the body are open, and what it flies in a period is no step"
+        "in the air: after {periods} periods all contacts of the body are open, so its displacement per period is not a step"
     )]
     Flies {
-        /// Periods that were run.
+        /// Number of simulated periods.
         periods: u32,
     },
-    /// Steps that swing about those of a motion that a run leaves, or are those, and have come to nothing else yet.
+    /// The motion leaves an unstable periodic orbit, but has not reached another motion.
     #[error(
-        "leaves its steady motion: a disturbance grows by {:.2e} % a period, and after {periods} periods {step:.4e} m a period ± {spread:.1e} m are no other motion yet",
+        "leaves the periodic orbit: a disturbance grows by {:.2e} % per period; after {periods} periods the step is {step:.4e} m ± {spread:.1e} m and has not settled",
         100.0 * (growth - 1.0)
     )]
     Grows {
-        /// Periods that were run.
+        /// Number of simulated periods.
         periods: u32,
-        /// The mean step, m.
+        /// Mean step length, m.
         step: f64,
-        /// By what steps swing about it, m.
+        /// Amplitude of the oscillation of the steps, m.
         spread: f64,
-        /// By which factor a disturbance grows in a period.
+        /// Growth factor of a disturbance per period.
         growth: f64,
     },
-    /// Steps on their way.
+    /// The step length still changes.
     #[error(
-        "steps go on changing: after {periods} periods {step:.3e} m, by {change:.1e} m from the last to this one"
+        "not settled: after {periods} periods the step of {step:.3e} m still changes by {change:.1e} m per period"
     )]
     Unsettled {
-        /// Periods that were run.
+        /// Number of simulated periods.
         periods: u32,
-        /// The last step, m.
+        /// Last step length, m.
         step: f64,
-        /// What it has changed, m.
+        /// Change of the last step length, m.
         change: f64,
     },
 }
 
-/// Changes below this share of a step are none.
+/// Relative change of the step length below which it counts as constant.
 const EVEN: f64 = 1e-6;
-/// A step below this share of the natural length is none.
+/// Step length relative to u_c below which it counts as no step.
 pub(super) const STILL: f64 = 1e-5;
 
-/// How a body goes on that slides away.
+/// Describes the motion of a body that slides away.
 fn away(step: f64, change: f64) -> String {
     match change.abs() <= EVEN * step.abs() {
-        true => "slipping all through".to_owned(),
-        false => format!("{change:.1e} m more than in the one before: friction does not hold it"),
+        true => "in permanent slip".to_owned(),
+        false => format!("{change:.1e} m more than in the period before: friction does not hold the body"),
     }
 }
 
 impl Motion {
-    /// The steady motion of a job, or the course that its steps take instead.
+    /// Computes the steady motion of a job.
     ///
     /// # Errors
-    /// Nothing that steps, a run that stops itself, steps that do not settle; [`Motionless::NotRun`] where the watcher wants an end.
+    /// Fails if nothing makes steps, the run stops with an error or the steps do not settle. Returns
+    /// [`Motionless::NotRun`] if the watcher interrupts.
     pub fn of(job: &Job, watcher: &dyn Watcher) -> Result<Self, Motionless> {
         let goes_on = || watcher.goes_on();
         let periods = if job.scenario.scene.blocks.is_empty() { SHOT } else { SHOT_OF_BLOCKS };
@@ -170,7 +175,7 @@ impl Motion {
     fn found(job: &Job, found: &steady::Steady) -> Result<Self, Motionless> {
         let body = job.scenario.figures.body.ok_or(Motionless::NoSteps)?;
         let period = waveform(job)?.period().ok_or(Motionless::NoSteps)?;
-        // All waveforms together may take several periods of this one.
+        // The common period of all waveforms may be several periods of this one.
         let share = 1.0 / found.periods_of(period);
         let step = share * found.step.ok_or(Motionless::NoSteps)?;
         let natural = natural(job, body);
@@ -189,25 +194,25 @@ impl Motion {
         })
     }
 
-    /// Mean speed along x, m/s.
+    /// Returns the mean velocity along x, m/s.
     #[must_use]
     pub fn speed(&self) -> f64 {
         self.step / self.period
     }
 
-    /// Power against a load that acts along -x, W; 0 where there is no step.
+    /// Returns the power against a load along -x, W. 0 without steps.
     #[must_use]
     pub fn power(&self, load: f64) -> f64 {
         if self.stands() { 0.0 } else { load * self.speed() }
     }
 
-    /// Sense of its steps along x, 1 or -1; 1 of those that are none.
+    /// Returns the direction of the steps along x, 1 or -1. Returns 1 without steps.
     #[must_use]
     pub fn sense(&self) -> f64 {
         if self.steps(-1.0) { -1.0 } else { 1.0 }
     }
 
-    /// What it does, in a word or two: a steady motion may make no step.
+    /// Returns the type of the motion in one or two words. Steady motion without steps is `no step`.
     #[must_use]
     pub fn word(&self) -> &'static str {
         match self.course {
@@ -218,33 +223,35 @@ impl Motion {
         }
     }
 
-    /// Whether it is steady without a step: what is told of one would be what it may be off.
+    /// Returns whether the motion is steady and makes no steps. Its step length is then below its error or negligible.
     #[must_use]
     pub fn stands(&self) -> bool {
         self.course == Course::Steady && self.is_still()
     }
 
-    /// Whether it makes no step either way.
+    /// Returns whether the motion makes no steps in either direction.
     #[must_use]
     pub fn is_still(&self) -> bool {
         !self.steps(1.0) && !self.steps(-1.0)
     }
 
-    /// Whether it steps along a direction, 1 or -1: further than the error and than a hundred-thousandth of u_c.
+    /// Returns whether the step length in a direction, 1 or -1, exceeds both its error and 1e-5 u_c.
     #[must_use]
     pub fn steps(&self, direction: f64) -> bool {
         direction * self.step > self.least().max(self.error)
     }
 
-    /// A step that is no longer counts as none, m.
+    /// Returns the step length below which there is no step, m.
     pub(super) fn least(&self) -> f64 {
         STILL * self.natural
     }
 }
 
 impl Motionless {
-    /// Whether there is no steady step, for what is known: a load drags the drive away, or its steps become less so slowly that
-    /// they do not end within the periods that were run, but would not last as many again.
+    /// Returns whether the drive makes no steady step in this case.
+    ///
+    /// That is the case if a load drags the body away. It is also the case if the step length, at its present rate of
+    /// decrease, would vanish within twice the simulated periods.
     #[must_use]
     pub fn makes_no_step(&self) -> bool {
         match self {
@@ -256,12 +263,12 @@ impl Motionless {
         }
     }
 
-    /// Whether what was found is more than that somebody wanted an end, or that the value makes no scenario, which is soon found again.
+    /// Returns whether a result is stored in the journal: all but interruptions and invalid scenarios.
     pub(super) fn is_no_end(found: &Result<Motion, Self>) -> bool {
         !matches!(found, Err(Self::NotRun | Self::Scenario(_)))
     }
 
-    /// The kind of reason, in a word or two.
+    /// Returns the kind of reason in a few words.
     #[must_use]
     pub fn kind(&self) -> &'static str {
         match self {
@@ -277,14 +284,15 @@ impl Motionless {
     }
 }
 
-/// The waveform whose period is that of the steps.
+/// Returns the waveform whose period is the period of the steps.
 pub(super) fn waveform(job: &Job) -> Result<&Waveform, Motionless> {
     let place = job.scenario.figures.waveform.ok_or(Motionless::NoSteps)?;
     let named = job.scenario.scene.waveforms.get(place).ok_or(Motionless::NoSteps)?;
     Ok(&named.part)
 }
 
-/// Least u_c of the contacts of a body, m; of all of them where it has none of its own; 0 where there are none.
+/// Returns the smallest gross slip displacement u_c of a body's contacts, m. Considers all contacts if the body has
+/// none. Returns 0 if there are no contacts.
 pub(super) fn natural(job: &Job, body: usize) -> f64 {
     use stickslip_drive::scene::Side;
     let contacts = &job.scenario.scene.contacts;

@@ -1,37 +1,38 @@
-//! The best point of a curve, by golden section between the neighbours of the best one known.
+//! Maximum of a curve by golden section search between the neighbours of the best known point.
 //!
-//! Source: Kiefer, *Proc. Amer. Math. Soc.* 4 (1953) 502. It finds a peak of a curve that rises to it and falls from it; of a
-//! ragged one it finds a good place near the best one known, and says no worse.
+//! Source: Kiefer, *Proc. Amer. Math. Soc.* 4 (1953) 502. The search finds the maximum of a unimodal curve. For other
+//! curves it returns a value at least as large as the best
+//! known one.
 
 /// 1/φ.
 const GOLDEN: f64 = 0.618_033_988_749_894_9;
-/// Most places that are tried.
+/// Maximum number of evaluations.
 const MOST: u32 = 60;
 
-/// A place that was looked at.
+/// An evaluated point.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Seen {
-    /// Where.
+    /// Position of the point.
     pub at: f64,
-    /// How large it is there.
+    /// Value of the curve at the point.
     pub value: f64,
-    /// How far that may be off.
+    /// Uncertainty of the value.
     pub error: f64,
 }
 
-/// A best place.
+/// Result of the search for a maximum.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Peak {
-    /// The best place that was seen.
+    /// Best evaluated point.
     pub best: Seen,
-    /// Between which places the peak lies.
+    /// Interval that contains the maximum.
     pub within: [f64; 2],
-    /// Places that were tried.
+    /// Number of evaluations.
     pub runs: u32,
 }
 
 impl Seen {
-    /// Whether errors allow that both are as large.
+    /// Returns whether both values are equal within their uncertainties.
     fn may_equal(&self, other: &Self) -> bool {
         (self.value - other.value).abs() <= self.error + other.error
     }
@@ -42,12 +43,14 @@ impl Seen {
 }
 
 impl Peak {
-    /// Narrows the range in which the largest value lies to a share of its place, or until errors no longer tell its places apart;
-    /// `known` is the best place so far; `try_at` looks at a place, and hears how much of the way is behind, 0 to 1: by how many times
-    /// the range is narrower, as a power.
+    /// Narrows the interval of the maximum to a relative tolerance. The search ends earlier when the values are equal
+    /// within their uncertainties.
+    ///
+    /// `known` is the best point so far. `try_at` evaluates a position; its second argument is the progress of the
+    /// search, 0 to 1, on a logarithmic scale of the interval width.
     ///
     /// # Errors
-    /// Those of a place that cannot be tried.
+    /// Returns the first error of `try_at`.
     pub fn narrow<E>(
         known: Seen,
         [mut low, mut high]: [f64; 2],
@@ -100,13 +103,14 @@ mod tests {
 
     #[test]
     fn it_says_no_worse_than_what_was_known() {
-        // A spike between falls: golden section does not see it, and keeps it.
+        // Golden section search misses a narrow spike. The result must still be the known maximum.
         let peak = found(|at| if at == 0.6 { 9.0 } else { 1.0 - at }, 0.6, 1e-3, 0.0);
         assert_eq!((peak.best.at, peak.best.value), (0.6, 9.0));
     }
 
-    /// Values that are known to 1e-4 say where a parabola is largest to ±√2e-4 only: two places so far from it look alike, and they
-    /// divide what is left as the golden section does, 0.236 of it apart.
+    /// Values with an uncertainty of 1e-4 determine the maximum of a parabola only to ±√2e-4: beyond that, two values
+    /// on the parabola are equal. The inner points of golden section
+    /// search are 0.236 of the interval apart.
     #[test]
     fn errors_end_the_search_where_they_hide_the_peak() {
         for top in [0.6, 0.7, 0.83] {

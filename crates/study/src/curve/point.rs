@@ -1,4 +1,4 @@
-//! The points of a curve, each the steady motion of a scene of its own.
+//! Points of a curve. Each is the steady motion of a variant of the scenario.
 
 use super::{Curve, Landmark, Motion, Motionless, Traced, Unfound};
 use stickslip_run::Warning;
@@ -6,18 +6,19 @@ use stickslip_run::Warning;
 /// A point of a curve.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Point {
-    /// What is varied, SI.
+    /// Value of the parameter, SI.
     pub value: f64,
-    /// What sets it in the scenario: pairs of key path and value, as `--set` takes them.
+    /// Arguments of `--set` that give this point: pairs of key path and value.
     pub set: Vec<(String, String)>,
-    /// What `check` warns of there.
+    /// Warnings of `check` at this point.
     pub warnings: Vec<Warning>,
-    /// What the drive does there, or why that is not known.
+    /// Steady motion, or the reason why there is none.
     pub motion: Result<Motion, Motionless>,
 }
 
 impl Traced {
-    /// Power against the load at a place, W: load times speed the way of the unloaded steps. None of curves without load.
+    /// Returns the power against the load at a point, W: load times velocity in the direction of the unloaded steps.
+    /// Returns `None` for curves without load.
     #[must_use]
     pub fn power(&self, curve: &Curve, place: usize) -> Option<f64> {
         let point = self.points.get(place).filter(|_| curve.kind.is_of_load())?;
@@ -25,19 +26,19 @@ impl Traced {
         Some(motion.power(self.direction * point.value))
     }
 
-    /// How many points have no motion.
+    /// Returns the number of points without a motion.
     #[must_use]
     pub fn faults(&self) -> usize {
         self.points.iter().filter(|point| point.motion.is_err()).count()
     }
 
-    /// How many points are done, with a motion or without.
+    /// Returns the number of finished points, with or without a motion.
     #[must_use]
     pub fn done(&self) -> usize {
         self.points.iter().filter(|point| point.motion != Err(Motionless::NotRun)).count()
     }
 
-    /// Whether points were left undone, or places with a name.
+    /// Returns whether points or landmarks were interrupted.
     #[must_use]
     pub fn is_cut(&self) -> bool {
         let is_undone = |landmark: &Landmark| landmark.at == Err(Unfound::NotRun);

@@ -1,29 +1,31 @@
-//! Where the points of a curve lie.
+//! Values of the points of a curve.
 
 use super::CurveError;
 
-/// Most points of a curve: each may be hundreds of periods.
+/// Maximum number of points. Each point may need hundreds of periods.
 const MOST: usize = 10_000;
 
-/// Values between two ends, both with it.
+/// Closed range of values.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Range {
-    /// Where it begins, SI.
+    /// Start of the range, SI.
     pub from: f64,
-    /// Where it ends, SI, above.
+    /// End of the range, SI, greater than the start.
     pub to: f64,
     /// Number of points, 2 to 10 000.
     pub points: usize,
-    /// Whether there are as many in every decade, and not in every equal part.
+    /// Spacing of the points: logarithmic if true, otherwise linear.
     pub decades: bool,
 }
 
 impl Range {
-    /// Its ends as somebody writes them, `0.1..0.6` or `10 Hz..5 kHz`, SI; `unit` is that of a bare number. A unit at one end only
-    /// is refused, for nobody knows whether it is meant for both; 0 needs none.
+    /// Reads the two ends of a range such as `0.1..0.6` or `10 Hz..5 kHz`, and returns them in SI units. Numbers
+    /// without a unit are in `unit`.
+    ///
+    /// A unit at only one end is an error unless the other end is 0.
     ///
     /// # Errors
-    /// What is expected, in words.
+    /// Returns a message with the expected form.
     pub fn ends(text: &str, unit: &str) -> Result<[f64; 2], String> {
         let expected = || format!("expected FROM..TO, such as 0.1..0.6, got \"{text}\"");
         let (from, to) = text.split_once("..").ok_or_else(expected)?;
@@ -38,10 +40,11 @@ impl Range {
         }
     }
 
-    /// Its values, ascending; the ends are what was asked for to the last bit.
+    /// Returns the values in ascending order. The first and last value are exactly the ends.
     ///
     /// # Errors
-    /// A range that holds nothing, or decades from zero on.
+    /// Fails if the range is empty or not finite, the number of points is invalid, or a logarithmic range does not
+    /// start above 0.
     pub fn values(&self) -> Result<Vec<f64>, CurveError> {
         let Self { from, to, points, decades } = *self;
         let is_usable = from.is_finite() && to.is_finite() && from < to && (to - from).is_finite();
@@ -82,7 +85,7 @@ mod tests {
         assert_eq!((decades[0], decades[4]), (0.1, 1e3));
     }
 
-    /// Once "1 g..2" was 1 g to 2 kg.
+    /// "1 g..2" must not mean 1 g to 2 kg.
     #[test]
     fn a_unit_at_one_end_only_is_refused() {
         let ends = |text, unit| Range::ends(text, unit);

@@ -1,4 +1,4 @@
-//! What is told of a curve: a table, and all of it in JSON.
+//! Output of a curve: `curve.csv` and `curve.json`.
 
 use super::{Beyond, Curve, Landmark, Motion, Sense, Traced, Variation};
 use crate::published::{self, Names};
@@ -11,41 +11,43 @@ use stickslip_run::files::{CURVE, PARTIAL_CURVE};
 use stickslip_run::folder::Folder;
 use stickslip_run::{Job, Real, Warning};
 
-/// Names of the table and of what is told of all: of a curve, and of one that was interrupted, beside which a finished one stays.
+/// Names of table and report, of a complete and of an interrupted curve. An interrupted curve does not replace a
+/// complete one.
 const NAMES: Names = [["curve.csv", CURVE], ["curve-partial.csv", PARTIAL_CURVE]];
 
-/// Names of all files that any curve is written to, its pictures apart.
+/// Returns the names of all files of a curve except plots.
 pub fn all_files() -> impl Iterator<Item = String> {
     NAMES.into_iter().flatten().map(str::to_owned)
 }
 
-/// All numbers of a curve; written last.
+/// Content of `curve.json`. It is written last.
 #[derive(Debug, Serialize, JsonSchema)]
 pub(super) struct Report<'a, P> {
     /// name of the scenario
     scenario: &'a str,
-    /// SHA-256 of the resolved scenario, as it is without what the curve varies
+    /// SHA-256 of the complete scenario, before the parameter is varied
     scenario_sha256: &'a str,
     /// name and version of the program
     program: &'a str,
-    /// `done`, or `interrupted`: then the file is `curve-partial.json`
+    /// end of the computation: `done` or `interrupted`. An interrupted curve is in `curve-partial.json`.
     status: &'static str,
-    /// name of the curve; `vary` of a number by its path
+    /// name of the curve, such as `step-amplitude`; `vary` for a parameter given by its path
     curve: &'static str,
-    /// what is varied; it heads the first column of `curve.csv`, with its unit
+    /// name of the varied parameter. With its unit, it is the name of the first column of curve.csv.
     varied: &'a str,
-    /// its SI unit; empty of a plain number
+    /// SI unit of the parameter, empty for a plain number
     unit: &'static str,
-    /// what it is in the scenario
+    /// value of the parameter in the scenario. null if the scenario has none.
     #[serde(rename = "scenario_value")]
     present: Option<Real>,
-    /// in which direction of x the drive steps without load, against which loads act
+    /// direction of the steps without load, `+x` or `-x`. Loads act against it. Absent unless the curve is
+    /// `force-speed` or `step-load`.
     #[serde(skip_serializing_if = "Option::is_none")]
     against: Option<&'static str>,
-    /// the same of the backward direction
+    /// direction of the steps without load with reversed waveforms, `+x` or `-x`. Absent without `--both`.
     #[serde(skip_serializing_if = "Option::is_none")]
     against_backward: Option<&'static str>,
-    /// body that is loaded; of `holding-force`
+    /// name of the body on which the load acts. Absent unless the curve is `holding-force`.
     #[serde(rename = "body", skip_serializing_if = "Option::is_none")]
     pub(super) on: Option<&'a str>,
     points: Vec<P>,
@@ -54,13 +56,13 @@ pub(super) struct Report<'a, P> {
     /// names of all files that were written together
     #[serde(skip_serializing_if = "Vec::is_empty")]
     files: Vec<String>,
-    /// SHA-256 of the table
+    /// SHA-256 of curve.csv
     #[serde(skip_serializing_if = "Option::is_none")]
     table_sha256: Option<String>,
 }
 
 impl<'a, P: Serialize> Report<'a, P> {
-    /// Of a curve by its name, whole or cut.
+    /// Creates the report of a curve by its name.
     pub(super) fn of(
         job: &'a Job,
         variation: &'a Variation,
@@ -89,50 +91,52 @@ impl<'a, P: Serialize> Report<'a, P> {
 
 #[derive(Debug, Serialize, JsonSchema)]
 struct PointReport<'a> {
-    /// what is varied, at this point
+    /// value of the parameter at a point of the curve
     value: Real,
-    /// with `--both`: `forward`, as the scenario is, or `backward`, its waveforms reversed in time
+    /// direction of the waveforms with `--both`: `forward` (as in the scenario) or `backward` (reversed in time)
     #[serde(rename = "direction", skip_serializing_if = "Option::is_none")]
     sense: Option<&'static str>,
-    /// what `--set` takes to make a scenario of this point
+    /// arguments of `--set` that change the scenario to the point of the curve
     set: Vec<String>,
     warnings: &'a [Warning],
     #[serde(flatten)]
     figures: Option<Figures>,
-    /// why there is no motion at this value
+    /// reason why a point of the curve has no result
     #[serde(skip_serializing_if = "Option::is_none")]
     fault: Option<String>,
 }
 
-/// What is told of a place with a name.
+/// Special point of a curve.
 #[derive(Debug, Serialize, JsonSchema)]
 struct LandmarkReport {
-    /// `zero_step` (S₀, largest amplitude without a step; with `beyond_by` largest amplitude with one), `stall` (least load
-    /// against which there is none), `best_speed`, `best_power` or `best_step`
+    /// special point: `zero_step` (S₀, largest amplitude without a step; with `beyond_by`, largest amplitude with a
+    /// step), `stall` (smallest load that stops the steps), `best_speed`, `best_power` or `best_step` (maxima)
     name: &'static str,
-    /// with `--both`: `forward`, as the scenario is, or `backward`, its waveforms reversed in time
+    /// direction of the waveforms with `--both`: `forward` (as in the scenario) or `backward` (reversed in time)
     #[serde(rename = "direction", skip_serializing_if = "Option::is_none")]
     sense: Option<&'static str>,
-    /// what is varied, there
+    /// value of the parameter at the special point. null if not found.
     at: Option<Real>,
-    /// how far that may be off: half of the bracket in which it lies, and what the errors of the steps there add
+    /// uncertainty of the parameter value at the special point: half of the bracket in which it lies, plus the effect
+    /// of the step length errors
     half_width: Option<Real>,
-    /// of S₀ where all points of the curve step: the smallest amplitude of them
+    /// upper bound of S₀ if all points of the curve have steps: their smallest amplitude. Absent otherwise.
     #[serde(skip_serializing_if = "Option::is_none")]
     below: Option<Real>,
-    /// of the largest amplitude with a step: `window` where the driver's window cuts the command beyond it, `current` where a
-    /// driver has a largest current, `other`
+    /// cause of the missing steps above the largest amplitude with a step: `window` (the driver's voltage window cuts
+    /// the command), `current` (a driver has a current limit) or `other`. Absent at other special points.
     #[serde(skip_serializing_if = "Option::is_none")]
     beyond_by: Option<&'static str>,
-    /// speed in m/s, power in W or step in m there; of best points only
+    /// maximum at the special point: velocity in m/s, power in W or step length in m. Absent unless the point is a
+    /// maximum.
     #[serde(skip_serializing_if = "Option::is_none")]
     value: Option<Real>,
-    /// points that were computed for it, beside those of the curve
+    /// number of points computed for the special point, in addition to those of the curve
     runs: u32,
-    /// true of S₀ where the drive steps back at smaller amplitudes, so that its step changes its sign there
+    /// true if the drive steps backwards below S₀, so that the step length changes its sign there. Absent otherwise.
     #[serde(skip_serializing_if = "std::ops::Not::not")]
     turns: bool,
-    /// why it is not known
+    /// reason why the special point was not found. Absent if it was.
     #[serde(skip_serializing_if = "Option::is_none")]
     fault: Option<String>,
 }
@@ -155,38 +159,41 @@ impl LandmarkReport {
     }
 }
 
-/// What is told of a motion.
+/// Result at a point.
 #[derive(Debug, Serialize, JsonSchema)]
 struct Figures {
-    /// step along x of the figures' body in a period of the figures' waveform, in steady motion; the mean of steps that swing
+    /// step length along x of the body named in `figures`, per period of its waveform, in steady motion. If steps
+    /// oscillate, their mean.
     #[serde(rename = "step_m")]
     step: Real,
-    /// how far the step may be off, an estimate: of what was left of the way to it, and of the run's tolerance; of steps that
-    /// swing how far the mean of endlessly many may lie from it, by 95 %
+    /// uncertainty of the step length: remaining change plus integration error. If steps oscillate: 95 % confidence
+    /// half-width of their long-term mean.
     #[serde(rename = "step_error_m")]
     error: Real,
-    /// by how much steps swing about their mean from period to period; 0 of steady ones
+    /// amplitude of the oscillation of the steps from period to period. 0 for a steady drive.
     #[serde(rename = "step_spread_m")]
     spread: Real,
-    /// mean speed along x: step over period
+    /// mean velocity along x: step length divided by period
     #[serde(rename = "speed_m_s")]
     speed: Real,
-    /// load times mean speed, above 0 where the drive moves against the load, 0 where there is no step; of loads only
+    /// mean power: load times mean velocity. Positive if the drive moves against the load, 0 without steps. Only in
+    /// curves over a load.
     #[serde(rename = "power_W", skip_serializing_if = "Option::is_none")]
     power: Option<Real>,
-    /// period of the figures' waveform
+    /// period of the waveform named in `figures`
     #[serde(rename = "period_s")]
     period: Real,
-    /// `steady`, `no step` (steady, and the step is no longer than it may be off, or than a hundred-thousandth of u_c), `oscillates`
-    /// (steps swing about a mean) or `irregular`
+    /// type of motion: `steady`, `no step` (steady, with a step length below its error or below 1e-5 u_c), `oscillates`
+    /// (steps oscillate about a mean) or `irregular`
     motion: &'static str,
-    /// |λ|, modulus of the largest Floquet multiplier: by how much a disturbance is smaller after a period; none of motions
-    /// that were waited for
+    /// |λ|, modulus of the largest Floquet multiplier: factor by which a disturbance changes per period. Empty or null
+    /// if the motion was found by simulation instead of shooting.
     #[serde(rename = "largest_multiplier")]
     multiplier: Option<Real>,
-    /// drive periods in which that disturbance oscillates once; none where it does not
+    /// period of the oscillation of the disturbance with the largest multiplier, in drive periods. Empty or null if it
+    /// does not oscillate.
     oscillation_periods: Option<Real>,
-    /// periods that were computed
+    /// number of simulated periods
     work_periods: u32,
 }
 
@@ -207,11 +214,11 @@ impl Figures {
     }
 }
 
-/// A curve with its points, in one sense.
+/// A curve with its points, in one direction of the waveforms.
 pub type Way<'a> = (&'a Curve, &'a Traced);
 
-/// As CSV: what is varied, of a curve in both senses in which, the figures of the motion there, and what is wrong with it. Numbers have
-/// as many digits as it takes to read the same bits back; a cell is empty where there is no such number.
+/// Returns the table of a curve, or of both directions, as CSV. Numbers have enough digits to restore all bits. Unknown
+/// values are empty.
 #[must_use]
 pub fn csv(ways: &[Way<'_>]) -> String {
     let Some((curve, _)) = ways.first() else { return String::new() };
@@ -258,24 +265,27 @@ fn number(table: &mut String, number: Option<f64>) {
     };
 }
 
-/// What is wrong without the excerpt of the file and the help, which stand below it.
+/// Returns the first line of an error message, without excerpt and help.
 pub(super) fn one_line(fault: &str) -> &str {
     fault.lines().next().unwrap_or_default()
 }
 
-/// All numbers on one line of JSON.
+/// Returns all numbers in one line of JSON.
 #[must_use]
 pub fn json(ways: &[Way<'_>]) -> String {
-    // Numbers and strings only: there is nothing that JSON could refuse.
+    // Numbers and strings only: serialisation cannot fail.
     report(ways).and_then(|report| serde_json::to_string(&report).ok()).unwrap_or_default()
 }
 
-/// Writes the table, `curve.json` and pictures into a folder; pictures of the names `stale` that are not among them go. What was
-/// interrupted is written to `curve-partial.csv` and `curve-partial.json`, and goes with the next whole curve. Returns the names; none
-/// of no curve.
+/// Writes the table, `curve.json` and plots into a folder, and deletes the plots named `stale` that are not among them.
+/// Returns the names, none without a curve.
+///
+/// An interrupted curve is written to `curve-partial.csv` and `curve-partial.json`; the next complete curve deletes
+/// these.
 ///
 /// # Errors
-/// What the system says; nothing that was there is gone then, unless it says so while names are given.
+/// Error of the operating system. Existing files remain, unless the error occurs while the new files receive their
+/// names.
 pub fn write(
     folder: Folder,
     ways: &[Way<'_>],
@@ -288,7 +298,7 @@ pub fn write(
     }
 }
 
-/// Writes a table with what is told of all, and pictures.
+/// Writes a table, its report and plots.
 pub(super) fn publish<P: Serialize>(
     folder: Folder,
     (table, report): (&str, Report<'_, P>),
@@ -332,7 +342,7 @@ fn report<'a>(ways: &[Way<'a>]) -> Option<Report<'a, PointReport<'a>>> {
     })
 }
 
-/// What every key of `curve.json` and every column of `curve.csv` is.
+/// Returns the definitions of all keys of `curve.json` and of all columns of `curve.csv`.
 pub(crate) fn definitions() -> Vec<Definition> {
     let [points, figures] = [
         stickslip_quantity::report::<PointReport<'_>>(NAMES[0][0]),

@@ -1,5 +1,5 @@
-//! What a curve varies, resolved once from the scene: pairs of key path and value as in `--set`, so that every point can be run
-//! again by itself.
+//! The varied parameter of a curve. It gives the arguments of `--set` for each point, so that every point can be run
+//! separately.
 
 use super::{CurveError, Kind};
 use serde_json::Value;
@@ -12,80 +12,81 @@ use stickslip_run::Job;
 /// Pairs of key path and value.
 pub(super) type Overrides = Vec<(String, String)>;
 
-/// How far two periods may be apart, as a share, to be the same.
+/// Relative difference below which two periods are equal.
 const SAME: f64 = 1e-9;
 
-/// What a curve varies.
+/// Varied parameter of a curve.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Variation {
-    /// What it is: "stroke", "frequency", "load", "preload", or its path.
+    /// Name: "stroke", "frequency", "load", "preload" or the key path.
     pub name: String,
-    /// Its SI unit; empty for a plain number.
+    /// SI unit; empty for a plain number.
     pub unit: &'static str,
-    /// What it is in the scenario, SI; none where it is left out there.
+    /// Value in the scenario, SI. `None` if the scenario omits it.
     pub present: Option<f64>,
-    /// A range worth looking at, SI; none where nobody knows.
+    /// Default range, SI. `None` if unknown.
     pub range: Option<[f64; 2]>,
     setting: Setting,
 }
 
 #[derive(Debug, Clone, PartialEq)]
 enum Setting {
-    /// Each of these paths to the value times its share.
+    /// Key paths with factors: each is set to the value times its factor.
     Paths(Vec<(String, f64)>),
-    /// A load on the body of this name, besides those it has.
+    /// An additional load on the body of this name.
     Load(String),
 }
 
-/// A waveform where it stands in the scenario.
+/// A waveform with its path in the scenario.
 struct Place<'a> {
-    /// Path of its form, such as `waveforms.drive.sawtooth`.
+    /// Key path such as `waveforms.drive.sawtooth`.
     path: String,
-    /// Its word, such as `sawtooth`.
+    /// Kind, such as `sawtooth`.
     word: String,
     form: &'a Value,
 }
 
 impl Variation {
-    /// What a kind of curve varies of a job.
+    /// Creates the varied parameter of a curve.
     ///
     /// # Errors
-    /// A scene that has no such curve, or a path to nothing that can be varied.
+    /// Fails if the scenario does not have this curve, or the key path does not name a number.
     pub(super) fn of(kind: &Kind, job: &Job) -> Result<Self, CurveError> {
-        let (waveform, body) = (waveform(job)?, body(job, "no body makes the steps")?);
+        let (waveform, body) = (waveform(job)?, body(job, "no body of the model makes steps")?);
         let tree = serde_json::from_str(&job.resolved).unwrap_or_default();
         match kind {
             Kind::StepAmplitude => Self::amplitude(job, &tree, waveform),
             Kind::SpeedFrequency => Self::frequency(job, &tree, waveform),
             Kind::ForceSpeed | Kind::StepLoad => Ok(Self::load(job, body)),
             Kind::Preload => Self::preload(job, body).map_err(|why| {
-                let help = "vary what presses it by its path, such as loads[0].z";
+                let help = "vary the normal load by its path, such as loads[0].z";
                 not_here(job, kind.name(), why, help)
             }),
             Kind::Vary(path) => Self::at(job, path),
         }
     }
 
-    /// The number at a path.
+    /// Creates the parameter at a key path.
     pub(super) fn at(job: &Job, path: &str) -> Result<Self, CurveError> {
         let found = job.scenario.parameter(path)?;
         let setting = Setting::Paths(vec![(path.to_owned(), 1.0)]);
         Ok(Self { name: path.to_owned(), unit: found.unit, present: found.value, range: None, setting })
     }
 
-    /// Name of what heads its column, with the unit as in other tables: `stroke_m`.
+    /// Returns the column name with unit: `stroke_m`.
     #[must_use]
     pub fn head(&self) -> String {
         stickslip_quantity::names::with_unit(&self.name, self.unit)
     }
 
-    /// Why there is no range by default.
+    /// Returns the error that there is no default range.
     pub(super) fn no_range(&self, job: &Job) -> CurveError {
-        let why = if self.present == Some(0.0) { "it is 0" } else { "nothing holds the body" };
+        let why = if self.present == Some(0.0) { "it is 0" } else { "no contact holds the body" };
         CurveError::NoRange { file: job.name.clone(), varied: self.name.clone(), why }
     }
 
-    /// What reverses all waveforms of the steps' period in time together, so that the drive steps the other way.
+    /// Returns the overrides that reverse all waveforms of the steps' period in time, so that the drive steps in the
+    /// opposite direction.
     pub(super) fn reversal(job: &Job, kind: &Kind) -> Result<Overrides, CurveError> {
         let tree = serde_json::from_str(&job.resolved).unwrap_or_default();
         let scene = &job.scenario.scene;
@@ -96,15 +97,13 @@ impl Variation {
                 keys.iter().all(|key| place.form.get(key).is_none_or(Value::is_null))
             });
             let Some(place) = place else {
-                let why = format!("\"{name}\" is a pattern already, which cannot be reversed as a whole");
-                let help =
-                    "ask for one sense, without --both, and reverse the runs of its pattern for the other";
+                let why = format!("\"{name}\" has a burst or a sequence, which cannot be reversed");
+                let help = "compute one direction without --both, and reverse the runs of the sequence for the other direction";
                 return Err(not_here(job, kind.name(), why, help));
             };
             if place.word == "table" {
                 let why = format!("\"{name}\" is a table, which cannot be reversed");
-                let help =
-                    "ask for one sense, without --both, and give its points in the other order for the other";
+                let help = "compute one direction without --both, and give the points in reverse order for the other direction";
                 return Err(not_here(job, kind.name(), why, help));
             }
             let back = r#"[{"cycles": 1, "reversed": true}]"#;
@@ -120,7 +119,7 @@ impl Variation {
         Ok(all?.concat())
     }
 
-    /// What sets it to a value; a load acts against the direction, 1 or -1, of the steps.
+    /// Returns the overrides for a value. A load acts against `direction`, the direction of the steps, 1 or -1.
     pub(super) fn overrides(&self, value: f64, direction: f64) -> Overrides {
         match &self.setting {
             Setting::Paths(paths) => {
@@ -138,16 +137,16 @@ impl Variation {
         let Some((path, key, value)) = size(tree, scene, waveform) else {
             let place = place(tree, &scene.waveforms[waveform].name);
             let word = place.as_ref().map_or("", |place| place.word.as_str());
-            let why = format!("a waveform of the kind \"{word}\" has no one stroke or amplitude");
+            let why = format!("a waveform of the kind \"{word}\" has no single stroke or amplitude");
             let help = match &place {
                 Some(Place { path, word, .. }) if word == "table" => {
-                    format!("vary {path}.gain, by which all its values go")
+                    format!("vary {path}.gain, the factor of all its values")
                 }
                 _ => "vary one of its numbers by its path".to_owned(),
             };
             return Err(not_here(job, Kind::StepAmplitude.name(), why, &help));
         };
-        // Other feet of the same gait: of the same period and size, followed along the same axes.
+        // Waveforms of other feet of the same gait: same period and size, followed along the same axes.
         let alike = |w: usize| {
             let found = size(tree, scene, w);
             found.filter(|(_, other, size)| {
@@ -171,7 +170,7 @@ impl Variation {
         };
         let paths = companions(scene, waveform).into_iter().map(path).collect::<Option<Vec<_>>>();
         let Some(paths) = paths else {
-            let why = "a waveform of the steps' period has no frequency, as tables have none".to_owned();
+            let why = "a waveform has no frequency, such as a table".to_owned();
             return Err(not_here(job, Kind::SpeedFrequency.name(), why, "change the times of its points"));
         };
         let present = scene.waveforms[waveform].part.period().map(f64::recip);
@@ -191,7 +190,11 @@ impl Variation {
         }
     }
 
-    /// All contacts of the body that a constant force presses, each by its share; the value is the sum. Why there is none, in words.
+    /// Varies the normal forces of all contacts of the body that are pressed by a constant force, in proportion. The
+    /// value is their sum.
+    ///
+    /// # Errors
+    /// Returns a message if there is no such contact.
     pub(super) fn preload(job: &Job, body: usize) -> Result<Self, String> {
         let scene = &job.scenario.scene;
         let own = scene.contacts.iter().filter(|c| c.part.between.contains(&Side::Body(body)));
@@ -205,7 +208,7 @@ impl Variation {
         let sum: f64 = forces.iter().map(|(_, force, count)| force * count).sum();
         if forces.is_empty() {
             let name = &scene.bodies[body].name;
-            return Err(format!("no contact of \"{name}\" is pressed by a constant force"));
+            return Err(format!("no contact of \"{name}\" has a constant normal force"));
         }
         let share =
             |(name, force, _): &(&str, f64, f64)| (format!("contacts.{name}.normal.force"), force / sum);
@@ -219,7 +222,8 @@ pub(super) fn not_here(job: &Job, kind: &'static str, why: String, help: &str) -
     CurveError::NotHere { file: job.name.clone(), kind, why, help: help.to_owned() }
 }
 
-/// μF_N of all contacts of a body at t = 0, N: no load beyond it is held.
+/// Returns the sum of the friction limits μF_N of a body's contacts at t = 0, N. It is an upper bound of the holding
+/// force.
 fn held(job: &Job, body: usize) -> f64 {
     let contacts = job.scenario.scene.contacts.iter().enumerate();
     let own = contacts.filter(|(_, contact)| contact.part.between.contains(&Side::Body(body)));
@@ -230,7 +234,7 @@ fn held(job: &Job, body: usize) -> f64 {
     own.filter_map(limit).sum()
 }
 
-/// The waveform whose period is that of the steps.
+/// Returns the index of the waveform whose period is the period of the steps.
 fn waveform(job: &Job) -> Result<usize, CurveError> {
     let scene = &job.scenario.scene;
     let is_periodic = |named: &&Named<Waveform>| named.part.period().is_some();
@@ -242,8 +246,8 @@ fn waveform(job: &Job) -> Result<usize, CurveError> {
     }
     let names: Vec<&str> = scene.waveforms.iter().filter(is_periodic).map(|w| w.name.as_str()).collect();
     let why = match place {
-        Some(w) => format!("\"{}\" repeats nothing", scene.waveforms[w].name),
-        None if names.is_empty() => "nothing here repeats itself".to_owned(),
+        Some(w) => format!("\"{}\" has no period", scene.waveforms[w].name),
+        None if names.is_empty() => "no waveform has a period".to_owned(),
         None => "there are several".to_owned(),
     };
     let help = match names.is_empty() {
@@ -253,26 +257,28 @@ fn waveform(job: &Job) -> Result<usize, CurveError> {
     Err(CurveError::NoPeriod { file: job.name.clone(), why, help })
 }
 
-/// The body whose way is the step, or else what is lacking.
+/// Returns the index of the body whose steps are evaluated. `lacking` is the error message if there is none.
 pub(super) fn body(job: &Job, lacking: &'static str) -> Result<usize, CurveError> {
     let bodies = &job.scenario.scene.bodies;
     let is_free = |b: &usize| bodies.get(*b).is_some_and(|body| body.part.x.freedom == Freedom::Free);
     let names: Vec<&str> = (0..bodies.len()).filter(is_free).map(|b| bodies[b].name.as_str()).collect();
     let help = match names.is_empty() {
-        true => "let a body be free along x".to_owned(),
+        true => "make x of a body \"free\"".to_owned(),
         false => format!("name one, \"figures\": {{\"body\": …}}: {}", names.join(", ")),
     };
     let none = CurveError::NoBody { file: job.name.clone(), lacking, help };
     job.scenario.figures.body.filter(is_free).ok_or(none)
 }
 
-/// Phase of a cycle that is reversed, rad, by which it goes through the values of the time before the origin, from its phase and its delay
-/// in periods. A reversed cycle begins after its own delay as well, and lies to others as it did.
+/// Returns the phase of a time-reversed cycle, rad, from its phase and its delay in periods.
+///
+/// The reversed cycle runs through the values before the time origin. It also starts after its delay and keeps its
+/// phase relative to other waveforms.
 fn mirrored(phase: f64, delay: f64) -> f64 {
     (TAU * (2.0 * delay).fract() - phase).rem_euclid(TAU)
 }
 
-/// All waveforms of the same period as one of them, with it.
+/// Returns the indices of all waveforms with the same period as the given one, including it.
 fn companions(scene: &Scene, waveform: usize) -> Vec<usize> {
     let own = scene.waveforms[waveform].part.period().unwrap_or(f64::NAN);
     let is_alike = |w: &usize| {
@@ -281,24 +287,24 @@ fn companions(scene: &Scene, waveform: usize) -> Vec<usize> {
     (0..scene.waveforms.len()).filter(is_alike).collect()
 }
 
-/// Where a waveform stands in the scenario: under its name, or where it is followed.
+/// Finds the waveform in the scenario: under its name, or at the body that follows it.
 fn place<'a>(tree: &'a Value, name: &str) -> Option<Place<'a>> {
     let named = tree.get("waveforms").and_then(|all| all.get(name));
     let (path, found) = match named {
         Some(found) => (format!("waveforms.{name}"), found),
-        // One written out in place is named by its path.
+        // A waveform without a name is identified by its path.
         None => (name.to_owned(), tree.pointer(&pointer(name))?),
     };
     let (word, form) = found.as_object()?.iter().next()?;
     Some(Place { path: format!("{path}.{word}"), word: word.clone(), form })
 }
 
-/// A key path as a JSON pointer.
+/// Converts a key path to a JSON pointer.
 fn pointer(path: &str) -> String {
     format!("/{}", path.replace('[', ".").replace(']', "").replace('.', "/"))
 }
 
-/// The path of a waveform's stroke or amplitude, which of them, and its value.
+/// Returns path, key and value of a waveform's stroke or amplitude.
 fn size(tree: &Value, scene: &Scene, waveform: usize) -> Option<(String, &'static str, f64)> {
     let Place { path, form, .. } = place(tree, &scene.waveforms.get(waveform)?.name)?;
     ["stroke", "amplitude"].into_iter().find_map(|key| {
@@ -307,7 +313,7 @@ fn size(tree: &Value, scene: &Scene, waveform: usize) -> Option<(String, &'stati
     })
 }
 
-/// Along which axes bodies follow a waveform.
+/// Returns the axes along which bodies follow a waveform.
 fn followed(scene: &Scene, waveform: usize) -> Vec<Axis> {
     let axes = scene.bodies.iter().flat_map(|body| body.part.coordinates());
     let follows = |freedom| match freedom {

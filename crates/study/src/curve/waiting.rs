@@ -1,15 +1,20 @@
-//! Steady motion waited for: a run, period by period.
+//! Steady motion by simulation, period by period.
 //!
-//! Lengths of steps s₀, s₁, … are those of the periods of the figures' waveform. They are steady where what is still to come is
-//! known to be nothing: near a steady motion the changes eₖ = sₖ - sₖ₋₁ fall by a fixed share r from period to period, so that
-//! eₖ r/(1-r) is left of the way to the limit (Aitken, *Proc. R. Soc. Edinburgh* 46 (1926) 289). Creep falls so slowly that it is
-//! not waited for: where three limits by Aitken's rule agree, that is the step, unless rounding could have made them agree: what it
-//! does to a limit grows as 1/(1-r)², and steps that grow evenly, as where a load drags the body away, have r = 1.
+//! The step lengths s₀, s₁, … are those of the periods of the waveform named in `figures`. Near a periodic orbit, their
+//! changes eₖ = sₖ - sₖ₋₁ decrease by a constant ratio r
+//! per period. The remaining change is then eₖ r/(1-r) (Aitken, *Proc. R. Soc. Edinburgh* 46 (1926) 289). The motion is
+//! steady if the remaining change is negligible.
 //!
-//! What a body flies or slides in a period may be even by itself: only steps in which a contact holds it are taken for steady.
+//! Creep decays slowly, so the simulation does not wait for its end. If three successive limits by Aitken's rule agree,
+//! their value is the step length. Rounding errors
+//! of a limit grow as 1/(1-r)²; limits that rounding could have made equal are rejected. An example is a load that
+//! drags the body away, with r = 1.
 //!
-//! A run that begins near a motion that it leaves stays with it as long as a disturbance takes to grow. It is run on, and what has not left
-//! is no motion that a drive would have in the end.
+//! A body that flies or slides may move a constant distance per period. Such periods do not count as steady: a contact
+//! must hold the body in every period.
+//!
+//! A run that begins near an unstable periodic orbit stays there until a disturbance has grown. The run continues until
+//! it has left the orbit.
 
 use super::motion::{Course, Motion, Motionless, STILL, natural, waveform};
 use crate::grip::{Grip, Loose};
@@ -18,38 +23,38 @@ use stickslip_measure::{Bounds, Mean, Moved, Settling};
 use stickslip_run::summary::step_bounds;
 use stickslip_run::{Job, Watcher};
 
-/// Most periods that are waited for, and while a swing about a motion that a run leaves is growing.
+/// Maximum number of periods: normally, and while an oscillation about an unstable periodic orbit grows.
 const WAITED: u32 = 400;
 const LEAVING: u32 = 10_000;
-/// What may be left of the way to the limit, as a share of the step or of the natural length of the body's contacts, whichever
-/// is longer.
+/// Largest remaining change of a steady step length, relative to the larger of the step length and u_c.
 const LEFT: f64 = 1e-6;
-/// Periods for which a limit has to last: what a memory forgets slowly shows when all else is over. Steps of 1.6 pm that were to fade to
-/// nothing were told within 0.7 fm.
+/// Number of periods for which a limit must remain the same. Slowly decaying parts of the slip memory become visible in
+/// this time.
 const LASTING: u32 = 16;
-/// Fewest steps that say anything.
+/// Minimum number of steps for a decision.
 const FEWEST: usize = 5;
-/// How many limits must agree.
+/// Number of successive limits that must agree.
 const AGREEING: usize = 3;
-/// By which share a beat that stays as it is may be larger or smaller in the last quarter of the periods than in the one before.
+/// Largest relative change of the range of an oscillation with constant amplitude, from the third to the last quarter
+/// of the periods.
 const STAYS: f64 = 0.05;
-/// How many times as far as a mean that becomes slower has to go it may go.
+/// Safety factor on the extrapolated remaining change of a mean whose drift slows down.
 const SURE: f64 = 2.0;
-/// By which share it may be so by the whole of the last half, as its fit tells.
+/// Largest relative growth of a constant amplitude over the second half of the periods, from its fit.
 const DRIFTS: f64 = 0.01;
-/// Part of the growth of a disturbance at which a swing has not grown with it.
+/// An oscillation that has grown by less than this fraction of the growth of a disturbance does not grow with it.
 const LAGS: f64 = 0.1;
-/// By which power of e rounding has become anything.
+/// Exponent of e beyond which a disturbance has grown from rounding error to any size.
 const OUTGROWN: f64 = 80.0;
-/// How many times the least step those of a waveform that ends may ring, whose mean is none.
+/// Largest steps that count as ringing about zero, as a multiple of the smallest step, for waveforms that end.
 const RINGS: f64 = 10.0;
-/// By which share what has left a motion may range wider or less in the last quarter than in the one before.
+/// Largest relative change of the range of a motion that has left its orbit, from the third to the last quarter of the
+/// periods.
 const WIDER: f64 = 0.25;
-/// Where the changes of steps are rounding, as a share of their scale.
+/// Changes of the step length below this fraction of its scale are rounding errors.
 const ROUNDING: f64 = 1e-11;
 
-/// A motion that repeats itself and that a run leaves: its step and how far that may be off, m, and by which factor a disturbance grows
-/// in a period.
+/// Unstable periodic orbit: step length and its error, m, and growth factor of a disturbance per period.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Unstable {
     pub(super) step: f64,
@@ -57,7 +62,12 @@ pub(super) struct Unstable {
     pub(super) growth: f64,
 }
 
-/// Runs a job period by period until its steps are steady: on another motion than the one it `leaves`, if there is one.
+/// Simulates a job until its steps are steady. If `leaves` is given, the steps must not be those of this unstable
+/// orbit.
+///
+/// # Errors
+/// Fails if the waveform ends too early, the run fails, or the steps are not steady after the maximum number of
+/// periods.
 pub(super) fn waited(
     job: &Job,
     watcher: &dyn Watcher,
@@ -80,7 +90,7 @@ pub(super) fn waited(
     let mut run = Run::new(&job.model, &plan, job.start.clone()).map_err(failed)?;
     let mut looker = Looker { watcher, grip: Grip::new(job, body) };
     let mut place = |k: u32| -> Result<(f64, Option<Loose>), Motionless> {
-        // A cheap period is over before its run asks.
+        // A short period may end before the run calls `goes_on`.
         if !watcher.goes_on() {
             return Err(Motionless::NotRun);
         }
@@ -96,7 +106,7 @@ pub(super) fn waited(
         Motion { step, error, spread, period, course, multiplier, work, natural }
     };
     let ((mut before, _), mut steps, mut hold) = (place(0)?, Vec::new(), Hold::default());
-    // Since when there is a limit, and which.
+    // Period since which the limit is constant, and the limit at that time.
     let mut since: Option<(u32, Mean)> = None;
     let mut k = 0;
     loop {
@@ -122,7 +132,7 @@ pub(super) fn waited(
     }
 }
 
-/// Since which period a limit is the same, and which it was then, m, with what was known of it before.
+/// Returns the period since which the limit is constant, with the limit and its error at that time.
 fn lasts(since: Option<(u32, Mean)>, (k, limit): (u32, Mean), natural: f64) -> (u32, Mean) {
     let is_same =
         |first: &Mean| (limit.value - first.value).abs() <= first.error.max(ROUNDING * natural) + limit.error;
@@ -130,16 +140,18 @@ fn lasts(since: Option<(u32, Mean)>, (k, limit): (u32, Mean), natural: f64) -> (
 }
 
 impl Unstable {
-    /// Whether a limit of steps, m, is that of another motion.
+    /// Returns whether a limit of the step length, m, belongs to another motion.
     fn is_other(&self, limit: &Mean, near: f64) -> bool {
         (limit.value - self.step).abs() > limit.error + self.error + near
     }
 
-    /// Whether what steps do, which swing with a period, in steps, may be that of a run that has not left, or is on its way: they are those of
-    /// this motion, range wider than before, or have another mean.
+    /// Returns whether the run may still be near the unstable orbit or in transition from it.
+    ///
+    /// That is the case if the steps oscillate about those of the orbit, their range increases or their mean drifts.
+    /// `period` is the period of the oscillation in steps.
     fn may_hold(&self, steps: &[f64], (course, mean, spread): (Course, Mean, f64), period: f64) -> bool {
         if course == Course::Steady {
-            // What rounding has had so long to grow by, and has not, does not grow.
+            // A disturbance that rounding has had time to excite, and has not, does not grow.
             let has_grown = math::ln(self.growth) * (2 * steps.len()) as f64 > OUTGROWN;
             return !has_grown && !self.is_other(&mean, 0.0);
         }
@@ -151,20 +163,22 @@ impl Unstable {
     }
 }
 
-/// How the mean of steps that swing with a period, in steps, moves by more than chance and rounding; none where it does not, or they are
-/// too few to tell.
+/// Returns the drift of the mean of oscillating steps if it exceeds statistical scatter and rounding errors. Returns
+/// `None` otherwise or for too few steps.
+/// `period` is the period of the oscillation in steps.
 fn moved(steps: &[f64], period: f64) -> Option<Moved> {
     let scale = steps.iter().fold(0.0, |most: f64, step| most.max(step.abs()));
     Mean::moved(steps, period).filter(|moved| moved.by > ROUNDING * scale)
 }
 
-/// In which periods something held the body.
+/// Periods in which contacts held the body.
 #[derive(Debug, Clone, Copy, Default)]
 struct Hold {
-    /// How many there were when the last was over in which nothing did, and in which something did.
+    /// Number of periods until the end of the last one in which no contact held the body, and of the last one in which
+    /// a contact held it.
     loose_until: usize,
     held_until: usize,
-    /// What it did in the last, if nothing held it.
+    /// State of the body in the last period if no contact held it.
     loose: Option<Loose>,
 }
 
@@ -175,7 +189,7 @@ impl Hold {
     }
 }
 
-/// The limit of steps and how far it may be off, where they are steady.
+/// Returns the limit of the step length with its error if the steps are steady.
 fn limit(steps: &[f64], natural: f64, change: f64) -> Option<Mean> {
     if steps.len() < FEWEST {
         return None;
@@ -196,7 +210,7 @@ fn limit(steps: &[f64], natural: f64, change: f64) -> Option<Mean> {
     if left <= change * scale {
         return Some(Mean { value: last, error: left });
     }
-    // Aitken's rule from each of the last periods.
+    // Aitken's rule for each of the last periods.
     let limits: Vec<f64> = (0..AGREEING)
         .map(|back| steps[steps.len() - 1 - back] + changes[back] * shares[back] / (1.0 - shares[back]))
         .collect();
@@ -207,7 +221,11 @@ fn limit(steps: &[f64], natural: f64, change: f64) -> Option<Mean> {
     (is_creep && agree).then(|| Mean { value: limits[0], error: 10.0 * apart + rounding })
 }
 
-/// What steps do that have not become steady: with their mean and by how much they swing about it.
+/// Evaluates steps that have not become steady. Returns the type of motion, its mean step length and the amplitude of
+/// the oscillation.
+///
+/// # Errors
+/// Fails if the body slides away or flies, or the steps have no stationary behaviour yet.
 fn judged(
     steps: &[f64],
     hold: Hold,
@@ -218,11 +236,11 @@ fn judged(
     let half = &steps[steps.len() / 2..];
     let last = steps.last().copied().unwrap_or(0.0);
     let change = steps.windows(2).last().map_or(0.0, |pair| pair[1] - pair[0]);
-    // Even steps are what they are, however long: whether they are none is a matter of what holds the body.
+    // No upper bound of the step length here: whether large steps are steps depends on the contacts that hold the body.
     let settling = Settling::of(steps, Bounds { most: f64::INFINITY, ..bounds });
     let slides = Motionless::SlidesAway { periods, step: last, change };
     let swings = matches!(settling, Settling::Beats { .. } | Settling::Irregular { .. });
-    // What hops may touch in every third period alone.
+    // A hopping body may touch in every third period only.
     let long = if swings { half.len() } else { (steps.len() / 10).max(1) };
     let is_loose = steps.len() - hold.held_until >= long;
     match hold.loose.filter(|_| is_loose && last.abs() > bounds.least) {
@@ -235,7 +253,7 @@ fn judged(
     let largest = end.iter().fold(0.0, |most: f64, step| most.max(step.abs()));
     let rings =
         (end.iter().sum::<f64>() / end.len() as f64).abs() <= bounds.least && largest <= RINGS * bounds.least;
-    // Too few swings say no more than that the mean lies between their ends.
+    // Too few oscillations only show that the mean lies between their extremes.
     let mean = |period, spread| Mean::of(half, period).unwrap_or(Mean { value: plain, error: spread });
     let (found, period) = match settling {
         Settling::Settled(settled) => {
@@ -243,7 +261,8 @@ fn judged(
         }
         Settling::Beats { period, growth, amplitude, .. } => {
             let Mean { value, error } = mean(period, amplitude);
-            // One that goes on growing or fading takes the mean with it, and nobody knows how far. What has left a motion is asked below.
+            // A growing or decaying oscillation changes the mean by an unknown amount. Motions that leave an orbit are
+            // examined below.
             let [before, after] = extents(half);
             let drifts = growth.is_some_and(|growth| (math::ln(growth) * half.len() as f64).abs() > DRIFTS);
             let stays = leaves.is_some() || !drifts && (after - before).abs() <= STAYS * before;
@@ -260,7 +279,7 @@ fn judged(
             ((Course::Steady, Mean { value: last, error: largest }, 0.0), 0.0)
         }
         Settling::Drifts { .. } | Settling::NotSettled { .. } => {
-            // Where nobody knows how long a step can be, one that grows to no limit that is foreseen.
+            // Without a known upper bound of the step length: steps that grow without a predicted limit.
             let is_foreseen = matches!(settling, Settling::NotSettled { limit: Some(_), .. });
             let grows = bounds.most == f64::INFINITY && change * last > 0.0 && !is_foreseen;
             return Err(match grows || last.abs() > bounds.most {
@@ -278,20 +297,20 @@ fn judged(
     }
 }
 
-/// How far the first half of steps ranges, and the last.
+/// Returns the ranges of the first and second half of the steps.
 fn extents(steps: &[f64]) -> [f64; 2] {
     let (first, last) = steps.split_at(steps.len() / 2);
     [extent(first), extent(last)]
 }
 
-/// How far apart the longest and the shortest step are.
+/// Returns the difference of the largest and smallest step length.
 fn extent(steps: &[f64]) -> f64 {
     let bounds = |(low, high): (f64, f64), step: &f64| (low.min(*step), high.max(*step));
     let (low, high) = steps.iter().fold((f64::INFINITY, f64::NEG_INFINITY), bounds);
     high - low
 }
 
-/// A record that keeps nothing, hears when it is to end, and what happens to contacts.
+/// Record that passes contact events to the grip observer and lets the watcher interrupt the run.
 struct Looker<'a> {
     watcher: &'a dyn Watcher,
     grip: Grip,

@@ -1,14 +1,14 @@
-//! What was measured: a loop, or rows of a trajectory.
+//! Measured data of a fit: a loop, or rows of a trajectory.
 
 use stickslip_measure::series::extent;
 use stickslip_measure::{mean_loop, noise};
 use stickslip_run::measured::{Evaluated, Measured};
 
-/// A displacement whose noise is less than this share of its range leads a model as it is.
+/// Noise of the displacement relative to its range below which it is neglected.
 const STILL: f64 = 2e-3;
-/// A record is one loop whose ends are apart by no more than this many of its largest steps.
+/// Largest distance between the ends of a closed loop, in largest steps between rows.
 const NEAR: f64 = 1.5;
-/// Fourth differences of so many rows tell as much of the noise as one row whose noise is known to be noise.
+/// Number of rows whose fourth differences give one degree of freedom of the noise variance.
 const ROWS: f64 = 6.0;
 
 /// Measured rows.
@@ -18,26 +18,26 @@ pub struct Data {
     pub t: Vec<f64>,
     /// Displacements, m.
     pub u: Vec<f64>,
-    /// Forces, N.
+    /// Forces, N. For a trajectory, the displacements scaled to forces follow.
     pub force: Vec<f64>,
-    /// How many rows of the record each stands for.
+    /// Number of rows of the record that each row averages.
     pub counts: Vec<f64>,
-    /// Whether they are one closed loop. Else the displacements come once more after the forces, in forces.
+    /// Whether the rows are one closed loop. Otherwise they are a trajectory.
     pub is_loop: bool,
     /// Period of the loop, s.
     pub period: f64,
-    /// Standard deviation of the noise of a force, N, where the rows tell it alone, with its degrees of freedom.
+    /// Standard deviation of the noise of a force, N, if the rows determine it; and its degrees of freedom.
     pub noise: Option<f64>,
     pub(super) freedom: f64,
     /// Standard deviation of the noise of a displacement, m.
     pub(super) noise_of_u: f64,
-    /// Forces in a displacement, N/m: by their noises.
+    /// Scale from displacements to forces, N/m: ratio of their noises.
     pub(super) scale: f64,
 }
 
 impl Data {
-    /// The mean loop of a record whose cycles were evaluated; the cycle itself where there is one, or the displacement has no noise; all of a record
-    /// that is one closed loop.
+    /// Returns the mean loop of the evaluated cycles, the single cycle, or the whole record if it is one closed loop. A
+    /// single cycle is not averaged if its displacement has no noise.
     pub(super) fn of_loop(measured: &Measured, evaluated: Option<&Evaluated>) -> Option<Self> {
         let Some(evaluated) = evaluated else {
             return Self::whole(measured);
@@ -71,7 +71,7 @@ impl Data {
         Some(Self::of_rows(t, &u[span.clone()], &force[span], last.time[1] - last.time[0]))
     }
 
-    /// A record that is one closed loop.
+    /// Returns the whole record as a loop if it is closed.
     fn whole(measured: &Measured) -> Option<Self> {
         let Measured { t, u, force, .. } = measured;
         let step = u.windows(2).map(|two| (two[1] - two[0]).abs()).fold(0.0, f64::max);
@@ -80,7 +80,7 @@ impl Data {
         if u.len() < 8 || (last - first).abs() > NEAR * step + 3.0 * noise(u) {
             return None;
         }
-        // The last row may be the first one again.
+        // The last row may repeat the first.
         let is_closed = (last - first).abs() < 1e-6 * step;
         let count = u.len() - usize::from(is_closed);
         let period = (end - start) * if is_closed { 1.0 } else { u.len() as f64 / (u.len() - 1) as f64 };
@@ -104,7 +104,7 @@ impl Data {
         }
     }
 
-    /// Rows of a trajectory, as they are.
+    /// Returns the rows of a trajectory.
     pub(super) fn trajectory(measured: &Measured) -> Self {
         let Measured { t, u, force, .. } = measured;
         let range = |values: &[f64]| {
@@ -124,13 +124,14 @@ impl Data {
         }
     }
 
-    /// Standard deviation of a force: as it is known, or by the rows, or a hundredth of the range.
+    /// Returns the standard deviation of a force: the given value, or that of the rows, but at least 1e-6 of the range.
     pub(super) fn sigma(&self, known: Option<f64>) -> f64 {
         let (low, high) = extent(&self.force);
         known.or(self.noise).unwrap_or(0.0).max(1e-6 * (high - low))
     }
 
-    /// Weights of the rows: noise of displacements counts as one of forces by the slope of the loop, once that is known.
+    /// Returns the weights of the rows. Noise of the displacement counts as noise of the force times the slope of the
+    /// loop, if `force` is given.
     pub(super) fn weights(&self, force: Option<&[f64]>) -> Vec<f64> {
         let Some(force) = force.filter(|_| self.noise_of_u > 0.0) else { return self.counts.clone() };
         let own = self.sigma(None);

@@ -1,67 +1,67 @@
-//! Why there is no fit.
+//! Errors of a fit.
 
 use stickslip_run::Refusal;
 use stickslip_run::measured::MeasuredError;
 use stickslip_scenario::ScenarioError;
 use thiserror::Error;
 
-/// Why there is no fit.
+/// Reason why a fit fails.
 #[derive(Debug, Error)]
 pub enum FitError {
-    /// The scenario.
+    /// The scenario is rejected.
     #[error(transparent)]
     Refused(#[from] Refusal),
-    /// A number of it.
+    /// A parameter of the scenario is invalid.
     #[error(transparent)]
     Scenario(#[from] ScenarioError),
-    /// The data.
+    /// The data cannot be read or evaluated.
     #[error(transparent)]
     Measured(#[from] MeasuredError),
-    /// No number.
+    /// There are no free parameters.
     #[error("--free  expected key paths of numbers, such as contacts.ball.friction")]
     Nothing,
-    /// A number without a value.
-    #[error("--free  {0} is left out in the scenario: write down a value that the fit can begin with")]
+    /// A free parameter has no value in the scenario.
+    #[error("--free  {0} has no value in the scenario: write an initial value for the fit into the scenario")]
     LeftOut(String),
-    /// A contact.
+    /// The contact does not exist or is ambiguous.
     #[error("--contact  expected the name of one of the contacts: {0}")]
     Contact(String),
-    /// A channel.
-    #[error("there is no channel {wanted}; there are {known}")]
+    /// The channel does not exist.
+    #[error("there is no channel {wanted}; channels: {known}")]
     Channel {
-        /// What was asked for.
+        /// Requested channel.
         wanted: String,
-        /// What there is.
+        /// Available channels.
         known: String,
     },
-    /// A contact whose load is not constant.
+    /// The load of the contact is not constant.
     #[error(
-        "contact {0} has no constant load: it is not led by its displacement alone\n   help: name a channel of a body that leads it, such as --displacement disp=rig.x"
+        "the load of contact {0} is not constant, so its displacement does not determine its loop\n   help: name the displacement channel of a body, such as --displacement disp=rig.x"
     )]
     Load(String),
-    /// Numbers that the data do not tell.
-    #[error("the data cannot tell apart: {}\n   help: free one of them less; a loop at constant load tells the limit force \u{3bc}F_N and the stiffness 2G*a, and no more", groups(.0))]
+    /// The data cannot distinguish the parameters.
+    #[error("the data cannot distinguish {}\n   help: remove one of them from --free; a loop at constant load determines only the friction limit \u{3bc}F_N and the stiffness 2G*a", groups(.0))]
     Undetermined(Vec<Vec<String>>),
-    /// A variant that cannot be run, at the numbers that the scenario has.
-    #[error("the scenario cannot be computed along the data: {0}")]
+    /// The scenario cannot be simulated along the data at the initial values.
+    #[error("the scenario cannot be simulated along the data: {0}")]
     Variant(String),
-    /// A search without an end.
-    #[error("no numbers fit the data: the search came to no end\n   help: begin nearer, with --set")]
+    /// The fit did not converge.
+    #[error("the fit did not converge\n   help: set initial values nearer to the solution with --set")]
     NoFit,
-    /// A channel that says nothing.
-    #[error("{0}: its {1} are constant: there is nothing to fit to")]
+    /// A channel is constant.
+    #[error("{0}: its {1} are constant, so there is no loop to fit")]
     Constant(String, &'static str),
-    /// Whoever asked wants no more.
+    /// The caller interrupted the fit.
     #[error("interrupted")]
     Interrupted,
-    /// Too few rows.
-    #[error("{0} rows are too few to fit {1} numbers")]
+    /// There are too few rows.
+    #[error("{0} rows are too few to fit {1} parameters")]
     Few(usize, usize),
 }
 
 fn groups(groups: &[Vec<String>]) -> String {
     let one = |group: &Vec<String>| match group.as_slice() {
-        [only] => format!("{only}, which changes nothing in them"),
+        [only] => format!("{only}, which has no effect on them"),
         group => group.join(" and "),
     };
     groups.iter().map(one).collect::<Vec<_>>().join("; ")

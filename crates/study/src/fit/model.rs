@@ -1,4 +1,4 @@
-//! What a variant of the scenario has in the place of the data.
+//! Simulated counterpart of the data.
 
 use super::Asked;
 use super::data::Data;
@@ -10,14 +10,14 @@ use stickslip_run::measured::{How, Measured, MeasuredError};
 use stickslip_run::{Job, Watcher};
 use stickslip_scenario::{PlotName, Scenario};
 
-/// Periods of a scene that is led along a loop: the last one counts.
+/// Number of periods for which a body is moved along the loop; the last one is compared.
 const PERIODS: f64 = 3.0;
-/// A channel that changes by less, as a share of itself, is constant.
+/// Relative change below which a channel is constant.
 const ROUNDING: f64 = 1e-9;
-/// Rows of a period of such a scene.
+/// Number of rows per simulated period.
 const ROWS: f64 = 1024.0;
 
-/// A number that is free.
+/// A free parameter.
 pub(super) struct Free {
     pub(super) path: String,
     pub(super) unit: &'static str,
@@ -25,24 +25,25 @@ pub(super) struct Free {
 }
 
 impl Free {
-    /// Its value at a place: by logarithms, so that it keeps its sign; of one that is zero as it is.
+    /// Returns the value at a coordinate of the search. The coordinate is logarithmic, so that the sign is preserved;
+    /// linear if the initial value is 0.
     pub(super) fn at(&self, place: f64) -> f64 {
         if self.start == 0.0 { place } else { self.start * math::exp(place) }
     }
 
-    /// Slope of its value by the place.
+    /// Returns the derivative of the value with respect to the coordinate.
     pub(super) fn slope(&self, place: f64) -> f64 {
         if self.start == 0.0 { 1.0 } else { self.at(place) }
     }
 }
 
-/// How the scenario meets the data.
+/// How the scenario is compared with the data.
 enum Way {
-    /// A contact at constant load is led along the displacements.
+    /// A contact at constant load is moved along the displacements.
     Contact(usize),
-    /// A body is led along them, and the channel of the force is taken.
+    /// A body is moved along them, and a force channel is compared.
     Led { body: String, force: String },
-    /// The scenario runs by itself; both channels are compared with the rows.
+    /// The scenario runs unchanged, and both channels are compared.
     Run { displacement: String, force: String },
 }
 
@@ -79,10 +80,10 @@ impl Way {
     }
 }
 
-/// A scenario with free numbers.
+/// A scenario with free parameters.
 pub(super) struct Model<'a> {
     job: &'a Job,
-    /// Is asked before each variant.
+    /// Called before each variant.
     pub(super) watcher: &'a (dyn Watcher + Sync),
     pub(super) free: Vec<Free>,
     way: Way,
@@ -107,8 +108,8 @@ impl<'a> Model<'a> {
         if let Way::Contact(contact) = way
             && let Some((name, _)) = job.model.contacts().nth(contact)
         {
-            // The loop of a contact at constant load is that of its limit force μF_N and its stiffness. The load is in the stiffness as well, but only by its
-            // cube root beside radius and moduli: nobody should call that a measurement of a load.
+            // The loop of a contact at constant load depends on μF_N and the stiffness. The load also affects the
+            // stiffness, but too weakly to determine the load.
             let of = |part: &str| {
                 let start = format!("contacts.{name}.{part}");
                 free.iter().map(|free| &free.path).find(|path| path.starts_with(&start)).cloned()
@@ -120,7 +121,7 @@ impl<'a> Model<'a> {
         Ok(Self { job, watcher, free, way })
     }
 
-    /// The data as this model meets them.
+    /// Returns the data in the form needed by this model.
     pub(super) fn data(&self, measured: &mut Measured, how: &How) -> Result<Data, FitError> {
         let data = match self.way {
             Way::Run { .. } => Data::trajectory(measured),
@@ -144,7 +145,7 @@ impl<'a> Model<'a> {
         if rows < numbers + 3 { Err(FitError::Few(rows, numbers)) } else { Ok(data) }
     }
 
-    /// Forces of the model in the rows of the data; of a trajectory the displacements, in forces, after them.
+    /// Returns the forces of the model in the rows of the data. For a trajectory, the scaled displacements follow.
     pub(super) fn force(&self, place: &[f64], data: &Data) -> Result<Vec<f64>, FitError> {
         if !self.watcher.goes_on() {
             return Err(FitError::Interrupted);
@@ -156,14 +157,14 @@ impl<'a> Model<'a> {
         }
     }
 
-    /// The scenario with its free numbers at a place, and with further assignments.
+    /// Returns the scenario with free parameters at a point and with further overrides.
     fn variant(&self, place: &[f64], further: &[(String, String)]) -> Result<Job, FitError> {
         let numbers = self
             .free
             .iter()
             .zip(place)
             .map(|(free, place)| (free.path.clone(), format!("{:e}", free.at(*place))));
-        // What leads a body first: a number that is free may be one of it.
+        // Overrides of the body's motion come first, because a free parameter may belong to it.
         let all: Vec<(String, String)> = further.iter().cloned().chain(numbers).collect();
         let all: Vec<(&str, &str)> =
             all.iter().map(|(path, value)| (path.as_str(), value.as_str())).collect();
@@ -177,7 +178,7 @@ impl<'a> Model<'a> {
         Ok(Job::new(scenario, self.job.name.clone(), std::path::PathBuf::new())?)
     }
 
-    /// A body led along the loop, as it goes on after some periods.
+    /// Returns the forces with a body moved along the loop, after some periods.
     fn led(&self, place: &[f64], (body, force): (&str, &str), data: &Data) -> Result<Vec<f64>, FitError> {
         let mut points: Vec<[f64; 2]> = data.t.iter().zip(&data.u).map(|(t, u)| [*t, *u]).collect();
         let first = points[0];
@@ -195,14 +196,14 @@ impl<'a> Model<'a> {
         Ok(data.t.iter().map(|t| at(&rows[0], &rows[1], t + start)).collect())
     }
 
-    /// The scenario as it runs by itself.
+    /// Returns the forces and scaled displacements of an unchanged run.
     fn run(&self, place: &[f64], channels: [&str; 2], data: &Data) -> Result<Vec<f64>, FitError> {
         let rows = self.rows(place, &[], &channels)?;
         let forces = data.t.iter().map(|t| at(&rows[0], &rows[2], *t));
         Ok(forces.chain(data.t.iter().map(|t| data.scale * at(&rows[0], &rows[1], *t))).collect())
     }
 
-    /// Times and channels of a run.
+    /// Returns time and channels of a run.
     fn rows(
         &self,
         place: &[f64],
@@ -220,10 +221,10 @@ impl<'a> Model<'a> {
     }
 }
 
-/// The forces of a contact that is led along a loop about where it stands, the second time round.
+/// Returns the forces of a contact moved along the loop around its initial position, in the second cycle.
 fn along(job: &Job, contact: usize, data: &Data) -> Result<Vec<f64>, FitError> {
     let stopped = |error: &dyn ToString| FitError::Variant(error.to_string());
-    let (_, law) = job.model.contacts().nth(contact).ok_or_else(|| stopped(&"the contact is not there"))?;
+    let (_, law) = job.model.contacts().nth(contact).ok_or_else(|| stopped(&"the contact does not exist"))?;
     let memory = job.start.memories().get(contact).cloned();
     let mut memory = memory.ok_or_else(|| stopped(&"the contact has no memory"))?;
     let count = f64::from(job.count(contact));
@@ -243,13 +244,13 @@ fn along(job: &Job, contact: usize, data: &Data) -> Result<Vec<f64>, FitError> {
     Ok(forces)
 }
 
-/// Whether a body follows a waveform.
+/// Returns whether a body follows a waveform.
 fn is_led(job: &Job, body: &str) -> bool {
     let tree: Value = serde_json::from_str(&job.resolved).unwrap_or_default();
     tree["bodies"][body]["x"].get("follows").is_some()
 }
 
-/// A value between rows.
+/// Returns a linearly interpolated value.
 fn at(t: &[f64], values: &[f64], time: f64) -> f64 {
     let Some(last) = t.len().checked_sub(1) else { return f64::NAN };
     let after = t.partition_point(|t| *t < time).clamp(1.min(last), last);

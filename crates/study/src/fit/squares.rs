@@ -1,4 +1,4 @@
-//! The least squares of a model and its data.
+//! Least squares of model and data by the method of Levenberg and Marquardt.
 
 use super::data::Data;
 use super::error::FitError;
@@ -8,36 +8,37 @@ use nalgebra::storage::Owned;
 use nalgebra::{DMatrix, DVector, Dyn};
 use std::cell::Cell;
 
-/// Differences of logarithms.
+/// Half the distance of central differences, in logarithms of the parameters.
 const STEP: f64 = 1e-3;
-/// Farthest from the start, in e-folds.
+/// Largest change of a parameter, in factors of e.
 const FAR: f64 = 6.0;
-/// What is left where a variant cannot be computed, in what is left elsewhere: the search turns back.
+/// Factor on the initial residual that stands for a variant without result; the search then turns back.
 const WALL: f64 = 10.0;
 
-/// Data with weights, and a model.
+/// Weighted data with a model.
 pub(super) struct Squares<'a> {
     pub(super) model: &'a Model<'a>,
     pub(super) data: &'a Data,
-    /// Weight of each row: reciprocal of its variance in those of a force.
+    /// Weight of each row: inverse variance, relative to that of a force.
     pub(super) weights: Vec<f64>,
 }
 
-/// Where the search ended.
+/// Result of the minimisation.
 pub(super) struct Found {
-    /// Logarithms of the numbers over those of the start, or differences in their scales.
+    /// Coordinates of the parameters: logarithms of their ratios to the initial values, or values if the initial value
+    /// is 0.
     pub(super) place: Vec<f64>,
-    /// Sum of squares, N².
+    /// Weighted sum of squared residuals, N².
     pub(super) squares: f64,
-    /// Forces of the model with its offset, N.
+    /// Forces of the model including the offset, N.
     pub(super) force: Vec<f64>,
-    /// What is left, N, by weight.
+    /// Weighted residuals, N.
     pub(super) left: DVector<f64>,
     pub(super) runs: usize,
 }
 
 impl Squares<'_> {
-    /// What is left at a place, by weight, and the forces of the model with the offset that leaves least.
+    /// Returns the weighted residuals at a point, and the forces of the model with the best offset.
     fn left(&self, place: &[f64]) -> Result<(DVector<f64>, Vec<f64>), FitError> {
         let mut force = self.model.force(place, self.data)?;
         if self.data.is_loop {
@@ -51,7 +52,7 @@ impl Squares<'_> {
         Ok((DVector::from_iterator(force.len(), left), force))
     }
 
-    /// Slopes of what is left, by central differences.
+    /// Returns the derivatives of the residuals by central differences.
     pub(super) fn slopes(&self, place: &[f64]) -> Result<DMatrix<f64>, FitError> {
         let mut slopes = DMatrix::zeros(self.data.force.len(), place.len());
         for k in 0..place.len() {
@@ -65,7 +66,7 @@ impl Squares<'_> {
         Ok(slopes)
     }
 
-    /// The least squares from a start on.
+    /// Minimises the sum of squares from an initial point.
     pub(super) fn least(&self, start: &[f64]) -> Result<Found, FitError> {
         let (left, _) = self.left(start)?;
         let runs = Cell::new(1);

@@ -1,28 +1,29 @@
-//! A number of the scenario along an axis of a map.
+//! Axis of a map: a parameter with its range.
 
 use super::MapError;
 use crate::curve::Range;
 use crate::number::text;
 use stickslip_run::Job;
 
-/// A number and its range.
+/// A parameter with its range.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Axis {
-    /// Its key path.
+    /// Key path.
     pub path: String,
-    /// Its SI unit; empty of a plain number.
+    /// SI unit; empty for a plain number.
     pub unit: &'static str,
-    /// From where to where it goes, SI.
+    /// Start and end, SI.
     pub range: [f64; 2],
-    /// Whether equal distances are equal ratios.
+    /// Whether the axis is logarithmic.
     pub is_logarithmic: bool,
 }
 
 impl Axis {
-    /// The number at a path over a range such as `0.1N..10N`; `option` is where both stand on the command line.
+    /// Creates the axis from a key path and a range such as `0.1N..10N`. `option` is the command-line option, for
+    /// messages.
     ///
     /// # Errors
-    /// No such number, or no such range.
+    /// Fails if the parameter does not exist or the range is invalid.
     pub(super) fn new(
         job: &Job,
         option: &'static str,
@@ -46,7 +47,7 @@ impl Axis {
         Ok(Self { path: path.clone(), unit: found.unit, range, is_logarithmic })
     }
 
-    /// The value at a share of the axis, 0 to 1.
+    /// Returns the value at a fraction of the axis, 0 to 1.
     #[must_use]
     pub fn at(&self, share: f64) -> f64 {
         let [from, to] = self.range;
@@ -58,7 +59,7 @@ impl Axis {
         }
     }
 
-    /// The share of the axis at a value.
+    /// Returns the fraction of the axis at a value.
     #[must_use]
     pub fn share(&self, value: f64) -> f64 {
         let [from, to] = self.range;
@@ -68,13 +69,13 @@ impl Axis {
         }
     }
 
-    /// So many values from end to end.
+    /// Returns `points` values from start to end.
     #[must_use]
     pub fn values(&self, points: usize) -> Vec<f64> {
         (0..points).map(|k| self.at(k as f64 / points.saturating_sub(1).max(1) as f64)).collect()
     }
 
-    /// A value as an override of the scenario.
+    /// Returns an override of the scenario for a value.
     pub(super) fn set(&self, value: f64) -> (String, String) {
         (self.path.clone(), text(value))
     }

@@ -1,4 +1,4 @@
-//! Why there is no map.
+//! Errors of a map.
 
 use crate::sweep::StudyError;
 use std::path::PathBuf;
@@ -6,56 +6,56 @@ use stickslip_run::Refusal;
 use stickslip_scenario::ScenarioError;
 use thiserror::Error;
 
-/// Why there is no map.
+/// Reason why there is no map.
 #[derive(Debug, Error)]
 pub enum MapError {
-    /// The scenario, or a number that it does not have.
+    /// The scenario is invalid or does not have a parameter.
     #[error(transparent)]
     Scenario(#[from] ScenarioError),
-    /// A file that makes no job.
+    /// The scenario is rejected.
     #[error(transparent)]
     Refused(#[from] Refusal),
-    /// A range that is none.
+    /// A range is invalid.
     #[error("{option}  {message}")]
     Range {
-        /// Where it stands on the command line.
+        /// Command-line option.
         option: &'static str,
-        /// What is wrong with it.
+        /// Error message.
         message: String,
     },
-    /// One number on both axes.
-    #[error("--y  expected another number than on the x axis, which is {0}, too")]
+    /// Both axes have the same parameter.
+    #[error("--y  expected another parameter than {0}, which is on the x axis")]
     SamePath(String),
-    /// A result that cannot be mapped.
+    /// The result cannot be mapped.
     #[error("--of {of}  {message}{help}")]
     Of {
-        /// Its name.
+        /// Name of the result.
         of: String,
-        /// What is wrong with it.
+        /// Error message.
         message: String,
-        /// What could have been meant, as a line of its own.
+        /// Suggestion as a separate line.
         help: String,
     },
-    /// Measured points that cannot be read.
+    /// Measured points cannot be read.
     #[error("{}: {message}", .path.display())]
     Overlay {
-        /// The table.
+        /// File of the table.
         path: PathBuf,
-        /// What is wrong with it.
+        /// Error message.
         message: String,
     },
-    /// The parts of the grid.
+    /// The grid of runs failed.
     #[error(transparent)]
     Study(#[from] StudyError),
     /// No point has a result.
     #[error("no point of the map has the result {of}{}", if .why.is_empty() { String::new() } else { format!(": {}", .why) })]
     Nothing {
-        /// The result.
+        /// Name of the result.
         of: String,
-        /// The most frequent reason.
+        /// Most frequent reason.
         why: String,
     },
-    /// Somebody interrupted it.
-    #[error("interrupted: finished runs of a grid stay, and the same command continues")]
+    /// The caller interrupted the map.
+    #[error("interrupted: finished runs of the grid are kept, and the same command resumes")]
     Interrupted,
 }

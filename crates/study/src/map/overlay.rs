@@ -1,26 +1,26 @@
-//! Measured points that are laid over a map.
+//! Measured points plotted over a map.
 
 use super::{Map, MapError};
 use std::path::Path;
 use stickslip_quantity::names::with_unit;
 use stickslip_scenario::quantity;
 
-/// Most classes of points.
+/// Maximum number of classes of points.
 const CLASSES: usize = 12;
 
-/// Measured points by their classes.
+/// Measured points by class.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Overlay {
-    /// Word of each class, empty without any, and its points, SI.
+    /// Name of each class, empty without classes, with its points, SI.
     pub classes: Vec<(String, Vec<[f64; 2]>)>,
 }
 
 impl Overlay {
-    /// Reads a CSV table: its columns are named `x` and `y` or like the paths of the map, with or without the unit; a third one, if there is
-    /// any, tells the class of each point. Numbers are in SI, or have a unit.
+    /// Reads a CSV table. Columns are named `x` and `y`, or like the key paths of the map with or without unit. An
+    /// optional third column gives the class. Numbers are in SI or have a unit.
     ///
     /// # Errors
-    /// A table that cannot be read, lacks a column, or has something else than a number in it.
+    /// Fails if the table cannot be read, lacks a column or contains an invalid number.
     pub fn load(path: &Path, map: &Map) -> Result<Self, MapError> {
         let refused = |message: String| MapError::Overlay { path: path.to_owned(), message };
         let mut reader = csv::ReaderBuilder::new()
@@ -55,7 +55,7 @@ impl Overlay {
             overlay.push(word, point);
         }
         match overlay.classes.len() {
-            0 => Err(refused("it has no points".to_owned())),
+            0 => Err(refused("the table has no points".to_owned())),
             1..=CLASSES => Ok(overlay),
             many => Err(refused(format!("expected at most {CLASSES} classes of points, got {many}"))),
         }
@@ -69,7 +69,7 @@ impl Overlay {
     }
 }
 
-/// What is wrong with a table.
+/// Returns the message of a CSV error.
 fn words(error: &csv::Error) -> String {
     match error.kind() {
         csv::ErrorKind::Io(error) => stickslip_run::complaint::words(error),

@@ -1,4 +1,4 @@
-//! The regime of a contact in one case: from the waveforms that prescribe its motion, or from a run.
+//! Slip regime of a contact in one case: from prescribed waveforms or from a run.
 
 use super::{Axis, Map};
 use crate::journal::Journal;
@@ -8,31 +8,31 @@ use stickslip_drive::facts::{Prescribed, common_period};
 use stickslip_drive::{Event, EventKind, Limits, Plan, Record, RunError, Source};
 use stickslip_run::{Job, Watcher};
 
-/// Moments of the last period of a run at which a contact is looked at, besides all events.
+/// Number of samples in the last period of a run, in addition to events.
 const MOMENTS: usize = 64;
-/// What stands for a margin that is not known but for its sign.
+/// Factor for a margin of which only the sign is known.
 const LITTLE: f64 = 1e-3;
-/// Times within this share of the run's of each other are one.
+/// Relative tolerance for equal times.
 const SAME: f64 = 1e-9;
 
-/// How a contact slips over a period; each has more of it than the one before.
+/// Slip regime of a contact over a period, in order of increasing slip.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 pub enum Regime {
     /// Never in contact.
     Open,
     /// No spring slips.
     Stick,
-    /// Some springs slip, at no time all of them.
+    /// Some springs slip, but never all at the same time.
     Partial,
     /// All springs slip at some time.
     Gross,
 }
 
 impl Regime {
-    /// All of them, by their codes.
+    /// All regimes in the order of their codes.
     pub const ALL: [Self; 4] = [Self::Open, Self::Stick, Self::Partial, Self::Gross];
 
-    /// The word for it.
+    /// Returns the name.
     #[must_use]
     pub fn word(self) -> &'static str {
         match self {
@@ -44,33 +44,33 @@ impl Regime {
     }
 }
 
-/// A regime, and by how much each of those from stick on is reached: above 0 where it is.
+/// Regime with the margins by which stick, partial slip and gross slip are reached; positive if reached.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub(super) struct Seen {
     pub(super) regime: Regime,
     pub(super) margins: [f64; 3],
 }
 
-/// Why a case has no regime.
+/// Reason why a case has no regime.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(super) enum Unseen {
-    /// Somebody interrupted it.
+    /// The watcher interrupted.
     Interrupted,
-    /// Its numbers make no scenario, or its run stopped.
+    /// The scenario is invalid or its run stopped.
     Failed(String),
 }
 
-/// Looks at the regime of a contact, case by case.
+/// Determines the regime of a contact for single cases.
 pub(super) struct Looks<'m> {
     job: &'m Job,
     axes: &'m [Axis; 2],
-    /// The contact's place.
+    /// Index of the contact.
     contact: usize,
     by_runs: bool,
-    /// Where runs are looked up and written down.
+    /// Journal of the runs.
     journal: &'m Journal,
     watcher: &'m (dyn Watcher + Sync),
-    /// Looks and runs so far.
+    /// Numbers of evaluated cases and of runs.
     looks: AtomicUsize,
     runs: AtomicUsize,
 }
@@ -86,12 +86,12 @@ impl<'m> Looks<'m> {
         Self { job: &map.job, axes: &map.axes, contact, by_runs, journal: &map.journal, watcher, looks, runs }
     }
 
-    /// Runs so far.
+    /// Returns the number of runs.
     pub(super) fn runs(&self) -> usize {
         self.runs.load(Ordering::Relaxed)
     }
 
-    /// The scenario at a place, in shares of the axes.
+    /// Returns the scenario at a point, relative to the axes.
     fn case(&self, place: [f64; 2]) -> Result<Job, Unseen> {
         let set = [0, 1].map(|axis| self.axes[axis].set(self.axes[axis].at(place[axis])));
         self.job.with(&set).map_err(|error| {
@@ -100,12 +100,12 @@ impl<'m> Looks<'m> {
         })
     }
 
-    /// Whether waveforms alone tell the regime at a place.
+    /// Returns whether waveforms alone determine the regime at a point.
     pub(super) fn is_prescribed(&self, place: [f64; 2]) -> bool {
         self.case(place).is_ok_and(|job| Prescribed::of(&job.model, self.contact).is_some())
     }
 
-    /// The regime at a place, in shares of the axes.
+    /// Returns the regime at a point, relative to the axes.
     pub(super) fn look(&self, place: [f64; 2]) -> Result<Seen, Unseen> {
         if !self.watcher.goes_on() {
             return Err(Unseen::Interrupted);
@@ -125,14 +125,14 @@ impl<'m> Looks<'m> {
 }
 
 impl Seen {
-    /// Without more than whether a regime is reached.
+    /// Creates it from a regime without margins.
     fn of(regime: Regime) -> Self {
         let reached = |least: Regime| if regime >= least { 1.0 } else { -1.0 };
         Self { regime, margins: [Regime::Stick, Regime::Partial, Regime::Gross].map(reached) }
     }
 }
 
-/// The regime of a path that waveforms prescribe.
+/// Returns the regime of a motion prescribed by waveforms.
 fn prescribed(path: &Prescribed<'_>) -> Seen {
     if path.deepest() <= 0.0 {
         return Seen::of(Regime::Open);
@@ -147,8 +147,10 @@ fn prescribed(path: &Prescribed<'_>) -> Seen {
     Seen { regime, margins: [1.0, slip, gross] }
 }
 
-/// The regime over the last period of a run: that of the contact's states. How far gross slip is reached is told by its path at the same
-/// moments, which may miss the extremes by little; a search for a border takes that for a guess, and the states for the truth.
+/// Returns the regime over the last period of a run, from the states of the contact.
+///
+/// The margin of gross slip is computed from the displacements at the same instants, which may miss extremes slightly.
+/// The search for a border uses it as a guess only.
 fn run(job: &Job, contact: usize, watcher: &dyn Watcher) -> Result<Seen, Unseen> {
     let duration = job.scenario.plan.duration;
     let periods = job.scenario.scene.waveforms.iter().filter_map(|named| named.part.period());
@@ -184,7 +186,7 @@ fn run(job: &Job, contact: usize, watcher: &dyn Watcher) -> Result<Seen, Unseen>
     let found = Regime::ALL.into_iter().rev().find(|regime| record.seen[*regime as usize]);
     let mut seen = Seen::of(found.unwrap_or(Regime::Open));
     let margin = record.margin();
-    // Where both do not agree there is no guess.
+    // If states and margin contradict each other, there is no guess.
     if margin * seen.margins[2] > 0.0 {
         seen.margins[2] = margin;
     } else {
@@ -193,19 +195,19 @@ fn run(job: &Job, contact: usize, watcher: &dyn Watcher) -> Result<Seen, Unseen>
     Ok(seen)
 }
 
-/// The states that a contact has in the last period of a run.
+/// Record of a contact's states in the last period of a run.
 struct Last<'w> {
     contact: usize,
-    /// Places of its state, u and d in a row.
+    /// Indices of state, u and d in a row.
     places: [usize; 3],
-    /// κ.
+    /// Ratio κ = μE*/G*.
     slope: f64,
-    /// From when to when it is looked at, s.
+    /// Start and end of the observed time, s.
     span: [f64; 2],
     next: usize,
-    /// Whether it has been in each state, by the codes of states, which are those of regimes.
+    /// Whether each state occurred, by its code. Codes of states equal those of regimes.
     seen: [bool; 4],
-    /// Time and state of the last moment.
+    /// Time and state of the last sample.
     last: [f64; 2],
     /// Largest u-κd, smallest u+κd and largest κd, m.
     reach: [f64; 3],
@@ -219,7 +221,7 @@ impl Last<'_> {
             return;
         }
         let [state, u, d] = self.places.map(at);
-        // A spring that only just comes to its limit has not slipped: a state counts that lasts from one moment to the next.
+        // A state counts if it persists between two instants. A spring that just reaches its limit has not slipped.
         if at(0) > self.last[0] + SAME * self.span[1]
             && let Some(seen) = self.seen.get_mut(state.min(self.last[1]) as usize)
         {
@@ -231,7 +233,7 @@ impl Last<'_> {
         self.reach = [low.max(u - depth), high.min(u + depth), most.max(depth)];
     }
 
-    /// [max(u-κd) - min(u+κd)]/κd at the moments taken.
+    /// Returns [max(u-κd) - min(u+κd)]/κd over the recorded instants.
     fn margin(&self) -> f64 {
         let [low, high, most] = self.reach;
         if most > 0.0 { (low - high) / most } else { 0.0 }
@@ -245,7 +247,7 @@ impl Record for Last<'_> {
 
     fn event(&mut self, event: &Event, values: &[f64]) {
         self.take(values);
-        // Rounding may leave the last spring short of its limit where gross slip begins.
+        // Due to rounding, the last spring may not have reached its limit at the gross slip event.
         if event.source == Source::Contact(self.contact) && event.kind == EventKind::GrossSlip {
             self.last[1] = f64::from(Regime::Gross as u8);
         }

@@ -1,12 +1,14 @@
-//! Lines through a grid between what is inside and what is outside: marching squares.
+//! Contour lines on a grid by marching squares.
 
 use std::collections::BTreeMap;
 
-/// An edge of the grid: from the point (i, j) one step to the right (0) or upwards (1).
+/// Edge of the grid: from the point (i, j) one step in x (0) or in y (1).
 pub(super) type Edge = (usize, usize, u8);
 
-/// The lines that part the points of a grid that are inside from those that are outside, as edges that they cross; closed ones end where
-/// they begin. Cells at a point that is neither have none. A saddle is cut so that its lower left corner stands alone.
+/// Returns the lines that separate inside from outside points, as lists of crossed edges. Closed lines end at their
+/// first edge.
+///
+/// Cells with an unknown corner have no lines. In a saddle cell, the lower left corner is separated from the others.
 pub(super) fn lines(
     [columns, rows]: [usize; 2],
     inside: &dyn Fn(usize, usize) -> Option<bool>,
@@ -24,7 +26,7 @@ pub(super) fn lines(
         }
     }
     let mut lines = Vec::new();
-    // Those with ends first: what is left then is closed.
+    // Open lines first, then closed ones.
     for is_open in [true, false] {
         let starts: Vec<Edge> = next.keys().copied().collect();
         for start in starts {
@@ -38,7 +40,7 @@ pub(super) fn lines(
     lines
 }
 
-/// The line that begins at an edge; its links go.
+/// Returns the line that starts at an edge and removes its links.
 fn follow(next: &mut BTreeMap<Edge, Vec<Edge>>, start: Edge) -> Vec<Edge> {
     let mut line = vec![start];
     let mut here = start;
@@ -54,7 +56,7 @@ fn follow(next: &mut BTreeMap<Edge, Vec<Edge>>, start: Edge) -> Vec<Edge> {
     line
 }
 
-/// The contour of values (column by column) at a level, in shares of the axes: straight in every cell.
+/// Returns the contour lines of values (column by column) at a level, relative to the axes, with linear interpolation.
 pub(super) fn contour(values: &[f64], points: [usize; 2], level: f64) -> Vec<Vec<[f64; 2]>> {
     let [columns, rows] = points;
     let value = |i: usize, j: usize| values.get(i * rows + j).copied().filter(|value| value.is_finite());
@@ -69,12 +71,12 @@ pub(super) fn contour(values: &[f64], points: [usize; 2], level: f64) -> Vec<Vec
     lines(points, &inside).into_iter().map(|line| line.into_iter().map(place).collect()).collect()
 }
 
-/// About so many levels at 1, 2 or 5 times a power of ten within the values.
+/// Returns approximately `about` levels within the values: multiples of 1, 2 or 5 times a power of ten.
 pub(super) fn levels(values: &[f64], about: f64) -> Vec<f64> {
     let finite = || values.iter().copied().filter(|value| value.is_finite());
     let (low, high) = (finite().fold(f64::INFINITY, f64::min), finite().fold(f64::NEG_INFINITY, f64::max));
     let span = high - low;
-    // A result that is the same everywhere but for rounding has none.
+    // A result that is constant except for rounding has no levels.
     if !(span > 1e-9 * low.abs().max(high.abs()) && span.is_finite()) {
         return Vec::new();
     }
@@ -100,7 +102,7 @@ mod tests {
         assert_eq!(lines[0].first(), lines[0].last());
         let radius = |p: &[f64; 2]| ((2.0 * p[0] - 1.0).powi(2) + (2.0 * p[1] - 1.0).powi(2)).sqrt();
         assert!(lines[0].len() > 40 && lines[0].iter().all(|p| (radius(p) - 0.5).abs() < 2e-3));
-        // Half of it, where there are no values on the other side.
+        // Half of the circle, with no values on the other side.
         let half: Vec<f64> =
             values.iter().enumerate().map(|(k, v)| if k / n < 20 { f64::NAN } else { *v }).collect();
         let lines = contour(&half, [n, n], 0.25);

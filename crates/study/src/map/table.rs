@@ -1,4 +1,4 @@
-//! The files of a map: a table of the grid, and all of it in JSON.
+//! Output of a map: `map.csv` and `map.json`.
 
 use super::{Border, Field, Map};
 use crate::published::{self, Names};
@@ -11,66 +11,66 @@ use stickslip_run::Real;
 use stickslip_run::files::MAP;
 use stickslip_run::folder::Folder;
 
-/// Names of the table and of what is told of all: nothing is written of a map that was interrupted.
+/// Names of table and report. An interrupted map writes no files.
 const NAMES: Names = [["map.csv", MAP]; 2];
 
-/// Names of all files that a map is written to, its pictures apart.
+/// Returns the names of all files of a map except plots.
 pub fn all_files() -> impl Iterator<Item = String> {
     NAMES[0].into_iter().map(str::to_owned)
 }
 
-/// All of a map; written last.
+/// Content of `map.json`. It is written last.
 #[derive(Debug, Serialize, JsonSchema)]
 pub struct FieldReport<'a> {
     /// name of the scenario
     scenario: &'a str,
-    /// SHA-256 of the resolved scenario, as it is without what the map varies
+    /// SHA-256 of the complete scenario, before the parameters are varied
     scenario_sha256: &'a str,
     /// name and version of the program
     program: &'a str,
-    /// horizontal axis
+    /// Horizontal axis.
     x: AxisReport<'a>,
-    /// vertical axis
+    /// Vertical axis.
     y: AxisReport<'a>,
     /// name of the result
     of: &'a str,
-    /// its SI unit; empty of a word or a plain number
+    /// SI unit of the result, empty for a word or a plain number
     unit: &'a str,
-    /// number of runs; 0 where waveforms prescribe the motion of the contact and its regime needs none
+    /// number of runs. 0 if waveforms prescribe the motion of the contact, because its slip regime then needs no run.
     runs: usize,
-    /// number of points of the grid without a result
+    /// number of grid points without a result
     failed: usize,
-    /// borders between the regimes of a contact
+    /// Borders between slip regimes.
     borders: Vec<BorderReport<'a>>,
     /// names of all files that were written together
     #[serde(skip_serializing_if = "Vec::is_empty")]
     files: Vec<String>,
-    /// SHA-256 of `map.csv`
+    /// SHA-256 of map.csv
     #[serde(skip_serializing_if = "Option::is_none")]
     table_sha256: Option<String>,
 }
 
-/// An axis of a map.
+/// Axis of a map.
 #[derive(Debug, Serialize, JsonSchema)]
 struct AxisReport<'a> {
-    /// key path of the number along the axis
+    /// path of the parameter along the axis
     path: &'a str,
-    /// its SI unit; empty of a plain number
+    /// SI unit of the parameter, empty for a plain number
     unit: &'a str,
-    /// ends of the axis, SI
+    /// smallest and largest value of the axis, SI
     range: [Real; 2],
-    /// number of points of the grid along it
+    /// number of grid points along the axis
     points: usize,
-    /// whether equal distances along it are equal ratios
+    /// whether the axis is logarithmic
     logarithmic: bool,
 }
 
-/// A border between regimes.
+/// Border between two slip regimes.
 #[derive(Debug, Serialize, JsonSchema)]
 struct BorderReport<'a> {
-    /// regimes on its two sides: `open`, `stick`, `partial` or `gross`, the lesser slip first
+    /// slip regimes on both sides of the border: `open`, `stick`, `partial` or `gross`, the one with less slip first
     between: [&'a str; 2],
-    /// points (x, y) along it, SI; a closed border ends where it begins
+    /// points (x, y) along the border, SI. The first and last point of a closed border are equal.
     points: Vec<[Real; 2]>,
 }
 
@@ -100,7 +100,7 @@ fn report<'a>(map: &'a Map, field: &'a Field) -> FieldReport<'a> {
     }
 }
 
-/// The table of the grid: a row for each point, the second number changing fastest.
+/// Returns the table of the grid as CSV, one row per point. The second parameter changes fastest.
 fn csv(field: &Field) -> String {
     let mut table = columns::MAP.names.join(",");
     table.push('\n');
@@ -117,17 +117,18 @@ fn csv(field: &Field) -> String {
     table
 }
 
-/// A map in one line of JSON.
+/// Returns a map in one line of JSON.
 #[must_use]
 pub fn json(map: &Map, field: &Field) -> String {
-    // Numbers and texts: there is nothing that JSON could refuse.
+    // Numbers and strings only: serialisation cannot fail.
     serde_json::to_string(&report(map, field)).unwrap_or_default()
 }
 
-/// Writes table, pictures and, last, the JSON; pictures of the names `stale` that are not among them go. Returns the names of all files.
+/// Writes the table, the plots and, last, `map.json` into a folder, and deletes the plots named `stale` that are not
+/// among them. Returns the names of all files.
 ///
 /// # Errors
-/// What the system says.
+/// Error of the operating system.
 pub fn write(
     folder: Folder,
     (map, field): (&Map, &Field),
@@ -139,7 +140,7 @@ pub fn write(
     published::publish(folder, (&NAMES, false), (&table, told), (pictures, stale))
 }
 
-/// What the columns and keys are.
+/// Returns the definitions of all columns and keys.
 pub(crate) fn definitions() -> Vec<Definition> {
     columns::MAP.definitions().chain(stickslip_quantity::report::<FieldReport<'_>>(MAP)).collect()
 }

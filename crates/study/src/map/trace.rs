@@ -1,4 +1,5 @@
-//! Borders between regimes, traced: crossings of the edges of a coarse grid, and points between them until a line has enough.
+//! Tracing of borders between regimes. Crossings are located on the edges of a coarse grid, then points are added
+//! between them.
 
 use super::regime::{Looks, Regime, Seen, Unseen};
 use super::squares::{self, Edge};
@@ -6,29 +7,29 @@ use super::{Border, Field, Map, MapError, count};
 use crate::each::each;
 use stickslip_stepper::{Bracket, Point, narrow};
 
-/// Points that a border has at least: of paths that waveforms prescribe, and of runs.
+/// Minimum number of points of a border: for prescribed motions and for runs.
 const POINTS: [usize; 2] = [40, 12];
-/// How near a point lies to its border, in shares of the axes: the same two.
+/// Accuracy of a border point, relative to the axes: for prescribed motions and for runs.
 const NEAR: [f64; 2] = [1e-13, 8e-5];
-/// How far off a chord a border is looked for at first, as a share of the chord; half of it, and at last the whole.
+/// Distances from a chord within which a border is searched for, relative to the chord, tried in turn.
 const ASIDE: [f64; 3] = [0.05, 0.25, 1.0];
-/// Shortest step beyond the end of a border, in shares of the axes, and most steps.
+/// Shortest step beyond the end of a border, relative to the axes, and maximum number of steps.
 const SHORTEST: f64 = 5e-4;
 const MOST_STEPS: usize = 40;
-/// Rounds in which lines are given more points.
+/// Maximum number of refinements of a line.
 const ROUNDS: usize = 8;
 
-/// A point of a border, in shares of the axes, and what lies on its sides.
+/// Point of a border, relative to the axes, with the regimes on its sides.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Crossing {
     place: [f64; 2],
     between: [Regime; 2],
 }
 
-/// Two places, in shares of the axes, and what they have shown.
+/// Two points, relative to the axes, with their regimes.
 type Ends = [([f64; 2], Seen); 2];
 
-/// The regimes of a grid and the borders between them.
+/// Computes the regimes of a grid and the borders between them.
 pub(super) fn trace(map: &Map, looks: &Looks<'_>, threads: usize) -> Result<Field, MapError> {
     let [columns, rows] = map.points;
     let share = |k: usize, count: usize| k as f64 / (count - 1) as f64;
@@ -78,8 +79,10 @@ pub(super) fn trace(map: &Map, looks: &Looks<'_>, threads: usize) -> Result<Fiel
     })
 }
 
-/// Where a regime is reached on the edges of a line, in pieces that have the same regimes on their sides. Where it is reached from more
-/// than one regime below, the border is that of a larger one; where it begins right at the rim of the map, there is none.
+/// Locates the border of a regime on the edges crossed by a line. Returns pieces with the same regimes on their sides.
+///
+/// If the regime on the upper side exceeds `least`, the border belongs to that regime and is skipped here. Borders that
+/// coincide with the rim of the map are skipped, too.
 fn crossings(
     looks: &Looks<'_>,
     line: &[Ends],
@@ -98,12 +101,12 @@ fn crossings(
         .collect())
 }
 
-/// Where a regime is reached between two places of which one has it.
+/// Locates a border between two points of which one has at least the regime `least`.
 fn cross(looks: &Looks<'_>, [from, to]: Ends, least: Regime, near: f64) -> Result<Crossing, Unseen> {
     let margin = |seen: &Seen| seen.margins[least as usize - 1];
     let at = |part: f64| [0, 1].map(|axis| from.0[axis] + part * (to.0[axis] - from.0[axis]));
     let length = distance(from.0, to.0);
-    // The regimes seen last on either side.
+    // Regimes at the last points on both sides.
     let mut between = [from.1, to.1].map(|seen| seen.regime);
     between.sort_unstable();
     let mut fault = None;
@@ -121,18 +124,19 @@ fn cross(looks: &Looks<'_>, [from, to]: Ends, least: Regime, near: f64) -> Resul
     let (left, right) = narrow(value, Bracket { from: start, to: end }, near / length.max(near));
     match fault {
         Some(Unseen::Interrupted) => Err(Unseen::Interrupted),
-        // The border of what can be computed.
+        // If a case fails, the border of the computable region is returned.
         _ => Ok(Crossing { place: at(0.5 * (left + right)), between }),
     }
 }
 
-/// Distance of two places, in shares of the axes.
+/// Returns the distance of two points, relative to the axes.
 fn distance(a: [f64; 2], b: [f64; 2]) -> f64 {
     ((a[0] - b[0]).powi(2) + (a[1] - b[1]).powi(2)).sqrt()
 }
 
-/// The line continued at both ends beyond the last edges that it crosses, to the rim of the map or to where another border meets it: the
-/// next point lies beside the continued last chord, whose part is halved where there is none.
+/// Extends a line at both ends to the rim of the map or to another border.
+///
+/// Each new point is searched for near the extrapolated last chord. The step is halved if none is found.
 fn extended(looks: &Looks<'_>, mut line: Vec<Crossing>, least: Regime) -> Result<Vec<Crossing>, MapError> {
     if line[0].place == line[line.len() - 1].place {
         return Ok(line);
@@ -167,7 +171,7 @@ fn extended(looks: &Looks<'_>, mut line: Vec<Crossing>, least: Regime) -> Result
     Ok(line)
 }
 
-/// The line with as many points as a border has: its longest chords get one in their middle.
+/// Adds points in the middle of the longest chords until a border has enough points.
 fn dense(
     looks: &Looks<'_>,
     mut line: Vec<Crossing>,
@@ -197,7 +201,7 @@ fn dense(
     Ok(line)
 }
 
-/// The point of a border on the perpendicular through the middle of a chord; none where it is not found nearby.
+/// Returns the point of a border on the perpendicular bisector of a chord, if one is nearby.
 fn beside(
     looks: &Looks<'_>,
     [a, b]: [[f64; 2]; 2],
@@ -217,7 +221,7 @@ fn beside(
     Ok(None)
 }
 
-/// Whether a regime begins right at an end that lies on the rim of the map, as slip where an amplitude begins at 0.
+/// Returns whether a regime begins at the rim of the map itself, such as slip at an amplitude of 0.
 fn is_at_rim(looks: &Looks<'_>, [a, b]: Ends, (least, near): (Regime, f64)) -> bool {
     let axis = usize::from(a.0[0] == b.0[0]);
     let Some((outer, inner)) =
@@ -230,7 +234,7 @@ fn is_at_rim(looks: &Looks<'_>, [a, b]: Ends, (least, near): (Regime, f64)) -> b
     looks.look(place).is_ok_and(|seen| (seen.regime >= least) == (inner.1.regime >= least))
 }
 
-/// A line in SI.
+/// Converts a line to SI values.
 fn border(map: &Map, (between, line): ([Regime; 2], &[Crossing])) -> Border {
     let points = line.iter().map(|one| [0, 1].map(|axis| map.axes[axis].at(one.place[axis])));
     Border { between, points: points.collect() }

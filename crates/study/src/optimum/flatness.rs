@@ -1,26 +1,26 @@
-//! How fast a result falls beside its optimum: sections along each coordinate.
+//! Decrease of a result near its optimum: sections along each coordinate.
 
 use super::search::Judge;
 use super::space::Space;
 use crate::each::each;
 
-/// Distances from the optimum at which the result is evaluated, shares of a coordinate's range.
+/// Distances from the optimum at which the result is evaluated, relative to the range of a coordinate.
 const DISTANCES: [f64; 5] = [1.0 / 512.0, 1.0 / 128.0, 1.0 / 32.0, 1.0 / 8.0, 1.0 / 2.0];
 
-/// The result along one number, all others at the optimum.
+/// The result along one coordinate, with all others at the optimum.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Section {
-    /// Name of the number.
+    /// Name of the coordinate.
     pub name: String,
-    /// Its SI unit; empty of a share of a range.
+    /// SI unit; empty for a coordinate of a waveform shape, which is a fraction of its range.
     pub unit: &'static str,
-    /// Its value at the optimum.
+    /// Value at the optimum.
     pub best: f64,
-    /// Values of the number and the worst result there, NaN where there is none, in ascending order.
+    /// Values of the coordinate in ascending order, each with the worst result; NaN without result.
     pub points: Vec<(f64, f64)>,
-    /// The range that is searched.
+    /// Searched range.
     pub bounds: [f64; 2],
-    /// Whether the optimum lies at the lower and at the upper bound.
+    /// Whether the optimum is at the lower and at the upper bound.
     pub at_bound: [bool; 2],
 }
 
@@ -30,15 +30,15 @@ impl Section {
         self
     }
 
-    /// The same points over the distance from the optimum, as a part of the searched range.
+    /// Returns the points as (distance from the optimum relative to the range, result).
     #[must_use]
     pub fn distances(&self) -> Vec<(f64, f64)> {
         let [low, high] = self.bounds;
         self.points.iter().map(|(x, value)| ((x - self.best) / (high - low), *value)).collect()
     }
 
-    /// The range in which the result is within a share of the optimum, by lines between the points; each end is none where the bound of
-    /// the search ends it.
+    /// Returns the range in which the result is within a fraction of the optimum, by linear interpolation. An end is
+    /// `None` if the bound of the search is reached first.
     #[must_use]
     pub fn range(&self, share: f64) -> [Option<f64>; 2] {
         let Some(at) = self.points.iter().position(|(x, _)| *x == self.best) else { return [None; 2] };
@@ -61,12 +61,13 @@ impl Section {
     }
 }
 
-/// Evaluations of all sections at most.
+/// Returns the maximum number of evaluations of all sections.
 pub(super) fn most(dimensions: usize) -> usize {
     2 * DISTANCES.len() * dimensions
 }
 
-/// The sections through a point, and the best point on them with its result; none where none has one.
+/// Returns the sections through a point, and the best point on them with its result. The best point is `None` if there
+/// are no results.
 pub(super) fn sections(
     space: &Space,
     point: &[f64],
@@ -104,7 +105,7 @@ pub(super) fn sections(
     (space.names().into_iter().enumerate().map(section).collect(), best)
 }
 
-/// Where a section is evaluated, in ascending order; a bound ends it.
+/// Returns the coordinates at which a section is evaluated, in ascending order and within the bounds.
 fn places(share: f64) -> Vec<f64> {
     let mut places = vec![share];
     places.extend(

@@ -1,4 +1,4 @@
-//! What is written of an optimum.
+//! Report of an optimum.
 
 use super::shape::Drawing;
 use super::{Best, Optimum};
@@ -9,104 +9,107 @@ use stickslip_quantity::{Real, quantity};
 use stickslip_run::program;
 use stickslip_scenario::Shaped;
 
-/// Shares of the optimum whose ranges are given.
+/// Relative distances from the optimum for which ranges are reported.
 const SHARES: [f64; 2] = [0.001, 0.01];
-/// A limit counts as reached from this share of it on.
+/// A rate counts as limited from this fraction of the limit on.
 const REACHED: f64 = 0.999;
 
-/// What `optimum.json` holds.
+/// Content of `optimum.json`.
 #[derive(Debug, Clone, Serialize, JsonSchema)]
 pub struct Report {
     /// name of the scenario
     pub scenario: String,
-    /// SHA-256 of the resolved scenario
+    /// SHA-256 of the complete scenario, with all defaults and --set values
     pub scenario_sha256: String,
     /// name and version of the program
     pub program: String,
-    /// the result that is optimised
+    /// name of the optimised result
     pub result: String,
-    /// `maximum` or `minimum`
+    /// goal of the search: `maximum` or `minimum`
     pub goal: &'static str,
-    /// the optimum
+    /// Optimum.
     pub best: Optimal,
-    /// the result at the optimum, by the factor of the period; one entry where the worst of period ± 1 % is not asked for
+    /// Result at the optimum for each factor of the period. One entry unless the study requests the worst case of
+    /// period ± 1 %.
     pub periods: Vec<AtPeriod>,
-    /// what limits the optimum: bounds and limits of the driver that it lies at
+    /// bounds and driver limits at which the optimum lies
     pub limits: Vec<String>,
-    /// how fast the result falls beside the optimum, by number
+    /// Flatness of the optimum along each number.
     pub flatness: Vec<Flat>,
-    /// all local searches
+    /// All local searches.
     pub starts: Vec<Start>,
-    /// points that were evaluated, each at all factors of the period
+    /// number of evaluated points, each with all factors of the period
     pub evaluations: usize,
-    /// of these, points without a result; they count as the worst value
+    /// number of evaluated points without a result. They count as the worst value.
     pub failed: usize,
-    /// the waveform of the optimum
+    /// Waveform of the optimum.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub waveform: Option<Played>,
 }
 
-/// An optimum.
+/// Optimum.
 #[derive(Debug, Clone, Serialize, JsonSchema)]
 pub struct Optimal {
-    /// the result: the worst of the period ± 1 % where that is asked for
+    /// value of the result at the optimum. If the study requests the worst case, the worst value for period ± 1 %.
     pub value: Real,
-    /// options `--set` of `stickslip run` and `stickslip steady` that make the scenario of the optimum
+    /// arguments of `--set` that change the scenario to the optimum
     pub set: Vec<String>,
 }
 
-/// A result at a factor of the period.
+/// Result for one factor of the period.
 #[derive(Debug, Clone, Serialize, JsonSchema)]
 pub struct AtPeriod {
     /// factor by which all periods are multiplied
     pub factor: Real,
-    /// the result
+    /// value of the result at the optimum, with all periods multiplied by factor
     pub value: Real,
 }
 
-/// The range of a number in which the result is near the optimum.
+/// Range of a number in which the result is close to the optimum.
 #[derive(Debug, Clone, Serialize, JsonSchema)]
 pub struct Flat {
-    /// path of the number, or coordinate of the waveform
+    /// path of the varied number, or name of the coordinate of the waveform
     pub number: String,
-    /// its SI unit; empty for a coordinate of a waveform, from 0 to 1
+    /// SI unit of the number, empty for a coordinate of a waveform, which ranges from 0 to 1
     pub unit: &'static str,
-    /// its value at the optimum
+    /// value of the number at the optimum
     pub best: Real,
-    /// range in which the result is within 0.1 % of the optimum, from sections along the number; null where the bound ends it
+    /// range of the number in which the result is within 0.1 % of the optimum, with all other numbers at the optimum.
+    /// null if the range extends to the bound.
     pub within_0_1_percent: [Option<Real>; 2],
-    /// the same within 1 %
+    /// range of the number in which the result is within 1 % of the optimum, with all other numbers at the optimum.
+    /// null if the range extends to the bound.
     pub within_1_percent: [Option<Real>; 2],
 }
 
-/// A local search.
+/// Local search.
 #[derive(Debug, Clone, Serialize, JsonSchema)]
 pub struct Start {
-    /// result where it began
+    /// value of the result at the start of a local search
     pub from: Real,
-    /// result where it ended
+    /// value of the result at the end of a local search
     pub to: Real,
-    /// points that it asked for
+    /// number of points that a local search evaluated
     pub evaluations: usize,
-    /// where it ended
+    /// arguments of `--set` that change the scenario to the end of a local search
     pub set: Vec<String>,
 }
 
-/// A waveform as a generator plays it.
+/// Waveform for a generator.
 #[derive(Debug, Clone, Serialize, JsonSchema)]
 pub struct Played {
-    /// SI unit of its values
+    /// SI unit of the values of the optimal waveform
     pub unit: &'static str,
-    /// period, s
+    /// period of the optimal waveform
     pub period_s: Real,
-    /// least and largest value
+    /// smallest and largest value of the optimal waveform
     pub range: [Real; 2],
-    /// largest rates down and up, values per second
+    /// largest falling and rising rate of the optimal waveform, in its unit per second
     pub rates: [Real; 2],
 }
 
 impl Optimum {
-    /// What a search has found, in words and numbers.
+    /// Returns the report of a search.
     #[must_use]
     pub fn report(&self, best: &Best) -> Report {
         let sign = self.sign();
@@ -155,7 +158,7 @@ impl Optimum {
         })
     }
 
-    /// The bounds and limits at which an optimum lies.
+    /// Returns the bounds and limits at which an optimum lies.
     fn limits(&self, best: &Best) -> Vec<String> {
         let mut limits = Vec::new();
         for (section, (.., [low, high])) in best.sections.iter().zip(self.space.numbers()) {
@@ -180,8 +183,9 @@ impl Optimum {
         limits
     }
 
-    /// One period of the waveform for a generator: time, value, and value over the gain of the amplifier, at a sample rate that is adjusted to
-    /// a whole number of samples per period. None where the study has no waveform.
+    /// Returns one period of the waveform as a table for a generator: time, value, and value divided by the gain of the
+    /// amplifier. The sample rate is adjusted to a whole number of samples per period. Returns `None` if the study has
+    /// no waveform.
     #[must_use]
     pub fn samples(&self, best: &Best, rate: Option<f64>, gain: f64) -> Option<String> {
         let (drawing, period) = self.space.drawing(&best.point)?;
@@ -199,7 +203,7 @@ impl Optimum {
 }
 
 impl Optimum {
-    /// The waveform as a scenario has it, to be pasted; none where the study has no waveform.
+    /// Returns the waveform in the form of a scenario. Returns `None` if the study has no waveform.
     #[must_use]
     pub fn waveform(&self, best: &Best) -> Option<String> {
         let (drawing, period) = self.space.drawing(&best.point)?;
@@ -207,12 +211,12 @@ impl Optimum {
     }
 }
 
-/// Samples of a period where no rate is given.
+/// Default number of samples per period.
 const SAMPLES: usize = 1000;
-/// Most samples of a period.
+/// Largest number of samples per period.
 const MOST_SAMPLES: f64 = 1e7;
 
-/// The limits of a driver that a waveform reaches.
+/// Returns the limits of a driver that a waveform reaches.
 fn of_driver(shaped: &Shaped, drawing: &Drawing, period: f64) -> Vec<String> {
     let ([low, high], [least, most]) = (shaped.window, drawing.range());
     let mut limits = Vec::new();
@@ -225,7 +229,7 @@ fn of_driver(shaped: &Shaped, drawing: &Drawing, period: f64) -> Vec<String> {
     let rates = shaped.slew.map(|slew| slew.into_iter().zip(drawing.rates(period)));
     for ((limit, rate), sense) in rates.into_iter().flatten().zip(["falls", "rises"]) {
         if rate >= REACHED * limit {
-            limits.push(format!("the waveform {sense} as fast as the current allows, {limit:.4e} V/s"));
+            limits.push(format!("the waveform {sense} at the rate limit of the current, {limit:.4e} V/s"));
         }
     }
     limits

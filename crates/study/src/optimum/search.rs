@@ -1,9 +1,10 @@
-//! Multistart: local searches by the simplex method of Nelder and Mead from the best of some Sobol points.
+//! Multistart optimisation: local searches by the Nelder–Mead simplex method from the best of several Sobol points.
 //!
-//! Nelder, Mead, A simplex method for function minimization (Comput. J. 7, 308, 1965), with the factors of Gao and Han (Comput. Optim. Appl. 51,
-//! 259, 2012) for many numbers: expansion 1 + 2/n, shrinkage 1 - 1/n. It computes with + - * / and
-//! square roots alone, so that its bits are the same on every machine. Results of drives have sharp ridges, as the worst of several results has, and
-//! where a contact begins to slip: methods that fit a plane or a parabola (COBYLA was tried) stop on them.
+//! Source: Nelder, Mead, A simplex method for function minimization (Comput. J. 7, 308, 1965), with the factors of Gao
+//! and Han (Comput. Optim. Appl. 51, 259, 2012) for n coordinates: expansion 1 + 2/n, shrinkage 1 - 1/n. The method
+//! uses only + - * / and square roots, so results have the same bits on every machine. Methods with linear or quadratic
+//! models are unsuitable, because results of drives have sharp ridges. Ridges occur where a contact begins to slip, or
+//! where the worst of several results changes.
 
 use crate::each::each;
 use crate::sweep::points::{Points, Sampling};
@@ -12,38 +13,38 @@ use argmin::solver::neldermead::NelderMead;
 use argmin_math::{ArgminAdd, ArgminMul, ArgminSub};
 use std::cell::RefCell;
 
-/// Sobol points for each local search.
+/// Number of Sobol points per local search.
 pub(crate) const SCREENED: u64 = 4;
-/// Edges of the first simplex of a local search, shares of the ranges.
+/// Edge length of the first simplex, relative to the ranges.
 const FIRST: f64 = 0.2;
-/// By what they shrink from a simplex that brought nothing to the next.
+/// Factor on the edge length after a simplex without improvement.
 const SHRINK: f64 = 0.25;
-/// No simplex begins with shorter edges.
+/// Shortest initial edge length of a simplex.
 const SHORTEST: f64 = 1e-6;
-/// Standard deviation of the results in a simplex at which a new one begins, a share of the spread of the Sobol points
-/// (from the best to the middle one) times the edge.
+/// Standard deviation of the results in a simplex below which a new simplex starts. It is relative to the edge length
+/// and to the spread of the Sobol points, the difference between best and median result.
 const FLAT: f64 = 1e-4;
-/// Share of that spread by which a simplex must better the result for another one with its edges.
+/// Smallest improvement, relative to the spread, for another simplex with the same edge length.
 const GAIN: f64 = 1e-7;
 
-/// Spread of the results where it is not known, as a share of the best.
+/// Spread if unknown, relative to the best result.
 const LEAST_SPREAD: f64 = 0.1;
 
-/// What is known of a point: the higher, the better; NaN where it has no result.
+/// Evaluation function: larger values are better; NaN without result.
 pub(crate) type Judge<'a> = dyn Fn(&[f64]) -> f64 + Sync + 'a;
 
-/// A local search.
+/// Result of a local search.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Local {
-    /// Where it began, and with what.
+    /// First point and its value.
     pub(crate) from: (Vec<f64>, f64),
-    /// Where it ended, and with what.
+    /// Best point and its value.
     pub(crate) to: (Vec<f64>, f64),
-    /// Points that it asked for.
+    /// Number of evaluated points.
     pub(crate) evaluations: usize,
 }
 
-/// The number of local searches, the most evaluations of each, and the seed.
+/// Number of local searches, maximum evaluations of each, seed and number of threads.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Effort {
     pub(crate) starts: u64,
@@ -52,7 +53,7 @@ pub(crate) struct Effort {
     pub(crate) threads: usize,
 }
 
-/// All local searches, that from the present point first; none where no point has a result.
+/// Runs all local searches; the first one starts at the present point. Returns `None` if no point has a result.
 pub(crate) fn search(present: &[f64], effort: Effort, judge: &Judge<'_>) -> Option<Vec<Local>> {
     let points = screened(present, effort);
     let values = each(points.len(), effort.threads, |i| judge(&points[i]));
@@ -69,13 +70,13 @@ pub(crate) fn search(present: &[f64], effort: Effort, judge: &Judge<'_>) -> Opti
     Some(each(chosen.len(), effort.threads, local))
 }
 
-/// One more local search, from a point that turned out to be better than where others have ended.
+/// Runs one more local search from a point better than the ends of all others.
 pub(crate) fn again((point, value): (&[f64], f64), evaluations: usize, judge: &Judge<'_>) -> Local {
     let spread = (LEAST_SPREAD * value.abs()).max(f64::MIN_POSITIVE);
     local((point, value), evaluations, (Scale { worst: value - value.abs(), spread }, judge))
 }
 
-/// The present point and Sobol points.
+/// Returns the present point and the Sobol points.
 fn screened(present: &[f64], effort: Effort) -> Vec<Vec<f64>> {
     let count = SCREENED * effort.starts;
     let sobol = Points::new(Sampling::Sobol, present.len(), effort.seed, count);
@@ -89,15 +90,15 @@ fn screened(present: &[f64], effort: Effort) -> Vec<Vec<f64>> {
     std::iter::once(present.to_vec()).chain((0..count).map(point)).collect()
 }
 
-/// Makes values comparable: a point without a result counts as the worst one.
+/// Scale of the results. A point without a result gets the worst value.
 #[derive(Debug, Clone, Copy)]
 struct Scale {
     worst: f64,
     spread: f64,
 }
 
-/// One simplex after another from a point. A new one begins at the best point with edges along the axes: that gets a search off a ridge on
-/// which its simplex has become flat.
+/// Runs a sequence of simplex searches. Each starts at the best point with new edges along the axes, which frees a
+/// simplex that has collapsed on a ridge.
 fn local(start: (&[f64], f64), most: usize, (scale, judge): (Scale, &Judge<'_>)) -> Local {
     let n = start.0.len();
     let from = (start.0.to_vec(), start.1);
@@ -109,7 +110,7 @@ fn local(start: (&[f64], f64), most: usize, (scale, judge): (Scale, &Judge<'_>))
         let many = n.max(2) as f64;
         let solver = solver.and_then(|solver| solver.with_gamma(1.0 + 2.0 / many));
         let Ok(solver) = solver.and_then(|solver| solver.with_sigma(1.0 - 1.0 / many)) else { break };
-        // How it ends does not matter: its best point is known.
+        // The best point is known, however the search ends.
         let problem = Problem { scale, judge, best: &best, most };
         drop(Executor::new(problem, solver).timer(false).run());
         if best.borrow().to.1 - before <= GAIN * scale.spread {
@@ -120,7 +121,7 @@ fn local(start: (&[f64], f64), most: usize, (scale, judge): (Scale, &Judge<'_>))
     best.into_inner()
 }
 
-/// A point and its neighbours along the axes, all in the unit cube; the sides change from turn to turn.
+/// Returns a point and its neighbours along the axes, within the unit cube. The directions alternate with `turn`.
 fn simplex(begin: &[f64], edge: f64, turn: usize) -> Vec<Point> {
     let neighbour = |i: usize| {
         let mut point = begin.to_vec();
@@ -131,7 +132,7 @@ fn simplex(begin: &[f64], edge: f64, turn: usize) -> Vec<Point> {
     std::iter::once(Point(begin.to_vec())).chain((0..begin.len()).map(neighbour)).collect()
 }
 
-/// A point of a simplex.
+/// Vertex of a simplex.
 #[derive(Debug, Clone)]
 struct Point(Vec<f64>);
 
@@ -159,7 +160,7 @@ impl ArgminMul<f64, Self> for Point {
     }
 }
 
-/// What a simplex makes small.
+/// Cost function of the simplex method.
 struct Problem<'a> {
     scale: Scale,
     judge: &'a Judge<'a>,
@@ -171,7 +172,8 @@ impl CostFunction for Problem<'_> {
     type Param = Point;
     type Output = f64;
 
-    /// Minus the result, in the spread of the Sobol points above the worst of them; that of the nearest point inside the unit cube.
+    /// Returns minus the result, relative to the spread, above the worst result. Points outside the unit cube are
+    /// projected onto it.
     fn cost(&self, point: &Point) -> Result<f64, Error> {
         let mut local = self.best.borrow_mut();
         if local.evaluations >= self.most {
@@ -194,7 +196,7 @@ mod tests {
     use crate::optimum::shape::{self, Drawing};
     use stickslip_scenario::{Basis, Shaped};
 
-    /// Rosenbrock's valley, and a function of a bound: both ends are exact.
+    /// Rosenbrock's valley, and a linear function with its maximum at bounds: the exact optima are known.
     #[test]
     fn valleys_and_bounds_are_followed_to_their_ends() {
         let valley = |p: &[f64]| {
@@ -209,7 +211,7 @@ mod tests {
         assert_eq!(search(&[0.5; 2], effort(120), &nowhere), None);
     }
 
-    /// Threads share the work and change nothing.
+    /// The number of threads has no effect on the result.
     #[test]
     fn the_number_of_threads_changes_nothing() {
         let wave = |p: &[f64]| (p[0] * 7.0).fract() - p[1] * p[1];
@@ -221,13 +223,14 @@ mod tests {
         Effort { starts: 8, evaluations, seed: 1, threads: 2 }
     }
 
-    /// The best of all local searches.
+    /// Returns the best of all local searches.
     fn best(locals: Option<Vec<Local>>) -> (Vec<f64>, f64) {
         locals.unwrap().into_iter().map(|local| local.to).max_by(|a, b| a.1.total_cmp(&b.1)).unwrap()
     }
 
-    /// A slider too heavy to follow has the median of the foot's speed. Of two harmonics sin θ + b sin 2θ with |b| ≤ 1/4 it is -2b, in
-    /// units of half the stroke 2b/(√(1-y²)(1+2by)), 4by² + y = 2b: at most 0.454167, at b = 1/4, which is a sharp ridge.
+    /// A slider too heavy to follow moves with the median velocity of the foot. For two harmonics sin θ + b sin 2θ with
+    /// |b| ≤ 1/4, it is -2b; in units of half the stroke 2b/(√(1-y²)(1+2by)), 4by² + y = 2b. The maximum
+    /// 0.454167 is at b = 1/4, on a sharp ridge.
     #[test]
     fn two_harmonics_move_a_heavy_slider_fastest_at_a_quarter() {
         let shaped = Shaped {

@@ -1,40 +1,41 @@
-//! The shape of a waveform as a point of the unit cube, always within window, current and bandwidth.
+//! Waveform shapes as points of the unit cube. Every shape is within the limits of window, current and bandwidth.
 
 use serde_json::{Value, json};
 use std::f64::consts::TAU;
 use stickslip_drive::Waveform;
 use stickslip_scenario::{Basis, Shaped};
 
-/// Least share of the amplitude that the limits allow, of harmonics.
+/// Smallest amplitude of harmonics, relative to the largest allowed one.
 const LEAST_SHARE: f64 = 0.05;
-/// Largest coefficient of harmonic k beside the first, times k.
+/// Largest coefficient of harmonic k relative to the first, times k.
 const WIDEST: f64 = 2.0;
-/// Points on which the extremes of harmonics are looked for, per period of the highest one; Newton's method does the rest.
+/// Number of grid points for the extremes of harmonics, per period of the highest one. Newton's method refines the
+/// extremes.
 const GRID: usize = 32;
-/// Steps of Newton's method, which doubles the digits in each.
+/// Number of Newton steps.
 const NEWTON: usize = 4;
-/// Values by which the Fourier coefficients of a given waveform are computed.
+/// Number of samples for the Fourier coefficients of a given waveform.
 const SAMPLES: usize = 1024;
 
-/// A waveform of one point: what is played in a period.
+/// Waveform of one point over a period.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) enum Drawing {
-    /// Values at equal distances in time.
+    /// Values at equal time intervals, with straight lines in between.
     Corners(Vec<f64>),
     /// Mean value, and coefficients of sin kωt and cos kωt.
     Harmonics(f64, Vec<[f64; 2]>),
 }
 
-/// Number of coordinates that a shape has in the unit cube.
+/// Returns the number of coordinates of a shape in the unit cube.
 pub(crate) fn dimensions(shaped: &Shaped) -> usize {
     match shaped.basis {
         Basis::Corners(n) => n,
-        // The first one has the phase 0.
+        // The first harmonic has the phase 0.
         Basis::Harmonics(n) => 1 + 2 * (n - 1),
     }
 }
 
-/// Names of the coordinates.
+/// Returns the names of the coordinates.
 pub(crate) fn names(shaped: &Shaped) -> Vec<String> {
     match shaped.basis {
         Basis::Corners(n) => (1..=n).map(|corner| format!("corner {corner}")).collect(),
@@ -46,7 +47,7 @@ pub(crate) fn names(shaped: &Shaped) -> Vec<String> {
 }
 
 impl Drawing {
-    /// The waveform at a point, with this period, s.
+    /// Creates the waveform at a point, with a period in s.
     pub(crate) fn new(shaped: &Shaped, period: f64, point: &[f64]) -> Self {
         let [low, high] = shaped.window;
         match shaped.basis {
@@ -69,7 +70,7 @@ impl Drawing {
         }
     }
 
-    /// Value at a share of the period from 0 to 1.
+    /// Returns the value at a fraction of the period, 0 to 1.
     pub(crate) fn value(&self, share: f64) -> f64 {
         match self {
             Self::Corners(values) => {
@@ -82,7 +83,7 @@ impl Drawing {
         }
     }
 
-    /// Least and largest value.
+    /// Returns the smallest and largest value.
     pub(crate) fn range(&self) -> [f64; 2] {
         match self {
             Self::Corners(values) => [
@@ -93,7 +94,7 @@ impl Drawing {
         }
     }
 
-    /// Largest rates down and up, values per second.
+    /// Returns the largest rates down and up, 1/s times the unit of the values.
     pub(crate) fn rates(&self, period: f64) -> [f64; 2] {
         match self {
             Self::Corners(values) => {
@@ -108,7 +109,7 @@ impl Drawing {
         }
     }
 
-    /// The same as a waveform of a scenario.
+    /// Returns the waveform in the form of a scenario file.
     pub(crate) fn form(&self, period: f64) -> Value {
         match self {
             Self::Corners(values) => {
@@ -129,8 +130,7 @@ impl Drawing {
     }
 }
 
-/// The largest polygon under `wanted` whose rates stay within those down and up: from every corner it is reached by no more than they
-/// allow, forward or backward in time.
+/// Returns the largest polygon below `wanted` within the rate limits `down` and `up`.
 fn slowed(wanted: &[f64], [down, up]: [f64; 2], step: f64) -> Vec<f64> {
     let n = wanted.len();
     let reached = |i: usize| {
@@ -144,7 +144,7 @@ fn slowed(wanted: &[f64], [down, up]: [f64; 2], step: f64) -> Vec<f64> {
     (0..n).map(reached).collect()
 }
 
-/// Factor that makes harmonics as large as window and rates allow.
+/// Returns the factor that makes harmonics as large as window and rates allow.
 fn largest(shaped: &Shaped, period: f64, terms: &[[f64; 2]], height: f64) -> f64 {
     let [low, high] = shaped.window;
     let by_window = (high - low) / height;
@@ -162,13 +162,13 @@ fn sum(terms: &[[f64; 2]], angle: f64) -> f64 {
     terms.iter().enumerate().map(term).sum()
 }
 
-/// The derivative by the angle.
+/// Returns the derivative with respect to the angle.
 fn derivative(terms: &[[f64; 2]]) -> Vec<[f64; 2]> {
     let term = |(i, [sin, cos]): (usize, &[f64; 2])| [-((i + 1) as f64) * cos, (i + 1) as f64 * sin];
     terms.iter().enumerate().map(term).collect()
 }
 
-/// Extremes of a sum, from the best points of a grid by Newton's method on the derivative.
+/// Returns the extremes of a sum of harmonics, from a grid refined by Newton's method.
 fn range(terms: &[[f64; 2]]) -> [f64; 2] {
     let (first, points) = (derivative(terms), GRID * terms.len());
     let second = derivative(&first);
@@ -186,10 +186,10 @@ fn range(terms: &[[f64; 2]]) -> [f64; 2] {
     })
 }
 
-/// The point whose waveform is the nearest to a given one, of this period.
+/// Returns the point whose waveform is nearest to a given one of this period.
 pub(crate) fn nearest(shaped: &Shaped, waveform: &Waveform) -> Option<Vec<f64>> {
     let period = waveform.period()?;
-    // A period after the first one: what jumps at the beginning has jumped.
+    // Sampled in the second period, after a possible jump at the start.
     let value = |share: f64| {
         let time = period * (1.0 + share);
         waveform.sample(&waveform.piece_at(time), time).value / shaped.gain
@@ -210,7 +210,8 @@ pub(crate) fn nearest(shaped: &Shaped, waveform: &Waveform) -> Option<Vec<f64>> 
             };
             let [s, c] = of(1);
             let length = s * s + c * c;
-            // Turned until the first one has the phase 0, and divided by its amplitude: z_k e^{ikφ} with e^{iφ} = z̄₁/|z₁|.
+            // Rotated to phase 0 of the first harmonic and divided by its amplitude: z_k e^{ikφ} with e^{iφ} =
+            // z̄₁/|z₁|.
             let times = |[a, b]: [f64; 2], [c, d]: [f64; 2]| [a * c - b * d, a * d + b * c];
             let turn = [s / length.sqrt(), -c / length.sqrt()];
             let mut turned = turn;

@@ -1,17 +1,17 @@
-//! What a point of the unit cube means: numbers of the scenario, and a waveform.
+//! Search space: from a point of the unit cube to parameters of the scenario and a waveform.
 
 use super::shape::{self, Drawing};
 use crate::number::text;
 use stickslip_run::Job;
 use stickslip_scenario::{Goal, Parameter, Shaped};
 
-/// Numbers and waveform over which an optimum is searched. The first coordinates are the numbers of `over`, then the period of the waveform
-/// where it has a range, then its shape.
+/// Parameters and waveform of an optimisation. The coordinates are the parameters of `over`, then the period of the
+/// waveform if it has a range, then its shape.
 #[derive(Debug, Clone)]
 pub(crate) struct Space {
     over: Vec<(Parameter, [f64; 2])>,
     shaped: Option<Shaped>,
-    /// Periods of named waveforms that are not searched, which the worst of period ± 1 % varies.
+    /// Periods of named waveforms that are not optimised. They are varied by ± 1 % for a robust optimum.
     periods: Vec<Parameter>,
 }
 
@@ -26,7 +26,7 @@ impl Space {
         Self { over: goal.over.clone(), shaped, periods }
     }
 
-    /// Whether a period can be varied.
+    /// Returns whether there is a period that can be varied.
     pub(crate) fn has_period(&self) -> bool {
         self.shaped.is_some() || !self.periods.is_empty()
     }
@@ -35,25 +35,25 @@ impl Space {
         self.shaped.as_ref()
     }
 
-    /// Ranges and units of the leading coordinates that are numbers, with their names.
+    /// Returns the names, units and ranges of the coordinates that are numbers.
     pub(crate) fn numbers(&self) -> Vec<(String, &'static str, [f64; 2])> {
         let over = self.over.iter().map(|(number, range)| (number.path.clone(), number.unit, *range));
         let period = self.shaped.iter().filter(|shaped| shaped.period[0] < shaped.period[1]);
         over.chain(period.map(|shaped| (format!("{}.period", shaped.path), "s", shaped.period))).collect()
     }
 
-    /// Names of all coordinates.
+    /// Returns the names of all coordinates.
     pub(crate) fn names(&self) -> Vec<String> {
         let numbers = self.numbers().into_iter().map(|(name, ..)| name);
         numbers.chain(self.shaped.iter().flat_map(shape::names)).collect()
     }
 
-    /// Value of a coordinate: a number in SI, or a share of the range of a shape's coordinate.
+    /// Returns the value of a coordinate: a number in SI, or a fraction of the range of a shape coordinate.
     pub(crate) fn value(&self, coordinate: usize, share: f64) -> f64 {
         self.numbers().get(coordinate).map_or(share, |(.., range)| between(*range, share))
     }
 
-    /// The waveform at a point, and its period, s.
+    /// Returns the waveform at a point and its period, s.
     pub(crate) fn drawing(&self, point: &[f64]) -> Option<(Drawing, f64)> {
         let shaped = self.shaped.as_ref()?;
         let numbers = self.numbers().len();
@@ -64,7 +64,7 @@ impl Space {
         Some((Drawing::new(shaped, period, &point[numbers..]), period))
     }
 
-    /// A point as overrides of the scenario, with all periods stretched by a factor.
+    /// Returns the overrides of the scenario for a point, with all periods multiplied by `stretch`.
     pub(crate) fn overrides(&self, point: &[f64], stretch: f64) -> Vec<(String, String)> {
         let stretched = |number: &Parameter, value: f64| match self.is_period(number) {
             true if number.unit == "s" => value * stretch,
@@ -89,7 +89,8 @@ impl Space {
         self.periods.iter().any(|period| period.path == number.path)
     }
 
-    /// The point of the scenario as it is, or the nearest one; numbers that it does not give are in the middle.
+    /// Returns the point nearest to the unchanged scenario. Parameters without a value are at the middle of their
+    /// range.
     pub(crate) fn present(&self, job: &Job) -> Vec<f64> {
         let share = |[low, high]: [f64; 2], value: f64| ((value - low) / (high - low)).clamp(0.0, 1.0);
         let over =
@@ -107,7 +108,7 @@ impl Space {
     }
 }
 
-/// A value of a range by its share, exact at both ends.
+/// Returns the value at a fraction of a range, exact at both ends.
 fn between([low, high]: [f64; 2], share: f64) -> f64 {
     if share >= 1.0 { high } else { low + (high - low) * share }
 }

@@ -1,4 +1,4 @@
-//! Where the variants of a scenario are run, side by side.
+//! Parallel runs of variants of a scenario.
 
 use super::ladder::{self, Tried};
 use super::{Missing, Quantity, Sample, Sensitivity, sample};
@@ -8,10 +8,10 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use stickslip_run::{Job, Watcher};
 use stickslip_scenario::ScenarioError;
 
-/// Most of the figure that it may change by where the scale of a quantity is looked for.
+/// Largest relative change of a result in the search for the scale of a parameter.
 const LITTLE: f64 = 0.1;
 
-/// A watcher who is asked and not told.
+/// Watcher that can interrupt, but receives no progress.
 pub(super) struct Silent<'a>(pub(super) &'a dyn Watcher);
 
 impl Watcher for Silent<'_> {
@@ -21,20 +21,21 @@ impl Watcher for Silent<'_> {
     }
 }
 
-/// Where variants are run.
+/// Environment in which variants are run.
 pub(super) struct Bench<'a> {
     pub(super) asked: &'a Sensitivity,
-    /// Local error per step of the runs.
+    /// Tolerance of the local error per time step.
     pub(super) tolerance: f64,
     pub(super) cores: usize,
     pub(super) watcher: &'a (dyn Watcher + Sync),
-    /// Whether figures may be made of rows: what variations tell of is made of moments and events.
+    /// True if a result is computed from rows, such as a peak load. Other results need only instants and events.
     pub(super) has_rows: bool,
     pub(super) done: &'a AtomicUsize,
 }
 
 impl Bench<'_> {
-    /// Runs variants of quantities, by their places; they come by quantity.
+    /// Runs variants, given by index of the parameter, relative distance and level flag. Returns them grouped by
+    /// parameter.
     pub(super) fn run(&self, scales: &[f64], variants: &[(usize, (f64, bool))]) -> Vec<Vec<Tried>> {
         let asked = self.asked;
         let tried = each(variants.len(), self.cores, |place| {
@@ -53,7 +54,7 @@ impl Bench<'_> {
         by_quantity
     }
 
-    /// What a variant comes to, by the journal or by its run.
+    /// Returns the results of a variant from the journal or from a run.
     fn found(
         &self,
         of: &impl Serialize,
@@ -70,7 +71,7 @@ impl Bench<'_> {
         asked.journal.found(&(of, self.tolerance), run, |found| !matches!(found, Err(Missing::NotRun)))
     }
 
-    /// The figures of the scenario as it stands, by this tolerance.
+    /// Returns the results of the unchanged scenario at this tolerance.
     pub(super) fn own(&self) -> Vec<Option<f64>> {
         let asked = self.asked;
         let refused = |error: ScenarioError| Missing::Refused(error.to_string());
@@ -80,7 +81,8 @@ impl Bench<'_> {
         sample.map_or_else(|_| Vec::new(), |sample| sample.figures)
     }
 
-    /// The scale of each quantity: its magnitude, or of one that is 0 the largest distance at which all goes on nearly as it does.
+    /// Returns the scale of each parameter: its absolute value. For a parameter that is 0, it is the largest distance
+    /// with the same events and nearly the same results.
     pub(super) fn scales(&self) -> Vec<f64> {
         let quantities = &self.asked.quantities;
         let large = |quantity: &Quantity| match quantity.value {
@@ -98,7 +100,7 @@ impl Bench<'_> {
         scales
     }
 
-    /// Whether the same happens, and figures change by little.
+    /// Returns whether the events are the same and results change little.
     fn is_little(&self, tried: &Tried) -> bool {
         let Ok(sample) = &tried.sample else { return false };
         let figures = self.asked.figures.iter().zip(&sample.figures);

@@ -1,80 +1,80 @@
-//! The derivative of a figure with respect to a quantity, or why there is none.
+//! Derivative of a result with respect to a parameter, or the reason why there is none.
 
 use super::ladder::{self, Tried};
 use super::sample::{Happened, Missing};
 use super::stencil::{Estimate, Level, Wanted, bends_near_by, estimate};
 
-/// A slope.
+/// A slope with its error.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Slope {
-    /// Change of the figure per change of the quantity, SI.
+    /// Change of the result per change of the parameter, SI.
     pub value: f64,
-    /// How far it may be off, of the same unit.
+    /// Error of the slope, in the same unit.
     pub error: f64,
-    /// How far from its value the quantity was in the farthest run that counts, in its own unit.
+    /// Largest change of the parameter that was used, in its unit.
     pub reach: f64,
 }
 
-/// The derivative of a figure.
+/// Derivative of a result.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Derivative {
-    /// The figure changes smoothly.
+    /// The result is smooth.
     Known(Slope),
-    /// What is below and above is not the same.
+    /// The two sides differ.
     Split {
-        /// Slope as the quantity gets smaller.
+        /// Slope below the value of the parameter.
         below: Result<Slope, Missing>,
-        /// Slope as it gets larger.
+        /// Slope above it.
         above: Result<Slope, Missing>,
-        /// What is not the same.
+        /// Kind of difference.
         why: Split,
     },
-    /// Nothing is known.
+    /// There is no slope.
     Unknown(Missing),
 }
 
-/// What is not the same on both sides.
+/// Difference between the two sides of a parameter value.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Split {
-    /// The slopes.
+    /// The slopes differ.
     Kink,
-    /// The figure itself: by how much it differs from that of the scenario close below and close above.
+    /// The result jumps by these amounts, close below and close above.
     Jump([f64; 2]),
-    /// Events: which, and how often, in the scenario and close to it.
+    /// The events differ: descriptions with their numbers in the scenario and close to it.
     Events(Vec<String>),
-    /// One side alone has slopes.
+    /// Only one side has a slope.
     OneSided,
 }
 
-/// Errors by which two numbers differ that are not the same.
+/// Factor on the errors above which two numbers count as different.
 const APART: f64 = 2.0;
-/// Jumps that matter, as shares of the figure: runs know no more of it.
+/// Smallest relevant jump relative to the result; smaller ones are within the accuracy of runs.
 const LEAST_JUMP: f64 = 1e-9;
 
-/// One side of a quantity's value.
+/// Data on one side of a parameter value.
 struct Half<'a> {
-    /// What is known there, the outermost first: distance, figure, events.
+    /// Runs on this side, the outermost first: distance, value, events.
     runs: Vec<(f64, f64, &'a Happened)>,
-    /// What happens close to the value, where that is the same however near.
+    /// Events close to the value, if they do not depend on the distance.
     settled: Option<&'a Happened>,
-    /// What is wrong with the nearest that has no value.
+    /// Reason of the nearest missing value.
     missing: Option<Missing>,
 }
 
-/// What is known about a figure near a quantity's value.
+/// Data of a result near a parameter value.
 pub(super) struct Near<'a> {
-    /// Variants.
+    /// Variants of the scenario with their results.
     pub(super) tried: &'a [Tried],
-    /// Place of the figure.
+    /// Index of the result.
     pub(super) figure: usize,
-    /// The figure in the scenario itself, and what happens there; none where it is of no run.
+    /// Value of the result and events for the unchanged scenario. No events for results that are not from a run.
     pub(super) own: (f64, Option<&'a Happened>),
-    /// Standard deviation of the figure's noise.
+    /// Standard deviation of the numerical noise.
     pub(super) noise: f64,
 }
 
 impl Near<'_> {
-    /// The derivative.
+    /// Returns the derivative.
     pub(super) fn derivative(&self) -> Derivative {
         let halves = [-1.0, 1.0].map(|sense| self.half(sense));
         let levels = halves.each_ref().map(|half| self.levels(half, &halves));
@@ -111,7 +111,7 @@ impl Near<'_> {
         }
     }
 
-    /// Whether the figure still bends where the nearest variants are.
+    /// Returns whether the result is still nonlinear near the closest variants.
     pub(super) fn bends_near_by(&self) -> bool {
         let halves = [-1.0, 1.0].map(|sense| self.half(sense));
         halves.iter().any(|half| {
@@ -129,8 +129,10 @@ impl Near<'_> {
         }
     }
 
-    /// The runs of a side that belong together: those where the same happens as close to the value. Where that is never the same, as
-    /// loops too small for the tolerance close or do not, all do: what such events matter is seen in the figure.
+    /// Returns the runs on a side with the same events as close to the value.
+    ///
+    /// If the events are never settled, all runs are returned. An example are small loops that close or not depending
+    /// on rounding; their effect is visible in the result.
     fn levels(&self, half: &Half<'_>, halves: &[Half<'_>; 2]) -> Vec<Level> {
         let is_settled = halves.iter().all(|half| half.settled.is_some() || half.runs.is_empty());
         let wanted = half.settled.filter(|_| is_settled);
@@ -139,7 +141,7 @@ impl Near<'_> {
         runs.map(|(at, value, _)| vec![(*at, *value)]).collect()
     }
 
-    /// By how much the figure jumps on a side, where it does.
+    /// Returns the jump of the result on a side, if there is one.
     fn jump(&self, levels: &[Level]) -> Option<f64> {
         let limit = estimate(levels, None, Wanted::Value, self.noise)?;
         let jump = limit.value - self.own.0;
@@ -147,7 +149,7 @@ impl Near<'_> {
         (jump.abs() > least).then_some(jump)
     }
 
-    /// What happens more or less often close below than close above.
+    /// Returns the differences between the events close below and close above.
     fn changes(&self, halves: &[Half<'_>; 2]) -> Vec<String> {
         match (self.own.1, [halves[0].settled, halves[1].settled]) {
             (Some(own), [Some(below), Some(above)]) if below != above => {
@@ -163,18 +165,18 @@ fn split([below, above]: [Result<Slope, Missing>; 2], why: Split) -> Derivative 
     Derivative::Split { below, above, why }
 }
 
-/// Levels at the same distance on both sides.
+/// Returns pairs of levels at the same distance on both sides.
 fn pairs(below: &[Level], above: &[Level]) -> Vec<Level> {
     let distance = |level: &Level| level.first().map_or(0.0, |(at, _)| at.abs());
     let opposite = |level: &Level| {
         let own = distance(level);
-        // Values of a quantity are rounded.
+        // Parameter values are rounded.
         below.iter().find(|other| (distance(other) / own - 1.0).abs() < 0.25)
     };
     above.iter().filter_map(|level| Some([opposite(level)?.as_slice(), level.as_slice()].concat())).collect()
 }
 
-/// What happens more or less often on one side than in the scenario.
+/// Describes the events whose number differs from that of the unchanged scenario.
 fn differences(side: &str, own: &Happened, other: &Happened) -> Vec<String> {
     let mut all: Vec<_> = own.keys().chain(other.keys()).collect();
     all.sort();
@@ -195,7 +197,7 @@ impl From<Estimate> for Slope {
 }
 
 impl Split {
-    /// Its word in files.
+    /// Returns the name in output files.
     #[must_use]
     pub fn name(&self) -> &'static str {
         match self {
@@ -208,7 +210,7 @@ impl Split {
 }
 
 impl Derivative {
-    /// With more that its slopes may be off by.
+    /// Adds an error to all slopes.
     pub(super) fn less_sure(self, by: f64) -> Self {
         let wider = |slope: Slope| Slope { error: slope.error + by, ..slope };
         match self {
@@ -220,7 +222,7 @@ impl Derivative {
         }
     }
 
-    /// The slopes that it has, each with its side; the same on both has none.
+    /// Returns the slopes with their sides; no side if there is one derivative.
     #[must_use]
     pub fn sides(&self) -> Vec<(Option<&'static str>, Result<Slope, Missing>)> {
         match self {
@@ -232,14 +234,14 @@ impl Derivative {
         }
     }
 
-    /// The largest magnitude of a slope; none without any.
+    /// Returns the largest absolute slope, or `None`.
     #[must_use]
     pub fn steepest(&self) -> Option<f64> {
         let slopes = self.sides().into_iter().filter_map(|(_, slope)| Some(slope.ok()?.value.abs()));
         slopes.reduce(f64::max)
     }
 
-    /// What is to be said beside the numbers.
+    /// Returns an explanation, if the derivative needs one.
     #[must_use]
     pub fn words(&self) -> Option<String> {
         match self {
@@ -247,15 +249,15 @@ impl Derivative {
             Self::Split { why, below, above } => Some(match why {
                 Split::Kink => "the slopes on both sides differ".to_owned(),
                 Split::Jump([below, above]) => {
-                    format!("the figure jumps: by {below:.3e} below, by {above:.3e} above")
+                    format!("the result jumps by {below:.3e} below and by {above:.3e} above")
                 }
-                Split::Events(changes) => format!("other events; {}", changes.join(", ")),
+                Split::Events(changes) => format!("the events differ; {}", changes.join(", ")),
                 Split::OneSided => {
                     let missing = [("below", below), ("above", above)];
                     let mut missing = missing
                         .iter()
                         .filter_map(|(side, slope)| Some(format!("{side}: {}", slope.as_ref().err()?)));
-                    format!("one side alone; {}", missing.next().unwrap_or_default())
+                    format!("only one side; {}", missing.next().unwrap_or_default())
                 }
             }),
             Self::Unknown(why) => Some(why.to_string()),
@@ -268,7 +270,7 @@ mod tests {
     use super::*;
     use crate::sensitivity::sample::Sample;
 
-    /// Values of a function with a count of what happens, as if they were of runs; none where it is refused.
+    /// Derivative of a function with an event count, as from runs. `None` stands for an invalid scenario.
     fn derivative(f: impl Fn(f64) -> Option<(f64, usize)>) -> Derivative {
         let happened =
             |count: usize| -> Happened { [(("ball".to_owned(), "stick".to_owned()), count)].into() };
@@ -301,7 +303,7 @@ mod tests {
         let step = |x: f64| Some((x.exp() + if x > 0.0 { 0.5 } else { 0.0 }, 3));
         let Derivative::Split { why: Split::Jump([below, above]), .. } = derivative(step) else { panic!() };
         assert!(below == 0.0 && (above - 0.5).abs() < 1e-9);
-        // An event vanishes where its force does: the figure goes on smoothly, or with another slope.
+        // An event vanishes together with its force: the result remains smooth or has a corner.
         let grazing = |x: f64| Some((if x > 0.0 { x * x } else { 0.0 }, if x > 0.0 { 4 } else { 3 }));
         let found = derivative(grazing);
         let Derivative::Split { below: Ok(below), above: Ok(above), why: Split::Events(changes) } = found
@@ -312,8 +314,8 @@ mod tests {
         assert_eq!(changes, ["above: ball stick 3 → 4"]);
     }
 
-    /// Loops that are too small for the tolerance close or do not, however near: all runs count. What happens alike on both sides, and only
-    /// in the scenario itself not, is a coincidence.
+    /// Small loops that close or not depending on rounding: all runs count. Events that are equal on both sides and
+    /// differ only in the scenario itself are a coincidence.
     #[test]
     fn events_without_a_side_leave_a_number() {
         let flickers = |x: f64| Some((x.exp(), 3 + usize::from((1e9 * x).sin() > 0.0)));
@@ -336,7 +338,7 @@ mod tests {
     fn where_one_side_is_refused_the_other_has_its_slope() {
         let found = derivative(|x| (x >= 0.0).then_some((x.exp(), 3)));
         assert!(
-            found.words().is_some_and(|words| words == "one side alone; below: refused: no"),
+            found.words().is_some_and(|words| words == "only one side; below: refused: no"),
             "{:?}",
             found.words()
         );

@@ -1,86 +1,86 @@
-//! Why there are no derivatives at all. What is wrong with a single one stands in its row.
+//! Errors of a whole sensitivity analysis. Errors of a single derivative are in its row.
 
 use crate::steady::SteadyError;
 use stickslip_run::Refusal;
 use stickslip_scenario::ScenarioError;
 use thiserror::Error;
 
-/// Why there are no derivatives.
+/// Error: derivatives cannot be computed.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum SensitivityError {
-    /// The scenario.
+    /// The scenario is rejected.
     #[error(transparent)]
     Refused(#[from] Refusal),
-    /// A path into it that names no number that can change by any amount.
+    /// The key path does not name a number that can be varied continuously.
     #[error(transparent)]
     Path(#[from] ScenarioError),
-    /// A number that the file leaves out.
+    /// The scenario does not give the parameter.
     #[error(
-        "{file}: {path} is not in the file: there is nothing to start from\n   help: write it there, or give it by --set {path}=VALUE"
+        "{file}: {path} has no value in the file\n   help: write a value into the file, or set it with --set {path}=VALUE"
     )]
     LeftOut {
-        /// The scenario.
+        /// Name of the scenario.
         file: String,
-        /// Its key path.
+        /// Key path of the parameter.
         path: String,
     },
-    /// A quantity that was asked for twice, or a figure.
-    #[error("\"{0}\" is asked for twice")]
+    /// A parameter or result is requested twice.
+    #[error("\"{0}\" is named twice")]
     Twice(String),
-    /// No number at all.
-    #[error("{0}: has no number that could be changed a little\n   help: name one, --to PATH")]
+    /// The scenario has no parameters.
+    #[error("{0}: has no parameter with a derivative\n   help: name one, --to PATH")]
     NoQuantity(String),
-    /// A figure that nothing has.
-    #[error("\"{name}\": there is no such figure{}", help.as_ref().map_or(String::new(), |help| format!("\n   help: {help}")))]
+    /// No run has this result.
+    #[error("\"{name}\": there is no such result{}", help.as_ref().map_or(String::new(), |help| format!("\n   help: {help}")))]
     NoFigure {
-        /// What was asked for.
+        /// Requested name.
         name: String,
-        /// What might have been meant.
+        /// Suggested name, as help text.
         help: Option<String>,
     },
-    /// One that others have.
+    /// Runs of this scenario do not have the result, but others do.
     #[error(
-        "\"{name}\": runs of {file} have no such figure\n   help: `stickslip explain {name}` says what it is of; those that a run has stand in its summary.json"
+        "\"{name}\": runs of {file} have no such result\n   help: `stickslip explain {name}` explains it; summary.json has the results of a run"
     )]
     NotHere {
-        /// What was asked for.
+        /// Requested name.
         name: String,
-        /// The scenario.
+        /// Name of the scenario.
         file: String,
     },
-    /// A figure that changes by jumps, or says how a run went.
+    /// The result is an integer or describes the execution of the run.
     #[error("\"{name}\" {why}: it has no derivative")]
     NotContinuous {
-        /// What was asked for.
+        /// Requested name.
         name: String,
-        /// Why.
+        /// Reason for the error.
         why: &'static str,
     },
-    /// No figure by default.
+    /// There is no default result.
     #[error(
-        "{0}: has neither steps nor contacts that lose energy: no figure stands out\n   help: name one of its summary.json, --of FIGURE"
+        "{0}: has neither steps nor dissipating contacts, so there is no default result\n   help: name a result of summary.json, --of RESULT"
     )]
     NoDefault(String),
-    /// The scenario's own run.
-    #[error("{file}: its own run stopped: {why}")]
+    /// The run of the unchanged scenario stopped early.
+    #[error("{file}: the run of the scenario stopped early: {why}")]
     Stopped {
-        /// The scenario.
+        /// Name of the scenario.
         file: String,
-        /// Why.
+        /// Reason for the error.
         why: String,
     },
-    /// The scenario's own steady motion.
+    /// The unchanged scenario has no periodic orbit.
     #[error("{file}: {source}")]
     NotSteady {
-        /// The scenario.
+        /// Name of the scenario.
         file: String,
-        /// Why it was not found.
+        /// Reason for the error.
         source: SteadyError,
     },
-    /// Its caller wanted an end before the scenario's own run was over.
+    /// The caller interrupted the run of the unchanged scenario.
     #[error("interrupted")]
     Interrupted,
-    /// A tolerance out of its range.
+    /// The tolerance is outside 1e-13 to 1e-6.
     #[error("expected a tolerance from 1e-13 to 1e-6, got {0}")]
     Tolerance(f64),
 }

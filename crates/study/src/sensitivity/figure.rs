@@ -1,4 +1,5 @@
-//! Figures that derivatives are taken of: numbers of a run's summary, channels at its end, steady motion.
+//! Results that are differentiated: numbers of a run's summary, channels at the end of the run, step length and
+//! velocity of the periodic orbit.
 
 use super::SensitivityError;
 use crate::sweep::wanted::needs_rows;
@@ -8,33 +9,34 @@ use stickslip_quantity::names;
 use stickslip_run::Job;
 use stickslip_scenario::suggestion;
 
-/// A figure.
+/// A result that is differentiated.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Figure {
-    /// Its name: the path of a number in `summary.json`, a channel such as `slider.x_m`, or `steady.step_m` or `steady.speed_m_s`.
+    /// Name: path of a number in `summary.json`, a channel such as `slider.x_m`, or `steady.step_m` or
+    /// `steady.speed_m_s`.
     pub name: String,
-    /// Its SI unit; empty for a plain number.
+    /// SI unit; empty for a plain number.
     pub unit: &'static str,
-    /// What it is in the scenario as it stands, SI.
+    /// Value for the unchanged scenario, SI.
     pub value: f64,
-    /// Where it is read.
+    /// Source of the value.
     pub(super) reading: Reading,
 }
 
-/// Where a figure is read.
+/// Source of a result.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Reading {
-    /// In the summary.
+    /// Summary of the run.
     Summary,
-    /// From the last row.
+    /// Last row of the time histories.
     End,
-    /// Step of steady motion.
+    /// Step length of the periodic orbit.
     SteadyStep,
-    /// Speed of steady motion.
+    /// Mean velocity of the periodic orbit.
     SteadySpeed,
 }
 
-/// What stands out of a drive, and of a contact without one.
+/// Default results of a drive, and of each contact if there is no drive.
 const DRIVE: [&str; 5] = [
     "steps.last_m",
     "steps.mean_speed_m_s",
@@ -43,36 +45,39 @@ const DRIVE: [&str; 5] = [
     "energy.damping_J",
 ];
 const LOOP: [&str; 3] = ["fretting.dissipated_J", "fretting.force_amplitude_N", "peak_fx_N"];
-/// Figures of steady motion.
+/// Results of the periodic orbit.
 pub(super) const STEADY: [(&str, Reading); 2] =
     [("steady.step_m", Reading::SteadyStep), ("steady.speed_m_s", Reading::SteadySpeed)];
 
-/// Parts of a summary that say how a run went, and not what it came to.
+/// Parts of the summary that describe the execution of a run instead of its results.
 const OF_RUNS: [&str; 8] =
     ["program", "stepper", "counts", "timing", "tables", "simulated_s", "warnings", "steady_after_periods"];
-const OF_THE_RUN: &str = "says how the run was run";
-const WHOLE: &str = "counts whole things";
+const OF_THE_RUN: &str = "describes the execution of the run";
+const WHOLE: &str = "is a count";
 
 impl Figure {
-    /// Whether it is made of rows that are written as the run goes on.
+    /// Returns whether the result is computed from the rows of the time histories.
     pub(super) fn needs_rows(&self) -> bool {
         self.reading == Reading::Summary && needs_rows(&self.name)
     }
 }
 
 impl Reading {
-    /// Whether a plain run tells it.
+    /// Returns whether the result comes from a run.
     pub(super) fn is_of_run(self) -> bool {
         matches!(self, Self::Summary | Self::End)
     }
 }
 
-/// The figures of steady motion among names.
+/// Returns the source of a result of the periodic orbit, or `None` for other names.
 pub(super) fn steady(name: &str) -> Option<Reading> {
     STEADY.into_iter().find(|(known, _)| *known == name).map(|(_, reading)| reading)
 }
 
-/// Finds where a figure is read, with a run's summary and its last row.
+/// Finds source and value of a result in a run's summary and last row.
+///
+/// # Errors
+/// Fails if the result does not exist or is not continuous.
 pub(super) fn find(
     job: &Job,
     name: &str,
@@ -97,7 +102,7 @@ pub(super) fn find(
         return Err(SensitivityError::NoFigure {
             name: name.to_owned(),
             help: Some(format!(
-                "the step and speed of steady motion are \"{}\" and \"{}\"",
+                "step and speed of the periodic orbit are \"{}\" and \"{}\"",
                 STEADY[0].0, STEADY[1].0
             )),
         });
@@ -119,7 +124,7 @@ pub(super) fn find(
     Err(SensitivityError::NoFigure { name: name.to_owned(), help })
 }
 
-/// What a designer asks first: steps and what they cost and end with, or else what contacts lose.
+/// Returns the default results: steps and losses of a drive, otherwise dissipated energy and forces of contacts.
 pub(super) fn by_default(job: &Job, summary: &Value) -> Vec<String> {
     let scene = &job.scenario.scene;
     let is_own = |c: usize| {
@@ -139,7 +144,7 @@ pub(super) fn by_default(job: &Job, summary: &Value) -> Vec<String> {
         leaves.iter().any(|(known, value)| known == name && value.as_f64().is_some_and(|value| value != 0.0))
     };
     let drive: Vec<String> = drive.filter(is_told).collect();
-    // What a drive does says more than the loops of its contacts.
+    // The results of a drive are more useful than the loops of its contacts.
     if drive.first().is_some_and(|name| name.starts_with("steps.")) {
         drive
     } else {
@@ -147,7 +152,7 @@ pub(super) fn by_default(job: &Job, summary: &Value) -> Vec<String> {
     }
 }
 
-/// Its SI unit, by its name.
+/// Returns the SI unit from the name of a result.
 pub(super) fn unit(name: &str) -> &'static str {
     names::unit(name)
 }
@@ -156,7 +161,7 @@ fn is_whole(value: &Value) -> bool {
     value.is_u64() || value.is_i64()
 }
 
-/// Names of all numbers, such as `steps.steady.step_m`, with them.
+/// Collects the names and values of all numbers, such as `steps.steady.step_m`.
 pub(super) fn numbers<'a>(name: String, here: &'a Value, found: &mut Vec<(String, &'a Value)>) {
     match here {
         Value::Object(entries) => {

@@ -1,53 +1,56 @@
-//! A slope from four runs: two distances to both sides of a place, and the value there.
+//! Slope from four runs: two distances on both sides, and the value of the scenario.
 
 use super::Slope;
 
-/// How many times the inner distance the outer one is.
+/// Ratio of the outer to the inner distance.
 pub(super) const RATIO: f64 = 4.0;
-/// Noise is a standard deviation; an error is what hardly any is beyond.
+/// Factor from the standard deviation of the noise to an error bound.
 const HARDLY_ANY: f64 = 4.0;
-/// By how much less than in proportion the slopes of both sides may come together as they are taken nearer by, before that is a kink.
+/// Largest relative deviation from the expected decrease of the slope difference between both sides. A larger deviation
+/// indicates a corner.
 const KINK: f64 = 0.5;
 
-/// Values of a figure at 0, ±h/4 and ±h.
+/// Values of a result at 0, ±h/4 and ±h.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Five {
     own: f64,
-    /// Values below and above, and the distance, of the outer and of the inner pair.
+    /// Outer and inner pair: values below and above, and the distance.
     pairs: [([f64; 2], f64); 2],
 }
 
 impl Five {
-    /// From the own value and those at -h, h, -h/4 and h/4, each with its distance.
+    /// Creates it from the own value and those at -h, h, -h/4 and h/4, each with its distance.
     pub(super) fn new([(_, own), below, above, near_below, near_above]: [(f64, f64); 5]) -> Self {
         let pair = |below: (f64, f64), above: (f64, f64)| ([below.1, above.1], 0.5 * (above.0 - below.0));
         Self { own, pairs: [pair(below, above), pair(near_below, near_above)] }
     }
 
-    /// Central difference of a pair.
+    /// Returns the central difference of a pair.
     fn central(&self, pair: usize) -> f64 {
         let ([below, above], distance) = self.pairs[pair];
         (above - below) / (2.0 * distance)
     }
 
-    /// Second difference of a pair: what the values on both sides have together beside twice the own one.
+    /// Returns the second difference of a pair.
     fn bend(&self, pair: usize) -> f64 {
         let ([below, above], _) = self.pairs[pair];
         (above - self.own) + (below - self.own)
     }
 
-    /// Standard deviation of the noise of a value, as the fourth difference of the five tells it once: of a smooth figure the
-    /// second difference of the inner pair is a sixteenth of that of the outer one.
+    /// Returns the standard deviation of the noise of a value, from the fourth difference of the five values. For a
+    /// smooth function the second difference of the inner pair is a sixteenth of
+    /// that of the outer pair.
     pub(super) fn noise(&self) -> f64 {
         let square = RATIO * RATIO;
-        // Of independent noise the variance of this is 2 (r⁴ + 1) + 4 (r² - 1)² times that of a value.
+        // For independent noise the variance of this difference is 2 (r⁴ + 1) + 4 (r² - 1)² times that of a value.
         let variance = 2.0 * (square * square + 1.0) + 4.0 * (square - 1.0) * (square - 1.0);
         (square * self.bend(1) - self.bend(0)).abs() / variance.sqrt()
     }
 
-    /// The slope at 0 with its error: Richardson's extrapolation of both central differences (L. F. Richardson, *Phil. Trans. R. Soc.
-    /// A* 210 (1911) 307), or the outer one alone, whichever may be less off. None at a kink, where the slopes of both sides do not come
-    /// together in proportion to the distance.
+    /// Returns the slope at 0 with its error: Richardson's extrapolation of both central differences (L. F. Richardson,
+    /// *Phil. Trans. R. Soc. A* 210 (1911) 307) or the outer one, whichever has the
+    /// smaller error. Returns `None` at a corner, where the difference of both sides' slopes is not proportional to the
+    /// distance.
     pub(super) fn slope(&self, noise: f64) -> Option<Slope> {
         let [outer, inner] = [0, 1].map(|pair| self.bend(pair) / self.pairs[pair].1);
         let doubt = HARDLY_ANY * 2.5 * noise / self.pairs[1].1;
@@ -59,7 +62,8 @@ impl Five {
         let square = RATIO * RATIO;
         let missed = (near - far) / (square - 1.0);
         let noises = self.pairs.map(|(_, distance)| HARDLY_ANY * noise / (2.0_f64.sqrt() * distance));
-        // Both differences miss the third derivative, what they differ by tells it; what is left is of the order of that squared.
+        // The difference of both central differences gives the error from the third derivative. The remaining error is
+        // of the order of its square.
         let left = (missed * missed / near.abs().max(f64::MIN_POSITIVE)).min(missed.abs());
         let both = (near + missed, left + noises[1] * square / (square - 1.0) + missed.abs() / square);
         let one = (far, missed.abs() * square + noises[0]);
@@ -76,7 +80,7 @@ mod tests {
         Five::new([0.0, -h, h, -h / RATIO, h / RATIO].map(|at| (at, f(at))))
     }
 
-    /// sin(kx + 1) has the slope k cos 1, with and without noise, which alternates here: at its worst for both differences.
+    /// sin(kx + 1) has the slope k cos 1. The noise alternates in sign, the worst case for central differences.
     #[test]
     fn errors_hold_what_is_off() {
         for wave in [0.01, 0.3, 5.0, 30.0, 100.0] {

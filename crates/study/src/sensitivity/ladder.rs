@@ -1,24 +1,24 @@
-//! At which values of a quantity its scenario is run.
+//! Parameter values of the variants: a series of decreasing distances from the value of the scenario.
 
 use super::quantity::Quantity;
 use super::sample::{Happened, Missing, Sample};
 use stickslip_run::Job;
 
-/// A variant of the scenario.
+/// A variant of the scenario with its results.
 #[derive(Debug, Clone)]
 pub(super) struct Tried {
-    /// How far away the quantity is meant to be, as a share of its scale.
+    /// Nominal distance of the parameter, relative to its scale.
     pub(super) share: f64,
-    /// How far it is.
+    /// Actual distance.
     pub(super) offset: f64,
-    /// Whether slopes are taken from it, and not noise alone.
+    /// True if slopes use this variant; false if it only serves to measure noise.
     pub(super) is_level: bool,
-    /// What it came to.
+    /// Results of the run.
     pub(super) sample: Result<Sample, Missing>,
 }
 
 impl Tried {
-    /// How far away it is, one of its figures, and what happens.
+    /// Returns distance, value of one result and events.
     pub(super) fn figure(&self, place: usize) -> Result<(f64, f64, &Happened), Missing> {
         let Sample { figures, happened } = self.sample.as_ref().map_err(Clone::clone)?;
         let value = figures.get(place).copied().flatten().ok_or(Missing::Absent)?;
@@ -26,51 +26,52 @@ impl Tried {
     }
 }
 
-/// Powers of two of the levels: from 0.8 % inwards each a quarter of the one before.
+/// Negative binary exponents of the relative distances: from 0.8 % inwards, each a quarter of the one before.
 const LEVELS: [i32; 7] = [7, 9, 11, 13, 15, 17, 19];
-/// How many levels are the farthest.
+/// Number of outermost levels.
 const FARTHEST: usize = 3;
-/// Powers of two of the distances of two pairs of runs that are tried before all others: 0.2 % and a quarter of it, then 0.003 %.
+/// Negative binary exponents of the distances of the first two pairs of runs: 0.2 % and a quarter of it, then 0.003 %.
 pub(super) const PAIRS: [[i32; 2]; 2] = [[9, 11], [15, 17]];
-/// The same where something else happens as near as these: to where noise leaves a few digits.
+/// Further exponents if events change nearby: down to distances at which noise leaves a few digits.
 const FINER: [i32; 5] = [21, 23, 25, 27, 29];
-/// A power of two of distances between values that noise is measured of, and how many of them to a side: the second is a level.
+/// Negative binary exponent of the spacing of values for the measurement of noise, and their number on each side. The
+/// second value is a level.
 const NOISE: i32 = 20;
 const BESIDE: i32 = 3;
-/// How many runs on a side must agree about what happens there.
+/// Number of runs on one side whose events must agree.
 const NEAREST: usize = 3;
-/// How many distances are tried for a quantity that is 0, and the share of one in the one before.
+/// Number of distances tried to find the scale of a parameter that is 0, and their ratio.
 const PROBES: i32 = 10;
 const SHRINK: f64 = 0.125;
 
-/// The shares that every quantity is tried at, and whether they are levels.
+/// Returns the relative distances for every parameter, each with the flag whether it is a level.
 pub(super) fn first() -> impl Iterator<Item = (f64, bool)> {
     let levels = LEVELS.into_iter().map(|power| (2.0_f64.powi(-power), true));
     let beside = (1..=BESIDE).filter(|k| *k != 2).map(|k| (f64::from(k) * 2.0_f64.powi(-NOISE), false));
     both(levels.chain(beside))
 }
 
-/// Two pairs of levels, the outer one first.
+/// Returns two pairs of levels, the outer one first.
 pub(super) fn pairs(powers: [i32; 2]) -> impl Iterator<Item = (f64, bool)> {
     both(powers.into_iter().map(|power| (2.0_f64.powi(-power), true)))
 }
 
-/// The farthest of them, on both sides, which slopes are most often made of.
+/// Returns the outermost levels on both sides, which most slopes use.
 pub(super) fn farthest() -> impl Iterator<Item = (f64, bool)> {
     both(LEVELS.into_iter().take(FARTHEST).map(|power| (2.0_f64.powi(-power), true)))
 }
 
-/// Those that have not been tried.
+/// Returns the distances that have not been tried.
 pub(super) fn further(tried: &[Tried]) -> impl Iterator<Item = (f64, bool)> + '_ {
     first().filter(|(share, _)| tried.iter().all(|tried| tried.share != *share))
 }
 
-/// Those that follow where these are too far away.
+/// Returns additional distances closer to the value.
 pub(super) fn finer() -> impl Iterator<Item = (f64, bool)> {
     both(FINER.into_iter().map(|power| (2.0_f64.powi(-power), true)))
 }
 
-/// The shares at which the scale of a quantity is looked for that has none of its own.
+/// Returns the relative distances at which the scale of a parameter that is 0 is searched for.
 pub(super) fn probes() -> impl Iterator<Item = (f64, bool)> {
     (0..PROBES).map(|k| (SHRINK.powi(k), false))
 }
@@ -79,7 +80,7 @@ fn both(shares: impl Iterator<Item = (f64, bool)>) -> impl Iterator<Item = (f64,
     shares.flat_map(|(share, is_level)| [(-share, is_level), (share, is_level)])
 }
 
-/// The levels on one side, the outermost first.
+/// Returns the levels on one side, the outermost first.
 pub(super) fn levels(tried: &[Tried], sense: f64) -> Vec<&Tried> {
     let mut levels: Vec<&Tried> =
         tried.iter().filter(|tried| tried.is_level && sense * tried.offset > 0.0).collect();
@@ -87,7 +88,7 @@ pub(super) fn levels(tried: &[Tried], sense: f64) -> Vec<&Tried> {
     levels
 }
 
-/// What happens close to the value on one side, where the nearest runs agree about it.
+/// Returns the events close to the value on one side, if the nearest runs agree.
 pub(super) fn settled(tried: &[Tried], sense: f64) -> Option<&Happened> {
     let levels = levels(tried, sense);
     let mut nearest = levels.iter().rev().filter_map(|tried| tried.sample.as_ref().ok()).take(NEAREST);
@@ -95,7 +96,7 @@ pub(super) fn settled(tried: &[Tried], sense: f64) -> Option<&Happened> {
     nearest.all(|sample| sample.happened == *first).then_some(first)
 }
 
-/// Neighbours at equal distances, for the neighbours at equal distances; none where something else happens at one of them.
+/// Returns the values at equidistant neighbours. Returns `None` if one of them is missing or has other events.
 pub(super) fn neighbours(
     tried: &[Tried],
     own: f64,
@@ -109,7 +110,7 @@ pub(super) fn neighbours(
     (-BESIDE..=BESIDE).map(at).collect()
 }
 
-/// Where a quantity that is 0 is looked for a scale: what is large for its unit in this scene.
+/// Returns the initial scale of a parameter that is 0: a large value for its unit in this scenario.
 pub(super) fn large(job: &Job, quantity: &Quantity) -> f64 {
     let contacts = (0..job.model.contacts().count()).map(|c| job.contact_scale(c));
     let most = |scales: &mut dyn Iterator<Item = f64>| scales.fold(0.0, f64::max);

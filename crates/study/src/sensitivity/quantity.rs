@@ -1,4 +1,4 @@
-//! Numbers of a scenario that derivatives are taken with respect to.
+//! Parameters of a scenario with respect to which derivatives are computed.
 
 use super::SensitivityError;
 use serde_json::Value;
@@ -6,29 +6,29 @@ use std::collections::HashSet;
 use stickslip_run::Job;
 use stickslip_scenario::Parameter;
 
-/// A number of the scenario.
+/// A parameter of the scenario.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Quantity {
-    /// Its key path.
+    /// Key path.
     pub path: String,
-    /// Its SI unit; empty for a plain number.
+    /// SI unit; empty for a plain number.
     pub unit: &'static str,
-    /// What it is, SI.
+    /// Value, SI.
     pub value: f64,
 }
 
-/// Longer lists are data, such as the points of a waveform.
+/// Longest list whose numbers are parameters. Longer lists are data, such as the points of a waveform.
 const LIST: usize = 4;
-/// Parts that do something only where another one names them.
+/// Sections of the scenario whose entries only have an effect if another part names them.
 const LISTS: [&str; 2] = ["materials", "waveforms"];
-/// How long something goes on, and no more.
+/// Keys that only limit a duration.
 const LENGTHS: [&str; 1] = ["cycles"];
 
 impl Quantity {
-    /// The number under a key path.
+    /// Returns the parameter at a key path.
     ///
     /// # Errors
-    /// None that can change by any amount, or one that the scenario leaves out.
+    /// Fails if the path does not name a real number, or the scenario omits it.
     pub(super) fn of(job: &Job, path: &str) -> Result<Self, SensitivityError> {
         let Parameter { path, value, unit, .. } = job.scenario.parameter(path)?;
         match value {
@@ -37,8 +37,7 @@ impl Quantity {
         }
     }
 
-    /// All numbers of the scenario that say what there is and what drives it, but those that are 0 and those of materials and waveforms
-    /// that nothing names.
+    /// Returns all parameters of the model, without zeros and without unused materials and waveforms.
     pub(super) fn all(job: &Job) -> Vec<Self> {
         let mut tree: Value = serde_json::from_str(&job.resolved).unwrap_or_default();
         let mut named = HashSet::new();
@@ -55,7 +54,7 @@ impl Quantity {
     }
 }
 
-/// All texts, but keys.
+/// Collects all strings except keys.
 fn strings(here: &Value, found: &mut HashSet<String>) {
     match here {
         Value::Object(entries) => entries.values().for_each(|inner| strings(inner, found)),
@@ -65,7 +64,7 @@ fn strings(here: &Value, found: &mut HashSet<String>) {
     }
 }
 
-/// Key paths of the numbers under one.
+/// Collects the key paths of all numbers.
 fn leaves(path: String, here: &Value, found: &mut Vec<String>) {
     match here {
         Value::Object(entries) => {
@@ -74,7 +73,7 @@ fn leaves(path: String, here: &Value, found: &mut Vec<String>) {
                 leaves(path, inner, found);
             }
         }
-        // Parts of a scene come in lists as well.
+        // Parts of a scenario may be in lists, too.
         Value::Array(entries) if entries.len() <= LIST || entries.iter().all(Value::is_object) => {
             entries.iter().enumerate().for_each(|(i, inner)| leaves(format!("{path}[{i}]"), inner, found));
         }

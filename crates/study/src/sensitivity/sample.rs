@@ -1,4 +1,4 @@
-//! What a variant of a scenario comes to: a run in memory, and steady motion where it is asked for.
+//! Results of a variant of the scenario: from a run in memory, and from its periodic orbit if requested.
 
 use super::figure::{self, Figure, Reading};
 use crate::steady::{self, Options, SteadyError};
@@ -11,56 +11,57 @@ use stickslip_run::{Job, Summary, Watcher};
 use stickslip_scenario::{PlotName, Scenario, ScenarioError};
 use thiserror::Error;
 
-/// How often something happened, by who and what.
+/// Numbers of events by source and kind.
 pub(super) type Happened = BTreeMap<(String, String), usize>;
 
-/// What a variant came to.
+/// Results of a variant.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(super) struct Sample {
-    /// The figures in their order; none where there is no such figure.
+    /// Results in their order; `None` if missing.
     pub(super) figures: Vec<Option<f64>>,
-    /// Events of the run; none where none was asked for.
+    /// Events of the run; empty without a run.
     #[serde(with = "crate::journal::pairs")]
     pub(super) happened: Happened,
 }
 
-/// Why there is none.
+/// Reason why a result is missing.
 #[derive(Debug, Clone, PartialEq, Error, Serialize, Deserialize)]
 pub enum Missing {
-    /// Nobody computed it: the command was interrupted before.
+    /// The command was interrupted before.
     #[error("not run")]
     NotRun,
-    /// The value makes no scenario.
+    /// The value does not give a valid scenario.
     #[error("refused: {0}")]
     Refused(String),
-    /// The run stopped itself.
+    /// The run stopped early.
     #[error("stopped: {0}")]
     Stopped(String),
-    /// The figure is not there.
-    #[error("the figure is not there")]
+    /// The run does not have this result.
+    #[error("the result does not exist")]
     Absent,
-    /// Values that no smooth curve leads through, however near.
-    #[error("no smooth change is seen")]
+    /// The values do not approach a smooth curve at any distance.
+    #[error("the result does not change smoothly")]
     Rough,
 }
 
-/// What a run leaves.
+/// Data of a run.
 pub(super) struct Ran {
     pub(super) summary: Value,
     end: HashMap<String, f64>,
     happened: Happened,
 }
 
-/// Events this near to the end of a run, as a share of it, are at its end, on one side of it or the other.
+/// Events this close to the end of a run, relative to its duration, are ignored. Rounding decides on which side of the
+/// end they are.
 const END: f64 = 1e-9;
 
 impl Ran {
-    /// The last value of a channel.
+    /// Returns the last value of a channel.
     pub(super) fn at_end(&self, channel: &str) -> Option<f64> {
         self.end.get(channel).copied()
     }
 
-    /// What happened.
+    /// Returns the events.
     pub(super) fn happened(self) -> Happened {
         self.happened
     }
@@ -87,18 +88,18 @@ impl Ran {
             .skip(1)
             .filter_map(|channel| Some((channel.name.clone(), last(&channel.name)?)));
         let end = end.collect();
-        // A summary is numbers and strings: there is nothing that JSON could refuse.
+        // The summary consists of numbers and strings, for which JSON has no errors.
         let summary = serde_json::to_value(Summary::new(job, &outcome)).unwrap_or_default();
         Ok(Self { summary, end, happened })
     }
 }
 
-/// A scenario as derivatives are taken of it: by the stepper that locates events, with nothing written, for as long as it takes.
+/// Prepares a scenario for derivatives: integrator with event location, no output files, no limit of wall time.
 pub(super) fn ready(mut scenario: Scenario, name: &str, tolerance: f64) -> Result<Job, ScenarioError> {
     scenario.plan.stepper = Stepper::Event { tolerance };
     scenario.plan.limits.wall = None;
     (scenario.springs, scenario.memory, scenario.fields) = (None, None, None);
-    // Moments of events are kept for whoever draws them.
+    // Event times are only kept for runs with a plot of events.
     scenario.plots = vec![PlotName::Events];
     scenario.own_plots.clear();
     scenario.written.digits = None;
@@ -108,30 +109,30 @@ pub(super) fn ready(mut scenario: Scenario, name: &str, tolerance: f64) -> Resul
     Job::new(scenario, name.to_owned(), PathBuf::new())
 }
 
-/// A job with a number at another value.
+/// Returns a job with another value of a parameter.
 pub(super) fn variant(job: &Job, path: &str, value: f64, tolerance: f64) -> Result<Job, Missing> {
-    // Whatever is a default in the file stands in the resolved scenario, and the points of tables.
+    // The resolved scenario contains defaults and the points of tables.
     let value = format!("{value:e}");
     let scenario = Scenario::from_str_with(&job.resolved, &job.name, "", &[(path, &value)]);
     let refused = |error: ScenarioError| Missing::Refused(one_line(&error.to_string()).to_owned());
     ready(scenario.map_err(refused)?, &job.name, tolerance).map_err(refused)
 }
 
-/// A job with rows at its beginning and its end alone.
+/// Returns a job with rows at start and end only.
 pub(super) fn without_rows(mut job: Job) -> Job {
     job.scenario.plan.every = Some(job.scenario.plan.duration);
     job
 }
 
 impl Sample {
-    /// Reads figures of a job.
+    /// Computes results of a job.
     pub(super) fn of(
         job: &Job,
         figures: &[Figure],
         tolerance: f64,
         watcher: &dyn Watcher,
     ) -> Result<Self, Missing> {
-        // What is read and built before a run takes its time, too.
+        // Reading and building take time before the run.
         if !watcher.goes_on() {
             return Err(Missing::NotRun);
         }
@@ -159,7 +160,7 @@ impl Sample {
     }
 }
 
-/// Step, m, and speed, m/s, of steady motion; none where it is not found.
+/// Returns step length, m, and mean velocity, m/s, of the periodic orbit. Returns `None` if none is found.
 fn steadily(job: &Job, tolerance: f64, watcher: &dyn Watcher) -> Result<Option<[f64; 2]>, Missing> {
     match find_steady(job, tolerance, watcher) {
         Ok(found) => Ok(found),
@@ -168,7 +169,7 @@ fn steadily(job: &Job, tolerance: f64, watcher: &dyn Watcher) -> Result<Option<[
     }
 }
 
-/// The same with the reason.
+/// Returns the same as [`steadily`], with the reason if none is found.
 pub(super) fn find_steady(
     job: &Job,
     tolerance: f64,
@@ -177,14 +178,14 @@ pub(super) fn find_steady(
     let goes_on = || watcher.goes_on();
     let options = Options { tolerance, goes_on: &goes_on, ..Options::default() };
     let found = steady::find(job, &options)?;
-    // Of a step that is none the derivatives are those of what it may be off.
+    // A step length below its error has no meaningful derivative.
     if found.step.is_some() && !found.steps() {
         return Err(SteadyError::NoStep { least: found.bound });
     }
     Ok(found.step.zip(found.speed()).map(|(step, speed)| [step, speed]))
 }
 
-/// What is wrong without the excerpt of the file and the help, which stand below it.
+/// Returns the first line of an error message, without excerpt and help.
 fn one_line(fault: &str) -> &str {
     fault.lines().next().unwrap_or_default()
 }

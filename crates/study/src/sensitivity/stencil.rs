@@ -1,17 +1,19 @@
-//! Slopes from values on both sides of a place, or on one, and how far they may be off.
+//! Slopes and limits by polynomial extrapolation from both sides or one side, with error estimates.
 //!
-//! A polynomial through values at distances that shrink by a fixed share is what Richardson's extrapolation of differences
-//! comes to (L. F. Richardson, *Phil. Trans. R. Soc. A* 210 (1911) 307). Through values far out it misses bends, through values
-//! near by it magnifies noise. As in C. J. F. Ridders, *Adv. Eng. Softw.* 4 (1982) 75, all stretches of neighbouring distances
-//! are tried: the bends that one misses are what changes when its outermost or its innermost distance is left out, its noise is
-//! that of the values times the sum of its weights. The stretch for which both together are least is taken. Far out neighbouring
-//! distances may agree by accident, as where all of them are beyond a bend: a stretch that one nearer by contradicts is left out, and
-//! its error is at least what the next two make of it.
+//! The polynomial through values at geometrically decreasing distances is Richardson's extrapolation (L. F. Richardson,
+//! *Phil. Trans. R. Soc. A* 210 (1911) 307). Large distances cause truncation
+//! errors, small distances magnify noise. As in C. J. F. Ridders, *Adv. Eng. Softw.* 4 (1982) 75, all ranges of
+//! neighbouring distances are tried. The truncation error is the change if the
+//! outermost or innermost distance is omitted. The noise is that of the values times the norm of the weights. The range
+//! with the smallest sum of both is chosen.
+//!
+//! Outer distances may agree by accident, for example beyond a corner. A range that contradicts one nearer to the point
+//! is rejected, and its error is at least its difference to the next two.
 
-/// A distance, or a pair of them to both sides, with the values there.
+/// Values at a distance, or at a pair of distances on both sides.
 pub(super) type Level = Vec<(f64, f64)>;
 
-/// A value, how far it may be off, and the largest distance that it is from.
+/// Estimate with its error and the largest distance used.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Estimate {
     pub(super) value: f64,
@@ -19,31 +21,31 @@ pub(super) struct Estimate {
     pub(super) reach: f64,
 }
 
-/// What is asked of a function at the place itself.
+/// Requested quantity at the point itself.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Wanted {
     Value,
     Slope,
 }
 
-/// Fewest and most distances in a stretch: by then rounding alone is left.
+/// Minimum and maximum number of distances in a range. More distances would only add rounding errors.
 const FEWEST: usize = 3;
 const MOST: usize = 4;
-/// How many stretches nearer by must agree within the error: that of one alone may be small by accident.
+/// Number of inner ranges that must agree within the error, because a single one may agree by accident.
 const WITNESSES: usize = 2;
-/// Bends that matter, as a share of a slope.
+/// Smallest relevant truncation error, relative to the slope.
 const COUNTS: f64 = 1e-6;
-/// Noise is a standard deviation; an error is what hardly any is beyond.
+/// Factor from the standard deviation of the noise to an error bound.
 const HARDLY_ANY: f64 = 4.0;
 
-/// A stretch of levels.
+/// Estimate from one range of levels.
 struct Stretch {
     estimate: Estimate,
-    /// How much of its error are bends.
+    /// Truncation error, a part of the error.
     bends: f64,
 }
 
-/// The stretch of these levels alone.
+/// Returns the estimate from all given levels.
 fn stretch(levels: &[Level], own: Option<f64>, wanted: Wanted, noise: f64) -> Stretch {
     let fit = |levels: &[Level]| {
         let own = own.map(|value| (0.0, value));
@@ -59,11 +61,11 @@ fn stretch(levels: &[Level], own: Option<f64>, wanted: Wanted, noise: f64) -> St
     Stretch { estimate: Estimate { value, error, reach }, bends }
 }
 
-/// The best estimate from levels, the outermost first, with the value at the place itself where it belongs to them. None from
-/// fewer than three levels.
+/// Returns the best estimate from levels, the outermost first. `own` is the value at the point itself if it belongs to
+/// them. Returns `None` for fewer than three levels.
 pub(super) fn estimate(levels: &[Level], own: Option<f64>, wanted: Wanted, noise: f64) -> Option<Estimate> {
     let mut best: Option<Estimate> = None;
-    // The best of each outermost distance, the nearest last.
+    // Best estimate for each outermost distance; the innermost last.
     let mut nearer: Vec<Estimate> = Vec::new();
     for first in (0..levels.len().saturating_sub(FEWEST - 1)).rev() {
         let ends = first + FEWEST..=levels.len().min(first + MOST);
@@ -82,7 +84,7 @@ pub(super) fn estimate(levels: &[Level], own: Option<f64>, wanted: Wanted, noise
     best
 }
 
-/// Whether levels still nearer would say more: the nearest of these bend by more than noise and by more than counts.
+/// Returns whether closer levels would improve the slope: truncation errors dominate noise and are relevant.
 pub(super) fn bends_near_by(levels: &[Level], own: Option<f64>, noise: f64) -> bool {
     let Some(first) = levels.len().checked_sub(FEWEST) else { return false };
     let Stretch { estimate: Estimate { value, error, .. }, bends } =
@@ -90,7 +92,7 @@ pub(super) fn bends_near_by(levels: &[Level], own: Option<f64>, noise: f64) -> b
     bends > 0.5 * error && bends > COUNTS * value.abs()
 }
 
-/// The value or the slope at 0 of the polynomial through some points, and by how much noise of theirs is magnified in it.
+/// Returns value or slope at 0 of the polynomial through some points, and the noise amplification.
 fn extrapolate(points: &[(f64, f64)], wanted: Wanted) -> (f64, f64) {
     let weights = (0..points.len()).map(|i| weight(points, i, wanted));
     let (mut value, mut squares) = (0.0, 0.0);
@@ -101,7 +103,7 @@ fn extrapolate(points: &[(f64, f64)], wanted: Wanted) -> (f64, f64) {
     (value, squares.sqrt())
 }
 
-/// Weight of point `i`: the value or the slope at 0 of Lagrange's polynomial, 1 there and 0 at all others.
+/// Returns the weight of point `i`: value or slope at 0 of the Lagrange polynomial.
 fn weight(points: &[(f64, f64)], i: usize, wanted: Wanted) -> f64 {
     let own = points[i].0;
     let product = |left_out: usize| -> f64 {
@@ -116,9 +118,11 @@ fn weight(points: &[(f64, f64)], i: usize, wanted: Wanted) -> f64 {
     }
 }
 
-/// Standard deviation of the noise of values at equal distances, by their fourth differences, which leave little of anything
-/// smooth: of independent noise their variance is 70 times its own (J. J. Moré, S. M. Wild, *SIAM J. Sci. Comput.* 33 (2011)
-/// 1292). None of fewer than five.
+/// Returns the standard deviation of noise from fourth differences of equidistant values. Returns `None` for fewer than
+/// five values.
+///
+/// Smooth functions have small fourth differences; for independent noise, their variance is 70 times its own (J. J.
+/// Moré, S. M. Wild, *SIAM J. Sci. Comput.* 33 (2011) 1292).
 pub(super) fn noise(values: &[f64]) -> Option<f64> {
     let fourth = |w: &[f64]| w[0] - 4.0 * w[1] + 6.0 * w[2] - 4.0 * w[3] + w[4];
     let squares: Vec<f64> = values.windows(5).map(|window| fourth(window).powi(2) / 70.0).collect();
@@ -140,7 +144,7 @@ mod tests {
         (0..count).map(|k| vec![(at(k), f(at(k)))]).collect()
     }
 
-    /// Noise of standard deviation 1, evenly spread, which is the same in every run of the test (Steele's mixer of bits).
+    /// Reproducible uniform noise with standard deviation 1 (Steele's bit mixer).
     fn rough(x: f64) -> f64 {
         let mixed = (x.to_bits() ^ (x.to_bits() >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
         let mixed = (mixed ^ (mixed >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
@@ -153,7 +157,7 @@ mod tests {
         let f = |x: f64| 2.0 + 3.0 * x - 5.0 * x.powi(2) + 7.0 * x.powi(3);
         let slope = estimate(&both(f, 0.1, 4), None, Wanted::Slope, 1e-16).unwrap();
         assert!((slope.value - 3.0).abs() < 1e-12 && (slope.value - 3.0).abs() <= slope.error, "{slope:?}");
-        // Without the value itself a parabola is all that is left to compare with.
+        // Without the value itself, only a parabola is available for comparison.
         for (own, sharp) in [(None, 1e-5), (Some(2.0), 1e-8)] {
             let slope = estimate(&above(f, 0.1, 7), own, Wanted::Slope, 1e-16).unwrap();
             assert!((slope.value - 3.0).abs() <= slope.error && slope.error < sharp, "{own:?} {slope:?}");
@@ -162,7 +166,7 @@ mod tests {
         assert!((value.value - 2.0).abs() <= value.error && value.error < 1e-9, "{value:?}");
     }
 
-    /// Bends of any size beside noise of any size: sin(kx + 1) has the slope k cos 1.
+    /// Curvature and noise of any size: sin(kx + 1) has the slope k cos 1.
     #[test]
     fn errors_hold_what_is_off() {
         for wave in [0.3, 5.0, 100.0, 3e3] {
@@ -172,7 +176,7 @@ mod tests {
                 let slope = estimate(&both(f, 1.0 / 128.0, 7), None, Wanted::Slope, noise).unwrap();
                 let off = (slope.value - wanted).abs();
                 assert!(off <= slope.error, "{wave} {noise:e}: {off:e} {slope:?}");
-                // And they are no empty words: noise over the distance at which bends begin.
+                // The error is not too large, either: noise divided by the distance at which curvature matters.
                 let scale = wave.max(1.0) * noise.powf(0.6) * 1e3;
                 assert!(slope.error <= scale.max(1e-10), "{wave} {noise:e}: {slope:?} {scale:e}");
             }
@@ -188,7 +192,7 @@ mod tests {
         assert!(right.error + left.error < 1e-6);
     }
 
-    /// Beyond a bend a figure may be flat, or smooth in another way: what is near by decides.
+    /// Beyond a corner the result may be constant or have another slope: values near the point decide.
     #[test]
     fn what_agrees_far_out_is_not_taken_for_what_is_near() {
         for bend in [1e-4, 1e-5, 1e-6] {

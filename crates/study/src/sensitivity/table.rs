@@ -1,4 +1,4 @@
-//! What is told of derivatives: a table, and all of it in JSON.
+//! Output of derivatives: `sensitivity.csv` and `sensitivity.json`.
 
 use super::{Derivative, Missing, Sensitivity, Slope, Split, Taken};
 use crate::published::{self, Names};
@@ -11,87 +11,91 @@ use stickslip_run::Real;
 use stickslip_run::files::{PARTIAL_SENSITIVITY, SENSITIVITY};
 use stickslip_run::folder::Folder;
 
-/// Names of the table and of what is told of all: of derivatives, and of those that were interrupted, beside which finished ones stay.
+/// Names of table and report, of complete and of interrupted derivatives. Interrupted ones do not replace complete
+/// ones.
 const NAMES: Names = [["sensitivity.csv", SENSITIVITY], ["sensitivity-partial.csv", PARTIAL_SENSITIVITY]];
 
-/// Names of all files that derivatives are written to, pictures apart.
+/// Returns the names of all files of derivatives except plots.
 pub fn all_files() -> impl Iterator<Item = String> {
     NAMES.into_iter().flatten().map(str::to_owned)
 }
 
-/// All numbers; written last.
+/// Content of `sensitivity.json`. It is written last.
 #[derive(Debug, Serialize, JsonSchema)]
 struct Report<'a> {
     /// name of the scenario
     scenario: &'a str,
-    /// SHA-256 of the resolved scenario
+    /// SHA-256 of the complete scenario, with all defaults and --set values
     scenario_sha256: &'a str,
     /// name and version of the program
     program: &'a str,
-    /// `done`, or `interrupted`: then the file is `sensitivity-partial.json`
+    /// end of the computation: `done` or `interrupted`. Interrupted results are in `sensitivity-partial.json`.
     status: &'static str,
-    /// local error per step of the runs, in natural scales
+    /// local error per time step of the runs, relative to the natural scales
     tolerance: Real,
-    /// runs that were done beside that of the scenario as it stands
+    /// number of runs, without that of the unchanged scenario
     runs: usize,
     figures: Vec<FigureReport<'a>>,
     /// names of all files that were written together
     #[serde(skip_serializing_if = "Vec::is_empty")]
     files: Vec<String>,
-    /// SHA-256 of `sensitivity.csv`
+    /// SHA-256 of sensitivity.csv
     #[serde(skip_serializing_if = "Option::is_none")]
     table_sha256: Option<String>,
 }
 
 #[derive(Debug, Serialize, JsonSchema)]
 struct FigureReport<'a> {
-    /// name of the figure: a number of summary.json, a channel at the end of the run, or one of steady motion
+    /// name of the result: a number of summary.json, a channel at the end of the run, or a result of the periodic orbit
     name: &'a str,
-    /// its SI unit; empty of a plain number
+    /// SI unit of the result, empty for a plain number
     unit: &'a str,
-    /// what it is in the scenario as it stands, by the tolerance of the derivatives
+    /// value of the result in the unchanged scenario, computed with the tolerance of the derivatives
     value: Real,
-    /// standard deviation of what is no smooth change in it between neighbouring runs; none where it could not be measured
+    /// numerical noise of the result: standard deviation of its irregular differences between neighbouring runs. null
+    /// if it could not be measured.
     noise: Option<Real>,
     derivatives: Vec<Row<'a>>,
 }
 
-/// A slope, or why there is none.
+/// Derivative, or the reason why there is none.
 #[derive(Debug, Serialize, JsonSchema)]
 pub(super) struct Row<'a> {
-    /// key path of the number that the derivative is with respect to
+    /// path of the parameter with respect to which the derivative is taken
     quantity: &'a str,
-    /// its SI unit; empty of a plain number
+    /// SI unit of the parameter, empty for a plain number
     quantity_unit: &'a str,
-    /// what it is in the scenario
+    /// value of the parameter in the scenario
     quantity_value: Real,
-    /// `below` or `above` of slopes that hold on one side of the quantity's value; none of those that hold on both
+    /// side of the parameter value on which a one-sided derivative holds: `below` or `above`. Empty or absent if it
+    /// holds on both sides.
     #[serde(skip_serializing_if = "Option::is_none")]
     side: Option<&'static str>,
-    /// change of the figure per change of the quantity
+    /// derivative of the result with respect to the parameter
     derivative: Option<Real>,
-    /// how far that may be off: by bends that the extrapolation misses and by measured noise
+    /// uncertainty of the derivative: remaining curvature plus measured noise
     derivative_error: Option<Real>,
-    /// unit of both
+    /// unit of derivative and derivative_error
     unit: String,
-    /// by how many per cent the figure changes with one per cent of the quantity; none of figures that are 0
+    /// elasticity: relative change of the result divided by the relative change of the parameter (% per %). Empty or
+    /// null if the result is 0.
     elasticity: Option<Real>,
-    /// how far that may be off
+    /// uncertainty of the elasticity
     elasticity_error: Option<Real>,
-    /// how far from its value the quantity was in the farthest run that counts, in its unit
+    /// largest change of the parameter in the runs that were used, in its unit
     #[serde(skip_serializing_if = "Option::is_none")]
     reach: Option<Real>,
-    /// what differs between the sides: `kink` (the slopes), `jump` (the figure itself), `events` (one appears or vanishes),
-    /// `one_sided` (the other is refused, stops or has no such figure)
+    /// difference between both sides: `kink` (the slopes differ), `jump` (the result jumps), `events` (an event appears
+    /// or vanishes) or `one_sided` (the other side is invalid, stops or has no such result)
     #[serde(skip_serializing_if = "Option::is_none")]
     split: Option<&'static str>,
-    /// why there is none, or why both sides have their own
+    /// reason why the derivative does not exist or differs between both sides
     #[serde(skip_serializing_if = "Option::is_none")]
     note: Option<String>,
 }
 
 impl Sensitivity {
-    /// Unit of the derivative of a figure with respect to a quantity, by their places.
+    /// Returns the unit of the derivative of a result with respect to a parameter, both given by index.
     #[must_use]
     pub fn unit(&self, (f, q): (usize, usize)) -> String {
         let (of, to) = (self.figures[f].unit, self.quantities[q].unit);
@@ -135,7 +139,7 @@ impl Sensitivity {
         }
     }
 
-    /// The rows of a figure, the largest elasticity first.
+    /// Returns the rows of a result, the largest elasticity first.
     fn rows(&self, taken: &Taken, f: usize) -> Vec<Row<'_>> {
         let of = |q: usize| {
             let derivative = &taken.derivatives[f][q];
@@ -153,8 +157,8 @@ fn bracketed(unit: &str) -> String {
     if unit.contains(['/', ' ']) { format!("({unit})") } else { unit.to_owned() }
 }
 
-/// As CSV: each figure's derivatives, the largest elasticity first. Numbers have as many digits as it takes to read the same bits
-/// back; a cell is empty where there is no such number.
+/// Returns the derivatives of each result as CSV, the largest elasticity first. Numbers have enough digits to restore
+/// all bits. Unknown values are empty.
 #[must_use]
 pub fn csv(asked: &Sensitivity, taken: &Taken) -> String {
     let mut table = "figure,figure_unit,figure_value,quantity,quantity_unit,quantity_value,side,derivative,derivative_error,unit,\
@@ -184,24 +188,28 @@ fn number(table: &mut String, number: Option<Real>) {
     };
 }
 
-/// A cell: names may have whatever a scenario gives them.
+/// Returns a text as a CSV cell, quoted if necessary.
 fn quoted(text: &str) -> String {
     let is_plain = !text.contains(['"', ',', '\n', '\r']);
     if is_plain { text.to_owned() } else { format!("\"{}\"", text.replace('"', "\"\"")) }
 }
 
-/// All numbers on one line of JSON.
+/// Returns all numbers in one line of JSON.
 #[must_use]
 pub fn json(asked: &Sensitivity, taken: &Taken) -> String {
-    // Numbers and strings only: there is nothing that JSON could refuse.
+    // Numbers and strings only: serialisation cannot fail.
     serde_json::to_string(&report(asked, taken)).unwrap_or_default()
 }
 
-/// Writes the table, `sensitivity.json` and pictures into a folder; pictures of the names `stale` that are not among them go. What was
-/// interrupted is written to `sensitivity-partial.csv` and `sensitivity-partial.json`, and goes with the next whole one. Returns the names.
+/// Writes the table, `sensitivity.json` and plots into a folder, and deletes the plots named `stale` that are not among
+/// them. Returns the names.
+///
+/// Interrupted results are written to `sensitivity-partial.csv` and `sensitivity-partial.json`; the next complete ones
+/// delete these.
 ///
 /// # Errors
-/// What the system says; nothing that was there is gone then, unless it says so while names are given.
+/// Error of the operating system. Existing files remain, unless the error occurs while the new files receive their
+/// names.
 pub fn write(
     folder: Folder,
     (asked, taken): (&Sensitivity, &Taken),
@@ -235,7 +243,7 @@ fn report<'a>(asked: &'a Sensitivity, taken: &Taken) -> Report<'a> {
     }
 }
 
-/// What every key of `sensitivity.json` and every column of `sensitivity.csv` is.
+/// Returns the definitions of all keys of `sensitivity.json` and of all columns of `sensitivity.csv`.
 pub(crate) fn definitions() -> Vec<Definition> {
     let slopes = stickslip_quantity::report::<Row<'_>>(NAMES[0][0])
         .into_iter()

@@ -1,7 +1,8 @@
-//! What a run ends on that leaves an unstable motion.
+//! Motion after leaving an unstable periodic orbit.
 //!
-//! All numbers of the motion are disturbed a little, and plain periods follow until their states come back: after one period, that
-//! is another steady motion, or after several, as where a period has doubled. What never comes back beats or is irregular.
+//! All unknowns of the orbit are disturbed slightly and the drive is simulated until its states repeat. The result is
+//! another orbit of the same or a multiple period (period
+//! doubling), an oscillation that never repeats, or irregular motion.
 
 use super::map::Map;
 use super::{Options, Steady, SteadyError};
@@ -12,54 +13,55 @@ use stickslip_drive::{RunError, State};
 use stickslip_measure::{Bounds, Settling};
 use stickslip_run::{Job, Real, quantity};
 
-/// By how much every number is disturbed, in natural scales; less where that would take a memory apart.
+/// Disturbance of every unknown, in natural scales. The smaller ones are used if a slip memory does not allow the
+/// larger ones.
 const DISTURBED: [f64; 3] = [1e-2, 1e-4, 1e-6];
-/// A run this many disturbances away has left.
+/// Distance from the orbit, in disturbances, at which the run has left it.
 const LEFT: f64 = 10.0;
-/// Most periods after which a state is looked for again.
+/// Longest period of a repeating motion, in drive periods.
 const MOST: usize = 64;
-/// How near it must be in the end, in natural scales: twice as long a pattern may differ by little.
+/// Largest difference of repeated states, in natural scales; twice as long patterns may differ little.
 const NEAR: f64 = 1e-7;
-/// Times that the disturbance grows by e until it is as large as the motion, twice, and periods to find a pattern then.
+/// Limit of the simulation: time constants of the disturbance, plus a number of periods.
 const FOLDS: f64 = 10.0;
 const THEN: f64 = 1e3;
-/// What is that much nearer after a pattern is on its way there.
+/// Largest ratio of successive differences that counts as decay towards a repeating motion.
 const FALLING: f64 = 0.9;
-/// A beat that changes by more than this share, from its first step to its last, is on its way.
+/// Relative change of the oscillation amplitude over the steps above which the motion is not settled.
 const GROWN: f64 = 0.01;
-/// What is rounding.
+/// Differences below this value, in natural scales, are rounding errors.
 const ROUNDING: f64 = 1e-9;
-/// Coarser than the search: what is looked for are patterns.
+/// Tolerance of the runs, coarser than that of the search.
 const TOLERANCE: f64 = 1e-9;
 
-/// What a run comes to.
+/// Type of motion at the end of the simulation.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Ending {
-    /// It repeats itself after so many periods.
+    /// It repeats itself after this number of periods.
     Repeats(usize),
-    /// It beats with this many periods, or a part of them, and never repeats itself.
+    /// It oscillates with this period in drive periods, or a fraction of it, and never repeats.
     Beats(f64),
-    /// It has no pattern.
+    /// It is irregular.
     Irregular,
-    /// It is still on its way: away from the motion, or to whatever it ends on.
+    /// It has not settled.
     Underway,
-    /// It stops.
+    /// The run stopped with an error.
     Stops(RunError),
 }
 
-/// Where a run has got to that leaves a motion.
+/// Result of the simulation after leaving an unstable orbit.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Aftermath {
-    /// What it does at the end.
+    /// Type of motion at the end.
     pub ending: Ending,
-    /// Periods until then.
+    /// Number of simulated periods.
     pub periods: usize,
-    /// The steps that repeat themselves, m, else those of the last half; none where no body steps.
+    /// Step lengths of the repeating pattern, m, or else those of the last half. Empty if no body makes steps.
     pub steps: Vec<f64>,
 }
 
 impl Aftermath {
-    /// Mean, shortest and longest step, m.
+    /// Returns mean, smallest and largest step length, m.
     #[must_use]
     pub fn range(&self) -> Option<[f64; 3]> {
         let [least, most] = [f64::min, f64::max].map(|pick| self.steps.iter().copied().reduce(pick));
@@ -67,32 +69,32 @@ impl Aftermath {
         Some([mean, least?, most?])
     }
 
-    /// In words: `steps that repeat themselves every 5 periods, …`.
+    /// Returns a description of the motion.
     #[must_use]
     pub fn words(&self) -> String {
         let after = format!("after {} periods", self.periods);
         let length = |x: f64| quantity(Real(x), "m");
         let steps = self.range().map_or_else(String::new, |[mean, least, most]| match self.ending {
-            Ending::Repeats(1) => format!(", {} a period", length(mean)),
+            Ending::Repeats(1) => format!(", {} per period", length(mean)),
             _ => format!(", {} to {}, {} on average", length(least), length(most), length(mean)),
         });
         match &self.ending {
-            Ending::Repeats(1) => format!("another steady motion{steps}, {after}"),
+            Ending::Repeats(1) => format!("another periodic orbit{steps}, {after}"),
             Ending::Repeats(count) => {
-                format!("a motion that repeats itself every {count} periods{steps}, {after}")
+                format!("a periodic orbit of {count} drive periods{steps}, {after}")
             }
             Ending::Beats(period) => {
                 format!("a motion that oscillates with a period of {period:.2} drive periods{steps}, {after}")
             }
             Ending::Irregular => format!("irregular motion{steps}, {after}"),
             Ending::Underway => format!("not settled {after}{steps}"),
-            Ending::Stops(error) => format!("a run that stops {after}: {error}"),
+            Ending::Stops(error) => format!("an early end of the run {after}: {error}"),
         }
     }
 }
 
 impl Ending {
-    /// Its word in files.
+    /// Returns the name in output files.
     #[must_use]
     pub fn name(&self) -> &'static str {
         match self {
@@ -106,12 +108,12 @@ impl Ending {
 }
 
 impl Steady {
-    /// What a run ends on that is disturbed a little from this motion, within the periods of the options; none where it is stable,
-    /// or where no number of it can be disturbed.
+    /// Simulates the motion after a small disturbance of this orbit, within the periods of the options. Returns `None`
+    /// if the orbit is stable or no unknown can be disturbed.
     ///
     /// # Errors
     ///
-    /// An interruption.
+    /// Returns [`SteadyError::Interrupted`] if the search is interrupted.
     pub fn aftermath(&self, job: &Job, options: &Options<'_>) -> Result<Option<Aftermath>, SteadyError> {
         if self.is_stable() {
             return Ok(None);
@@ -122,7 +124,7 @@ impl Steady {
         let all = DVector::from_element(map.unknowns(), 1.0);
         let disturbed = DISTURBED.iter().find_map(|by| Some((map.moved(&self.state, &(&all * *by))?, *by)));
         let Some((state, by)) = disturbed else { return Ok(None) };
-        // Steps are those of whole periods, as a run tells them.
+        // Step lengths are those of whole periods, as in a run.
         let start = self.start(job)?;
         let periods = ((state.time() - start.time()) / self.period).ceil();
         let state = map.lead(state, start.time() + periods * self.period, &mut ())?;
@@ -152,11 +154,11 @@ impl Steady {
     }
 }
 
-/// Plain periods so far.
+/// Periods simulated so far.
 struct Way {
-    /// The last few, as if each stood at the section.
+    /// The last states, each reset to the Poincaré section.
     states: Vec<State>,
-    /// All, m.
+    /// All step lengths, m.
     steps: Vec<f64>,
 }
 
@@ -173,15 +175,17 @@ impl Way {
         Ok(())
     }
 
-    /// After how many periods the states come back, away from the motion that has been left: all of one round, each to where it
-    /// was a round before. A beat that fades passes near itself now and then.
+    /// Returns the number of periods after which the states repeat, away from the orbit that was left.
+    ///
+    /// All states of one cycle must agree with those of the cycle before. A decaying oscillation approaches itself only
+    /// occasionally.
     fn repeats(&self, map: &Map<'_>, (left, far): (&State, f64)) -> Option<usize> {
         let last = self.states.len() - 1;
         let apart = |k: usize, back: usize| -> Option<f64> {
             Some(map.difference(&self.states[k], &self.states[k.checked_sub(back)?])?.amax())
         };
         let has_left = |k: usize| map.difference(&self.states[k], left).is_none_or(|off| off.amax() > far);
-        // What is still to come of the way there, by its last two parts.
+        // Geometric extrapolation of the remaining difference from the last two.
         let to_come = |k: usize, back: usize| -> Option<f64> {
             let [now, before] = [apart(k, back)?, apart(k.checked_sub(back)?, back)?];
             Some(if now <= ROUNDING { 0.0 } else { now / (1.0 - now / before).max(0.0) })
@@ -191,15 +195,15 @@ impl Way {
                 .all(|k| last.checked_sub(k).and_then(|k| to_come(k, back)).is_some_and(|left| left <= NEAR))
         };
         let back = (1..=MOST).find(|back| comes_back(*back))?;
-        // What changes sides on its way comes back after two periods before it does after one, and a beat after as many as it has
-        // before it has faded.
+        // A decaying disturbance that alternates in sign repeats after two periods before it repeats after one. The
+        // same holds for a decaying oscillation and its period.
         let widest = |before: usize, part: usize| -> Option<f64> {
             let moments = (0..MOST).map(|k| apart(last.checked_sub(before + k)?, part));
             moments.collect::<Option<Vec<_>>>().map(|apart| apart.into_iter().fold(0.0, f64::max))
         };
         let is_falling = |part: usize| match (widest(0, part), widest(MOST, part)) {
             (Some(now), Some(before)) => now > ROUNDING && now < FALLING * before,
-            // Too early to tell.
+            // Too early to decide.
             _ => true,
         };
         let shorter = (1..back).any(|part| back % part == 0 && is_falling(part));
@@ -207,7 +211,7 @@ impl Way {
     }
 }
 
-/// What steps do that have not come back.
+/// Classifies step lengths that do not repeat.
 fn judged(steps: &[f64]) -> Ending {
     match Settling::of(steps, Bounds { least: 0.0, most: f64::INFINITY, error: 0.0 }) {
         Settling::Beats { period, growth: Some(growth), .. }

@@ -1,10 +1,13 @@
-//! How far the step of a fixed point may be off.
+//! Error of the step length of a fixed point.
 //!
-//! A state that misses the fixed point by e comes back with the defect r = (A - 1) e, so e = -(1 - A)⁻¹ r: what a geometric
-//! series of plain periods would add up to, r/(1 - ρ) along a single direction. The step misses by its gradient times that.
-//! What the run itself misses in a period, by its tolerance, is a defect, too: the same period by finer tolerances
-//! tells, the larger of what two of them do, since two runs may miss alike. Last, every number is rounded in every step: N steps
-//! and events leave N ε of a natural scale, and of the way gone. All are taken without regard to sign, and twice.
+//! A state with the error e has the defect r = (A - 1) e, so e = -(1 - A)⁻¹ r. The error of the step length is its
+//! gradient times e. Three defects contribute:
+//! * the remaining defect of the fixed point;
+//! * the integration error of a period: the larger difference to two runs with finer tolerances, because two runs may
+//!   have the same error;
+//! * rounding: N ε of each natural scale and of the displacement, for N time steps and events.
+//!
+//! Absolute values are added and doubled.
 
 use super::SteadyError;
 use super::map::{Gradient, Map};
@@ -12,23 +15,22 @@ use super::newton::{Fixed, solve};
 use nalgebra::{DMatrix, DVector};
 use stickslip_drive::scene::Axis;
 
-/// Tightest tolerance there is.
+/// Smallest tolerance of the integrator.
 const TIGHTEST: f64 = 1e-13;
-/// Tolerances by which it goes once more, in those of the search.
-// With the first alone 24 of 995 steps of drawn drives were off by more than their bound, one by 47 times: swings take as many nodes by a
-// tenth of 1e-9, and miss the same.
+/// Finer tolerances of the comparison runs, as a fraction of the tolerance.
+// Two are used: with one, a run of an oscillation may have the same nodes and the same error.
 const FINER: [f64; 2] = [0.1, 1e-3];
-/// Safety: the gradient is one of first order.
+/// Safety factor, because the estimate is of first order.
 const SAFETY: f64 = 2.0;
 
 pub(super) struct Bound {
-    /// Of the step, m.
+    /// Error of the step length, m.
     pub(super) step: f64,
-    /// At the fixed point.
+    /// Jacobian at the fixed point.
     pub(super) gradient: Gradient,
 }
 
-/// Bound of the step of a body, by the gradient at the fixed point.
+/// Computes the error of a body's step length, with the Jacobian at the fixed point.
 pub(super) fn bound(map: &mut Map<'_>, fixed: &Fixed, body: Option<usize>) -> Result<Bound, SteadyError> {
     let gradient = map.fine_gradient(&fixed.state, &fixed.image)?;
     let tightest = (TIGHTEST / map.tolerance()).min(1.0);
@@ -47,7 +49,7 @@ pub(super) fn bound(map: &mut Map<'_>, fixed: &Fixed, body: Option<usize>) -> Re
         let off = solve(left.clone(), defect).unwrap_or_else(|| DVector::zeros(count));
         along.iter().zip(off.iter()).map(|(a, off)| (a * off).abs()).sum::<f64>()
     };
-    // What rounding leaves of any number may have any sign.
+    // Rounding errors of each unknown may have any sign.
     let anything: f64 =
         (0..count).map(|j| missed(&DVector::from_fn(count, |i, _| if i == j { 1.0 } else { 0.0 }))).sum();
     let rounded = map.steps() as f64 * f64::EPSILON;

@@ -1,13 +1,19 @@
-//! Steady motions one after another, as a number of the scenario changes.
+//! Continuation of periodic orbits over a parameter of the scenario.
 //!
-//! A steady motion is a solution of P(s, q) - s = 0, and with q it traces a curve, its branch. It is followed from the motion of the
-//! scenario as it stands to both ends of a range of q, also where it turns back, whether or not a run would stay there: a step along
-//! the tangent, then Newton's method on s and q together (pseudo-arclength continuation; Keller 1977). What happens on the way is told at its
-//! place: folds, period doublings, Neimark–Sacker bifurcations, and events of a period that appear or vanish, where P has a corner.
+//! Periodic orbits solve P(s, q) - s = 0. With the parameter q, the solutions form a branch. The branch is followed
+//! from the orbit of the scenario to both ends of a range of q, also around
+//! folds and along unstable orbits. The method is pseudo-arclength continuation (Keller 1977): a step along the
+//! tangent, then Newton's method for s and q together. Folds, period doublings,
+//! Neimark–Sacker bifurcations and events that appear or vanish (corners of P) are located.
 //!
-//! In reading order: `place`, a state at a value and where a period leads it; `corrector`, Newton's method; `happened`, what happens in a
-//! period; `standing`, a motion of the branch with its tangent, `written`, as it stands in the journal; `bifurcation`, what may lie between two of them; `arm`, the way in one
-//! sense; `passage`, what lies between two of its motions; `beyond`, what lies beyond its end; `table`, what is told of it all.
+//! Modules in reading order:
+//! * `place`: a state at a parameter value with its image; `corrector`: Newton's method; `happened`: events of a
+//!   period.
+//! * `standing`: an orbit of the branch with its tangent; `written`: its form in the journal; `bifurcation`: special
+//!   points.
+//! * `arm`: the branch in one direction; `passage`: special points between two orbits; `beyond`: continuation after a
+//!   failed step.
+//! * `table`: output.
 
 mod arm;
 mod beyond;
@@ -38,16 +44,16 @@ use place::Bench;
 use standing::{Measure, Standing, by_value};
 use stickslip_run::Job;
 
-/// How a branch is followed.
+/// Options of a continuation.
 #[derive(Clone, Copy)]
 pub struct Course<'a> {
-    /// How each of its motions is looked for; `periods` is the most for the first one.
+    /// Options of the search for each orbit; `periods` applies to the first one.
     pub steady: Options<'a>,
-    /// Most points on either side of the start; default 1 000.
+    /// Maximum number of points on each side of the start; default 1000.
     pub points: usize,
-    /// How exactly places are told, as a share of the range: 1e-12 to 1e-3; default 1e-9.
+    /// Accuracy of special points, relative to the range: 1e-12 to 1e-3; default 1e-9.
     pub accuracy: f64,
-    /// Told how many motions there are on a side.
+    /// Receives the number of orbits on a side.
     pub told: &'a dyn Fn(usize),
 }
 
@@ -57,40 +63,40 @@ impl Default for Course<'_> {
     }
 }
 
-/// A number of a scenario and the range in which the steady motion is to be followed.
+/// Continuation of a scenario over a range of one parameter.
 pub struct Continuation {
-    /// The scenario, where the branch starts.
+    /// Scenario at the start of the branch.
     pub job: Job,
-    /// Key path of what is varied.
+    /// Key path of the parameter.
     pub path: String,
-    /// Its SI unit; empty for a plain number.
+    /// SI unit of the parameter; empty for a plain number.
     pub unit: &'static str,
-    /// Where the branch starts, SI.
+    /// Value at the start of the branch, SI.
     pub present: f64,
     /// Ends of the range, SI.
     pub range: [f64; 2],
-    /// Where steps along the branch are looked up and written down.
+    /// Journal with the steps along the branch.
     pub journal: Journal,
 }
 
-/// A branch of steady motions.
+/// A branch of periodic orbits.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Branch {
-    /// Along it, from the end that was come to against the sense of growing values.
+    /// Points in order along the branch, starting at the end in the direction of decreasing values.
     pub points: Vec<Point>,
-    /// What lies between them, likewise.
+    /// Special points between them, in the same order.
     pub marks: Vec<Mark>,
-    /// Place of the start among the points.
+    /// Index of the start among the points.
     pub start: usize,
-    /// Why it ends, at its first point and its last.
+    /// Reasons for the ends at the first and last point.
     pub ends: [End; 2],
 }
 
 impl Continuation {
-    /// A number of a job, by its key path, and its range, SI.
+    /// Creates a continuation over the parameter at a key path, with a range in SI units.
     ///
     /// # Errors
-    /// A path to nothing that can be varied, a range that is none or does not contain the start.
+    /// Fails if the path does not name a number, the range is empty, or the value of the scenario is outside the range.
     pub fn new(job: Job, path: &str, [from, to]: [f64; 2]) -> Result<Self, ContinuationError> {
         let found = job.scenario.parameter(path)?;
         let (unit, path) = (found.unit, path.to_owned());
@@ -108,7 +114,8 @@ impl Continuation {
     /// Follows the branch to both ends of the range.
     ///
     /// # Errors
-    /// No steady motion to start with, or a whole family of them.
+    /// Fails if there is no periodic orbit at the start, or a family of them, or the search is interrupted before the
+    /// first orbit.
     pub fn follow(&self, course: &Course<'_>) -> Result<Branch, ContinuationError> {
         let options = Options { periods: u32::MAX, told: &|_| (), ..course.steady };
         let bench = Bench::new((&self.job, &self.path), self.span(), options);
@@ -123,7 +130,7 @@ impl Continuation {
         Ok(joined(start.point, arms))
     }
 
-    /// Name of what heads its column, with the unit as in other tables: `contacts.ball.normal.force_N`.
+    /// Returns the column name with unit: `contacts.ball.normal.force_N`.
     #[must_use]
     pub fn head(&self) -> String {
         stickslip_quantity::names::with_unit(&self.path, self.unit)
@@ -133,7 +140,7 @@ impl Continuation {
         self.range[1] - self.range[0]
     }
 
-    /// The motion of the scenario as it stands.
+    /// Finds the orbit of the unchanged scenario.
     fn start(
         &self,
         bench: &Bench<'_>,
@@ -161,13 +168,13 @@ impl Continuation {
         let row = by_value(place.fixed.defect.len(), 1.0);
         let start = Standing::of(bench, place, period, (None, &row));
         let mut start = start.map_err(|trouble| match trouble {
-            // Here they have one.
+            // There is a common period at the start, but not for other values.
             Trouble::Steady(SteadyError::Incommensurate { first, second, .. }) => {
                 ContinuationError::Apart { path: path.clone(), first, second }
             }
             other => none(other),
         })?;
-        // Of (dx/dq, 1) only the direction has been kept.
+        // The tangent (dx/dq, 1) has been normalised and gives only the direction.
         let measure = Measure::of(&start.tangent);
         start.tangent /= measure.length(&start.tangent);
         Ok((start, measure))
@@ -175,19 +182,19 @@ impl Continuation {
 }
 
 impl Point {
-    /// Speed, m/s: step over period.
+    /// Returns the mean velocity, m/s: step length divided by period.
     #[must_use]
     pub fn speed(&self) -> Option<f64> {
         self.step.map(|step| step / self.period)
     }
 
-    /// Largest magnitude of a multiplier; 0 without any.
+    /// Returns the largest modulus of a multiplier; 0 without multipliers.
     #[must_use]
     pub fn radius(&self) -> f64 {
         self.multipliers.first().map_or(0.0, super::Multiplier::modulus)
     }
 
-    /// Whether a run that is disturbed a little comes back.
+    /// Returns whether no disturbance grows.
     #[must_use]
     pub fn is_stable(&self) -> bool {
         self.multipliers.iter().all(|multiplier| multiplier.kind() != super::Kind::Grows)
@@ -195,16 +202,16 @@ impl Point {
 }
 
 impl Branch {
-    /// Whether it was interrupted.
+    /// Returns whether the continuation was interrupted.
     #[must_use]
     pub fn is_cut(&self) -> bool {
         self.ends.contains(&End::Interrupted)
     }
 }
 
-/// Two arms about a start.
+/// Joins the two directions at the start.
 fn joined(start: Point, [mut back, mut ahead]: [Arm; 2]) -> Branch {
-    // Pieces are counted along the branch.
+    // Pieces are numbered along the branch.
     let last = back.points.last().map_or(0, |point| point.piece);
     back.points.iter_mut().for_each(|point| point.piece = last - point.piece);
     ahead.points.iter_mut().for_each(|point| point.piece += last);

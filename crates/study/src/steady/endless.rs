@@ -1,4 +1,4 @@
-//! A drive whose waveforms never end, and its period.
+//! Drive with endless waveforms, and its common period.
 
 use super::SteadyError;
 use serde_json::Value;
@@ -8,24 +8,28 @@ use stickslip_drive::{Model, Timing, Waveform};
 use stickslip_run::Job;
 use stickslip_scenario::Scenario;
 
-/// Longest common period that is looked for, in the longest period.
+/// Longest common period, as a multiple of the longest period.
 const MOST: u32 = 64;
-/// How far a ratio of periods may be from a whole number, relative to it: rounding of what was read.
+/// Relative tolerance for an integer ratio of periods, against rounding of the input.
 const WHOLE: f64 = 1e-12;
 
-/// A drive whose waveforms never end.
+/// Drive with endless waveforms.
 pub(super) struct Endless {
     pub(super) model: Model,
-    /// The state at t = 0.
+    /// Initial state at t = 0.
     pub(super) start: stickslip_drive::State,
     /// Period, s.
     pub(super) period: f64,
-    /// From when on everything repeats itself, s.
+    /// Time after which everything is periodic, s.
     pub(super) begins: f64,
 }
 
 impl Endless {
-    /// The drive of a job.
+    /// Creates it from a job.
+    ///
+    /// # Errors
+    /// Fails if a calling program commands a waveform, a waveform has neither period nor end, there is no common
+    /// period, or no coordinate is free.
     pub(super) fn of(job: &Job) -> Result<Self, SteadyError> {
         let mut scene = job.scenario.scene.clone();
         let idle = &job.model.spared().waveforms;
@@ -62,8 +66,8 @@ impl Endless {
     }
 }
 
-/// Whether a waveform of a job repeats itself, at a place of the scene: one that comes once, and is not that of the figures, is an
-/// event of the past.
+/// Returns whether the waveform with index `w` is periodic. A waveform of one cycle counts as finished, unless it is
+/// named in `figures`.
 fn repeats(job: &Job, w: usize) -> bool {
     let Some(Named { part, .. }) = job.scenario.scene.waveforms.get(w) else { return false };
     let once =
@@ -71,10 +75,10 @@ fn repeats(job: &Job, w: usize) -> bool {
     part.period().is_some() && !once
 }
 
-/// A job with the same drive, whose scenario says that its waveforms have no end; it runs on for as long as it would have from
-/// the time `start`, s, where it would be over by then.
+/// Returns a job of the same drive whose scenario has endless waveforms. If its run would end by the time `start`, s,
+/// the run is extended by its duration.
 pub(super) fn job(job: &Job, start: f64, folder: PathBuf) -> Result<Job, SteadyError> {
-    // What a scenario prints reads back.
+    // The resolved scenario can be read again.
     let mut form: Value = serde_json::from_str(&job.resolved).unwrap_or_default();
     for (w, Named { name, .. }) in job.scenario.scene.waveforms.iter().enumerate() {
         let Some(Value::Object(shapes)) = form.pointer_mut("/waveforms").and_then(|all| all.get_mut(name))
@@ -94,13 +98,13 @@ pub(super) fn job(job: &Job, start: f64, folder: PathBuf) -> Result<Job, SteadyE
     Ok(Job::new(scenario, job.name.clone(), folder)?)
 }
 
-/// The same waveform without an end.
+/// Returns the waveform without end.
 fn endless(waveform: &Waveform) -> Waveform {
     let timing = Timing { cycles: None, ..*waveform.given() };
     Waveform::new(waveform.shape().clone(), timing).unwrap_or_else(|_| waveform.clone())
 }
 
-/// The shortest time that is a whole number of every period.
+/// Returns the smallest common multiple of all periods.
 fn common(periods: &[(String, f64)]) -> Result<f64, SteadyError> {
     let longest = periods.iter().max_by(|a, b| a.1.total_cmp(&b.1)).ok_or(SteadyError::NoPeriod)?;
     let fits = |count: u32, period: f64| {

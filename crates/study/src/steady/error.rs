@@ -1,111 +1,111 @@
-//! Why no steady motion is found.
+//! Errors of the search for a periodic orbit.
 
 use super::never_slip;
 use stickslip_drive::{RunError, SceneError};
 use stickslip_scenario::ScenarioError;
 use thiserror::Error;
 
-/// Why no steady motion is found.
+/// Reason why no periodic orbit is found.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum SteadyError {
-    /// No waveform repeats itself.
-    #[error("no waveform of the scene has a period: there is nothing to be steady with")]
+    /// No waveform has a period.
+    #[error("no waveform has a period, so there is no periodic orbit")]
     NoPeriod,
-    /// A waveform that comes once and never ends.
-    #[error("the waveform \"{0}\" neither has a period nor comes to an end")]
+    /// A waveform has neither a period nor an end.
+    #[error("the waveform \"{0}\" has neither a period nor an end")]
     Endless(String),
-    /// A waveform that is whatever a caller says.
+    /// A calling program commands a waveform.
     #[error(
-        "the waveform \"{0}\" follows what a caller commands: it has no period of its own\n   help: put a waveform with a period in its place"
+        "a calling program commands the waveform \"{0}\", so it has no period\n   help: replace it by a waveform with a period"
     )]
     Commanded(String),
-    /// Two waveforms whose periods have no common multiple worth the name.
+    /// Two waveforms have no small common period.
     #[error(
-        "the waveforms \"{first}\" and \"{second}\" have periods of {} s and {} s and no common period below {most} of the longer\n   help: give them periods in the ratio of small whole numbers",
+        "the waveforms \"{first}\" and \"{second}\" have periods of {} s and {} s, but no common period below {most} of the longer ones\n   help: choose periods with a ratio of small integers",
         .periods[0], .periods[1]
     )]
     Incommensurate {
-        /// Name of one.
+        /// Name of the first waveform.
         first: String,
-        /// Name of the other.
+        /// Name of the second waveform.
         second: String,
-        /// Their periods, s.
+        /// Periods of both waveforms, s.
         periods: [f64; 2],
-        /// Longest common period that is looked for, in the longer one.
+        /// Longest common period, as a multiple of the longer period.
         most: u32,
     },
-    /// A motion without a step, where one is asked for.
+    /// The orbit has no step, but a step is required.
     #[error(
-        "there is no step{}\n   help: sensitivity tells figures of a run as well, without --steady and figures that begin with \"steady.\"",
-        if *.least > 0.0 { format!(": it is less than {:.3e} m, which is what it may be off", .least) } else { String::new() }
+        "there is no step{}\n   help: name results of a run, without --steady and results that begin with \"steady.\"",
+        if *.least > 0.0 { format!(": it is below its error of {:.3e} m", .least) } else { String::new() }
     )]
     NoStep {
-        /// How far the step may be off, m.
+        /// Error of the step length, m.
         least: f64,
     },
-    /// All bodies are led or held.
+    /// No coordinate is free.
     #[error(
-        "nothing is free in this scene: its motion is what it is told, and steady from the second period on"
+        "no coordinate is free: waveforms prescribe the motion, which is periodic from the second period on"
     )]
     NothingFree,
-    /// A body may go on along z, or turn, for ever.
+    /// Nothing holds the z position or the pitch of a body.
     #[error(
-        "nothing holds the {axis} of \"{body}\": its motion goes on and on\n   help: let a contact press on it, or fix it"
+        "no part holds the {axis} of \"{body}\", so its motion does not become periodic\n   help: add a contact, or make the coordinate \"fixed\""
     )]
     Drifts {
         /// Name of the body.
         body: String,
-        /// z or pitch.
+        /// Axis of the coordinate: `z` or `pitch`.
         axis: &'static str,
     },
-    /// All contacts of the figures' body are open all through the period.
+    /// All contacts of the body named in `figures` are open during the whole period.
     #[error(
-        "\"{body}\" is in the air all through the period: how far it flies is no step\n   help: press it on: by its weight, by a spring or a load along z"
+        "all contacts of \"{body}\" are open during the whole period, so its displacement is not a step\n   help: press the body against its contacts by gravity, a spring or a load along z"
     )]
     Flies {
         /// Name of the body.
         body: String,
-        /// Periods that were computed.
+        /// Number of simulated periods.
         periods: u32,
     },
-    /// The scene with waveforms that never end is none.
+    /// The model with endless waveforms is invalid.
     #[error(transparent)]
     Scene(#[from] SceneError),
-    /// The scenario with waveforms that never end is none.
+    /// The scenario with endless waveforms is invalid.
     #[error(transparent)]
     Scenario(#[from] ScenarioError),
-    /// A run stopped itself.
-    #[error("a period could not be computed: {0}")]
+    /// A run stopped with an error.
+    #[error("a period could not be simulated: {0}")]
     Run(#[from] RunError),
-    /// It takes more steps than were allowed.
-    #[error("no steady motion found within {steps} steps\n   help: allow more")]
+    /// The search needs more than the allowed number of time steps.
+    #[error("no periodic orbit found within {steps} time steps\n   help: allow more")]
     Costly {
-        /// Most steps altogether.
+        /// Maximum number of time steps.
         steps: u64,
     },
-    /// Every period adds the same to a state.
+    /// Every period adds the same amount to the state.
     #[error(
-        "no steady motion: each of {periods} periods in a row adds as much to {number}\n   help: what pulls may be more than friction holds, or the drive shakes at its own frequency what nothing damps: pull less, press harder, or damp it"
+        "no periodic orbit: {number} increases by the same amount in each of {periods} consecutive periods\n   help: the load may exceed the friction limit, or the drive may excite an undamped resonance: reduce the load, increase the normal force, or add damping"
     )]
     Gains {
-        /// The number to which most is added, in natural scales.
+        /// Unknown with the largest increase, in natural scales.
         number: String,
-        /// How many.
+        /// Number of periods.
         periods: u32,
     },
-    /// The iteration did not end.
+    /// The iteration did not converge.
     #[error(
-        "no steady motion found in {periods} periods: the best state comes back {best:.2e} natural lengths off\n   help: look at a plain run: it may repeat itself every second period, or never; start nearer, with a smaller stroke, or allow more periods"
+        "no periodic orbit found in {periods} periods: after a period, the best state differs by {best:.2e} natural lengths\n   help: simulate a long run: its period may be several drive periods, or it may be irregular; start with a smaller stroke, or allow more periods"
     )]
     NoConvergence {
         /// Smallest defect, in natural scales.
         best: f64,
-        /// Periods that were computed.
+        /// Number of simulated periods.
         periods: u32,
     },
-    /// The same where a contact never slips grossly.
+    /// The iteration did not converge, and some contacts never slip grossly.
     #[error(
-        "no steady motion found in {periods} periods: the best state comes back {best:.2e} natural lengths off\n   help: {}: what is held near a centre is held for ever, steady motions are a whole family (a shakedown), and a run comes near one of them slowly: look at a plain run, drive it further, so that all slip, or damp it",
+        "no periodic orbit found in {periods} periods: after a period, the best state differs by {best:.2e} natural lengths\n   help: {}, so the periodic orbits are a family (shakedown), and a run converges slowly: simulate a long run, increase the stroke until all contacts slip, or add damping",
         never_slip(contacts)
     )]
     Shakedown {
@@ -113,10 +113,10 @@ pub enum SteadyError {
         contacts: Vec<String>,
         /// Smallest defect, in natural scales.
         best: f64,
-        /// Periods that were computed.
+        /// Number of simulated periods.
         periods: u32,
     },
-    /// Its caller has had enough.
+    /// The caller interrupted the search.
     #[error("interrupted after {0} periods")]
     Interrupted(u32),
 }

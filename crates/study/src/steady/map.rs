@@ -1,6 +1,7 @@
-//! The map of a period. Its gradient: [`gradient`].
+//! Poincaré map of a period. Its Jacobian: [`gradient`].
 //!
-//! Numbers are counted in natural scales: u_c of a coordinate's contacts, u_c ω of its speed.
+//! Unknowns are measured in natural scales: the gross slip displacement u_c of a coordinate's contacts, and u_c ω for
+//! its velocity.
 
 mod gradient;
 
@@ -15,10 +16,10 @@ use stickslip_drive::section::{Section, Unknown};
 use stickslip_drive::{Limits, Model, Plan, Record, Run, RunError, State, Stepper};
 use stickslip_run::Job;
 
-/// Of periods that are less than this from a whole number of them the rest is rounding.
+/// Tolerance for whole numbers of periods, against rounding.
 const WHOLE: f64 = 1e-6;
 
-/// The map of a period.
+/// Poincaré map of a period.
 pub(super) struct Map<'m> {
     model: &'m Model,
     period: f64,
@@ -26,33 +27,34 @@ pub(super) struct Map<'m> {
     section: Option<Section<'m>>,
     scales: DVector<f64>,
     options: &'m Options<'m>,
-    /// In periods.
+    /// Number of simulated periods.
     work: f64,
-    /// Steps and events of the last period.
+    /// Time steps and events of the last period.
     steps: u64,
-    /// Steps that may still be taken.
+    /// Remaining number of time steps.
     left: u64,
 }
 
-/// Where a state has got to in a period.
+/// Image of a state under the Poincaré map.
 #[derive(Clone)]
 pub(super) struct Image {
-    /// As if it stood at the section.
+    /// State after a period, with time and drifts reset to the Poincaré section.
     pub(super) state: State,
-    /// Way of the free coordinates, m or rad.
+    /// Displacement of each free coordinate in the period, m or rad.
     pub(super) way: Vec<f64>,
-    /// What has happened on the way, where that was noted.
+    /// Event counts of the period, if recorded.
     pub(super) happened: Option<Tally>,
 }
 
-/// Accepted and rejected steps so far.
+/// Returns the number of accepted and rejected time steps.
 fn tried(state: &State) -> u64 {
     state.counts().steps + state.counts().rejected
 }
 
 impl Image {
-    /// Whether a difference is taken of the images ahead and behind of this one: of those that there are, or of one alone where in the
-    /// other something else has happened on the way.
+    /// Returns which of two disturbed images are used for finite differences, ahead and behind of this one.
+    ///
+    /// Images with the same event counts as this one are preferred. If neither has them, all available images are used.
     pub(super) fn sides(&self, beside: [Option<&Self>; 2]) -> [bool; 2] {
         let is_like = |other: &Self| {
             let both = self.happened.as_ref().zip(other.happened.as_ref());
@@ -64,7 +66,7 @@ impl Image {
 }
 
 impl<'m> Map<'m> {
-    /// The map of a model at no moment yet.
+    /// Creates the map, without a Poincaré section.
     pub(super) fn new(model: &'m Model, period: f64, job: &Job, options: &'m Options<'m>) -> Self {
         let limits = Limits { wall: None, ..job.scenario.plan.limits };
         let stepper = Stepper::Event { tolerance: options.tolerance };
@@ -82,13 +84,13 @@ impl<'m> Map<'m> {
         }
     }
 
-    /// The map at a section.
+    /// Sets the Poincaré section.
     pub(super) fn set(&mut self, section: Section<'m>) {
         self.scales = DVector::from_vec(section.scales());
         self.section = Some(section);
     }
 
-    /// Its section; it has one from the first [`Self::set`] on.
+    /// Returns the Poincaré section; `None` before the first [`Self::set`].
     pub(super) fn section(&self) -> Option<&Section<'m>> {
         self.section.as_ref()
     }
@@ -97,43 +99,44 @@ impl<'m> Map<'m> {
         self.model
     }
 
-    /// Period, s.
+    /// Returns the period, s.
     pub(super) fn period(&self) -> f64 {
         self.period
     }
 
-    /// Periods that were computed so far; one that was begun counts.
+    /// Returns the number of periods computed or started.
     pub(super) fn work(&self) -> u32 {
-        // Sums of parts of a period are rounded.
+        // Sums of fractions of a period have rounding errors.
         (self.work - WHOLE).ceil() as u32
     }
 
-    /// Whether more may be computed.
+    /// Returns whether more periods are allowed.
     pub(super) fn may_go_on(&self) -> bool {
         self.work() < self.options.periods
     }
 
-    /// How many numbers a state has.
+    /// Returns the number of unknowns.
     pub(super) fn unknowns(&self) -> usize {
         self.scales.len()
     }
 
-    /// Plain periods before it is looked at.
+    /// Returns the number of simulated periods before Newton's method.
     pub(super) fn settling(&self) -> u32 {
         self.options.settling
     }
 
-    /// Local error per step.
+    /// Returns the tolerance of the local error per time step.
     pub(super) fn tolerance(&self) -> f64 {
         self.options.tolerance
     }
 
-    /// Steps and events of the last period whose image was computed.
+    /// Returns the number of time steps and events in the last period.
     pub(super) fn steps(&self) -> u64 {
         self.steps
     }
 
-    /// A way, m, in the smallest natural scale of a place; 0 where none is a number.
+    /// Returns a displacement, m, relative to the smallest natural scale of a position. Returns 0 if no position is an
+    /// unknown.
     pub(super) fn natural(&self, way: f64) -> f64 {
         let Some(section) = &self.section else { return 0.0 };
         let places = section.unknowns().iter().zip(self.scales.iter());
@@ -141,13 +144,16 @@ impl<'m> Map<'m> {
         of_places.map(|(_, scale)| way / scale).fold(0.0, f64::max)
     }
 
-    /// How far anything goes in a period, in natural lengths.
+    /// Returns the largest displacement in a period, in natural scales.
     pub(super) fn reach(&self, image: &Image) -> f64 {
         let lengths = self.section.as_ref().map(Section::lengths).unwrap_or_default();
         image.way.iter().zip(lengths).map(|(way, length)| (way / length).abs()).fold(0.0, f64::max)
     }
 
-    /// A state led on to a time, s, its memories where it stands.
+    /// Simulates a state until a time, s. Commits the slip memories at the end.
+    ///
+    /// # Errors
+    /// Fails if the run fails or is interrupted.
     pub(super) fn lead(
         &mut self,
         state: State,
@@ -158,7 +164,7 @@ impl<'m> Map<'m> {
         self.run(state, until, self.plan, record)
     }
 
-    /// A run that stands at a state.
+    /// Returns a run at a state.
     pub(super) fn held(&self, state: State) -> Result<Run<'m>, SteadyError> {
         Ok(Run::new(self.model, &self.plan, state)?)
     }
@@ -185,7 +191,7 @@ impl<'m> Map<'m> {
             RunError::TooManySteps { .. } if costs => SteadyError::Costly { steps: self.options.steps },
             error => error.into(),
         };
-        // A cheap period is over before its run asks.
+        // A short period may end before the run calls `goes_on`.
         if !(self.options.goes_on)() {
             return Err(SteadyError::Interrupted(self.work()));
         }
@@ -198,14 +204,14 @@ impl<'m> Map<'m> {
         Ok(state)
     }
 
-    /// Where a state of the section gets to in a period, by the tolerance times `finer`.
+    /// Returns the image of a state after a period, with the tolerance multiplied by `finer`.
     pub(super) fn image(&mut self, state: &State, finer: f64) -> Result<Image, SteadyError> {
         let mut happened = Tally::default();
         let end = self.a_period_on(state, finer, &mut happened)?;
         Ok(Image { happened: Some(happened), ..self.brought_back(end) })
     }
 
-    /// A state led on by a period.
+    /// Simulates a state for one period.
     fn a_period_on(
         &mut self,
         state: &State,
@@ -221,7 +227,7 @@ impl<'m> Map<'m> {
         Ok(end)
     }
 
-    /// A state of a period later at the section.
+    /// Resets a state after a period to the Poincaré section.
     fn brought_back(&self, end: State) -> Image {
         let (state, way) = match &self.section {
             Some(section) => section.back(end),
@@ -230,8 +236,11 @@ impl<'m> Map<'m> {
         Image { state, way, happened: None }
     }
 
-    /// By how much a state some periods after a fixed point is off, in natural scales: of its numbers, and of the way, which alone tells
-    /// where a memory has a knot more or less: it may be no deeper than rounding.
+    /// Returns the deviation of a state some periods after a fixed point, in natural scales: of unknowns and
+    /// displacements.
+    ///
+    /// If a memory has another number of corners, only displacements are compared, because an additional corner may be
+    /// due to rounding.
     pub(super) fn missed_after(&self, state: State, (fixed, periods): (&Fixed, f64)) -> f64 {
         let Some(section) = &self.section else { return 0.0 };
         let (state, way) = section.back(state);
@@ -241,13 +250,14 @@ impl<'m> Map<'m> {
         ways.map(|((way, one), scale)| (way - periods * one).abs() / scale).fold(numbers, f64::max)
     }
 
-    /// Numbers of one state less those of another, in natural scales; none where their memories have other knots.
+    /// Returns the difference of the unknowns of two states, in natural scales. Returns `None` if their memories have
+    /// different numbers of corners.
     pub(super) fn difference(&self, of: &State, less: &State) -> Option<DVector<f64>> {
         let numbers = DVector::from_vec(self.section.as_ref()?.difference(of, less)?);
         Some(numbers.component_div(&self.scales))
     }
 
-    /// A state with other numbers, each moved by as much, in natural scales.
+    /// Returns a state with its unknowns changed by `by`, in natural scales.
     pub(super) fn moved(&self, state: &State, by: &DVector<f64>) -> Option<State> {
         self.section.as_ref()?.moved(state, by.component_mul(&self.scales).as_slice())
     }

@@ -1,8 +1,8 @@
-//! At which moment of the period the map is taken.
+//! Choice of the instant of the Poincaré section.
 //!
-//! Where all contacts slip grossly or are apart their memories are wiped, and a state is places and speeds and nothing else. A
-//! few plain periods show when that is: in the last of them but one events are noted, in the last the middle of each stretch
-//! between two of them is looked at.
+//! Gross slip and lift-off erase the memory of a contact. If all contacts have done so, the state consists of positions
+//! and velocities only. Two simulated periods determine the
+//! best instant: the first records events, the second compares the midpoints between events.
 
 use super::SteadyError;
 use super::map::{Image, Map};
@@ -11,40 +11,41 @@ use crate::grip::{Grip, Loose};
 use stickslip_drive::scene::Axis;
 use stickslip_drive::{Event, EventKind, Model, Record, Source, State};
 
-/// Stretches that are looked at, the longest first.
+/// Maximum number of midpoints, those of the longest intervals.
 const MOST: usize = 256;
-/// By how much the second of two periods may be off, in defects of the first: disturbances may grow.
+/// Largest deviation in the second of two periods, relative to the defect of the first, because disturbances may grow.
 const AGAIN: f64 = 1e6;
-/// Most of it, in natural scales.
+/// Upper limit of this deviation, in natural scales.
 const OFF: f64 = 1e-3;
-/// Plain periods after which a step has to be the same, and by which share of it it may differ.
+/// Number of simulated periods for the check that the step length remains constant, and its largest relative change.
 const LASTING: u32 = 16;
 const LASTS: f64 = 1e-3;
-/// How many times its last change a step may still have to go.
+/// Upper limit of the remaining change of the step length, as a multiple of its last change.
 const LEFT: f64 = 30.0;
-/// Shorter ones are too near to an event on either side, as a part of the period.
+/// Shortest interval between events that is considered, as a fraction of the period.
 const SHORTEST: f64 = 1e-4;
 
-/// Where a few plain periods have led.
+/// Result of the first simulated periods.
 pub(super) struct Settled {
-    /// The state at the moment that was chosen.
+    /// State at the chosen instant.
     pub(super) state: State,
-    /// Contacts that have not slipped grossly, nor been apart, in the last period.
+    /// Contacts without gross slip and lift-off in the last period.
     pub(super) never_gave_way: Vec<usize>,
 }
 
-/// Moments of events, s, the contacts that gave way, and what holds the figures' body.
+/// Recorder of event times, s, of contacts that slip grossly or lift off, and of the hold of the body named in
+/// `figures`.
 struct Moments {
     times: Vec<f64>,
     gave_way: Vec<bool>,
-    /// Places of the stick radii among all channels; none are asked for where nothing jumps.
+    /// Channel indices of the stick radii. They are only used for models with jumps.
     stick: Vec<Option<usize>>,
     jumps: bool,
     grip: Option<Grip>,
 }
 
 impl Moments {
-    /// From a state on.
+    /// Creates the recorder for a run from `state`.
     fn from(model: &Model, state: &State, grip: Option<Grip>) -> Self {
         let channels = model.channels();
         let place = |name: &str| {
@@ -67,7 +68,7 @@ impl Record for Moments {
         self.grip.iter_mut().for_each(|grip| grip.event(event));
         match (event.source, event.kind) {
             (Source::Contact(c), EventKind::GrossSlip | EventKind::LiftOff) => self.gave_way[c] = true,
-            // Within a jump a contact gives way without an event: nothing of it sticks then.
+            // During a jump of the velocity, a contact may slip grossly without an event. Its stick radius is then 0.
             (_, EventKind::Jump) => {
                 let sticks = |place: usize| row.get(place).is_none_or(|radius| *radius > 0.0);
                 for (gave_way, place) in self.gave_way.iter_mut().zip(&self.stick) {
@@ -82,8 +83,8 @@ impl Record for Moments {
     }
 }
 
-/// Goes a few plain periods, at least two, from where everything repeats itself, and stands at the moment of the period at which
-/// memories are shortest.
+/// Simulates at least two periods after the motion has become periodic. Returns the state at the instant of a period
+/// with the smallest slip memory.
 pub(super) fn settle(
     map: &mut Map<'_>,
     begins: f64,
@@ -97,7 +98,8 @@ pub(super) fn settle(
     again(map, state)
 }
 
-/// Goes two more plain periods from a state, and stands at the moment of the second at which memories are shortest.
+/// Simulates two more periods from a state. Returns the state at the instant of the second period with the smallest
+/// slip memory.
 pub(super) fn again(map: &mut Map<'_>, state: State) -> Result<Settled, SteadyError> {
     let (model, period, from) = (map.model(), map.period(), state.time());
     let contacts = model.contacts().count();
@@ -109,9 +111,13 @@ pub(super) fn again(map: &mut Map<'_>, state: State) -> Result<Settled, SteadyEr
     Ok(Settled { state: chosen, never_gave_way })
 }
 
-/// Goes two plain periods from a fixed point, the second from where the first has led: that it comes by as much again shows that
-/// nothing was forgotten of what the motion depends on. Tells which contacts did not give way in it, and what the body of
-/// `grip` did in it if nothing held it.
+/// Simulates two periods from a fixed point to verify that the motion is periodic.
+///
+/// Returns the contacts without gross slip, and the state of the observed body in the second period if no contact held
+/// it.
+///
+/// # Errors
+/// Returns [`SteadyError::NoConvergence`] if the state after two periods deviates too much.
 pub(super) fn twice(
     map: &mut Map<'_>,
     fixed: &Fixed,
@@ -135,9 +141,11 @@ pub(super) fn twice(
     Ok((never_gave_way, loose))
 }
 
-/// What the step of a motion may still be to lose, m, of which a contact remembers what is no number of the map: what it has changed by after
-/// some plain periods more, and what is left of that as changes fall. Where the contact never gives way (`holds`) it is all of it, if it has
-/// changed: a drive that walks by partial slip keeps it.
+/// Returns the remaining change of the step length, m, due to slip memories that are not unknowns of the map.
+///
+/// The change is measured in further simulated periods and extrapolated geometrically. If such a contact never slips
+/// grossly (`holds`), any significant change makes the whole
+/// step length uncertain.
 pub(super) fn creep(
     map: &mut Map<'_>,
     (fixed, holds): (&Fixed, bool),
@@ -163,7 +171,7 @@ pub(super) fn creep(
     Ok(if after == 0.0 { before } else { before + after * (1.0 + left.min(LEFT)) })
 }
 
-/// Stretches between two events as (middle, length), s, by their middle; those that are too short are left out.
+/// Returns the intervals between events as (midpoint, length), s, ordered by midpoint. Short intervals are omitted.
 fn stretches(times: &[f64], (from, to): (f64, f64)) -> Vec<(f64, f64)> {
     let mut times: Vec<f64> = times.iter().copied().filter(|t| (from..to).contains(t)).collect();
     times.insert(0, from);
@@ -177,7 +185,8 @@ fn stretches(times: &[f64], (from, to): (f64, f64)) -> Vec<(f64, f64)> {
     stretches
 }
 
-/// The state in the middle of the stretch with the shortest memories, the longest of those, a period after it was found.
+/// Returns the state at the midpoint with the smallest slip memory, one period later. Among equal midpoints, the one
+/// with the longest interval is chosen.
 fn choose(map: &mut Map<'_>, state: &State, stretches: &[(f64, f64)]) -> Result<State, SteadyError> {
     let period = map.period();
     let mut best: Option<((usize, f64), State)> = None;
@@ -195,7 +204,8 @@ fn choose(map: &mut Map<'_>, state: &State, stretches: &[(f64, f64)]) -> Result<
     Ok(best.map_or(state, |(_, state)| state))
 }
 
-/// How much the contacts remember: knots of those that have not given way; a row of springs more than any knots.
+/// Returns the size of the slip memories: the number of corners in contacts without gross slip. A row of springs counts
+/// more than any memory curve.
 fn remembered(model: &Model, state: &State) -> usize {
     let of = |(c, memory): (usize, &stickslip_contact::Memory)| match memory.knot_count() {
         _ if state.has_given_way(model, c) => 0,

@@ -1,71 +1,72 @@
-//! Floquet multipliers, and what they mean.
+//! Floquet multipliers of a periodic orbit.
 //!
-//! A disturbance along an eigenvector of the gradient of a period's map comes back λ times as large. |λ| says how it fades or
-//! grows, the angle of λ how it turns: a beat of 2π/|arg λ| periods, or a change of sides every period where λ < 0.
+//! A disturbance along an eigenvector of the Jacobian of the Poincaré map is multiplied by λ per period. It decays if
+//! |λ| < 1 and grows if |λ| > 1. It oscillates with a period of
+//! 2π/|arg λ| drive periods, or alternates in sign if λ < 0.
 //!
-//! A gradient that is off by δA moves an eigenvalue by κ δA, 1/κ = |y* x| of its left and right eigenvectors of length 1 (G. W. Stewart and
-//! J. Sun, Matrix Perturbation Theory, 1990, sec. IV.2.2). Where two are one with one eigenvector, as of a body that bounces by itself as long as a period lasts,
-//! they part by the root of δA, and κ is as large as its inverse.
+//! An error δA of the Jacobian changes an eigenvalue by κ δA, where 1/κ = |y* x| for its left and right unit
+//! eigenvectors (G. W. Stewart and J. Sun, Matrix Perturbation Theory, 1990, sec.
+//! IV.2.2). A double eigenvalue with one eigenvector, as of an undamped bouncing body, changes by √δA, and κ is about
+//! 1/√δA.
 
 use super::map::Gradient;
 use nalgebra::{Complex, ComplexField, DMatrix, SVD, Schur};
 use std::f64::consts::TAU;
 
-/// To which share of its neighbours the eigenvalue iteration lets an entry go.
-// With the first alone it did not come to an end for eight numbers that come back as they are, and none of 19 multipliers was told.
+/// Relative tolerances of the Schur decomposition, tried one after another.
 const WITHIN: [f64; 3] = [f64::EPSILON, 1e-14, 1e-12];
-/// Sweeps of the eigenvalue iteration per row.
+/// Iterations of the Schur decomposition per row.
 const SWEEPS: usize = 100;
-/// A modulus this near to 1 neither fades nor grows: what a gradient is exact to that variations tell.
+/// Smallest error of a multiplier. A modulus this close to 1 is neutral.
 const NEUTRAL: f64 = 1e-6;
-/// How far entries of a gradient may be off, as a share of the size of all, in tolerances of the runs or in defects.
-// Of six bodies that bounce by themselves twins parted at tolerances of 1e-13 to 1e-8 as if by up to 12.
+/// Error of the entries of the Jacobian relative to its norm, as a multiple of the tolerance or of the remaining
+/// defect.
 const ENTRIES: f64 = 20.0;
-/// A modulus that is off by more may say anything of what stays as it is.
+/// Error of |λ| above which a neutral multiplier is described as uncertain.
 const KNOWN: f64 = 1e-4;
-/// A multiplier below is forgotten within the period.
+/// Modulus below which a disturbance vanishes within a period.
 const FORGOTTEN: f64 = 1e-3;
-/// An angle this small, or this near to π, is none but for rounding.
+/// Angles this close to 0 or π are rounding errors.
 const ANGLE: f64 = 1e-6;
 
-/// An eigenvalue of the gradient of a period's map.
+/// Floquet multiplier: an eigenvalue of the Jacobian of the Poincaré map.
 #[derive(Debug, Clone, Copy, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Multiplier {
     /// Real part.
     pub re: f64,
-    /// Imaginary part, at least 0: of a pair, the one above.
+    /// Imaginary part, not negative; one entry stands for both of a complex pair.
     pub im: f64,
-    /// How far it may be off: a modulus this near to 1 neither fades nor grows.
+    /// Error. A modulus this close to 1 is neutral.
     pub error: f64,
 }
 
-/// What becomes of a disturbance.
+/// Fate of a disturbance.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Kind {
-    /// It is gone after a period.
+    /// It vanishes within a period.
     Forgotten,
-    /// It fades.
+    /// It decays.
     Fades,
-    /// It stays as it is.
+    /// It is neutral.
     Stays,
-    /// It grows: a run leaves this motion.
+    /// It grows: a run leaves this orbit.
     Grows,
 }
 
 impl Multiplier {
-    /// |λ|.
+    /// Returns the modulus |λ|.
     #[must_use]
     pub fn modulus(&self) -> f64 {
         math::hypot(self.re, self.im)
     }
 
-    /// How far it may be off, where that is more than its six digits.
+    /// Returns the error if it is larger than the six digits of the output.
     #[must_use]
     pub fn doubt(&self) -> Option<f64> {
         (self.error > NEUTRAL).then_some(self.error)
     }
 
-    /// What becomes of a disturbance along it.
+    /// Returns whether a disturbance along the eigenvector decays, is neutral or grows.
     #[must_use]
     pub fn kind(&self) -> Kind {
         match self.modulus() {
@@ -76,7 +77,8 @@ impl Multiplier {
         }
     }
 
-    /// Periods of a beat, more than 2; none where a disturbance does not turn, or changes sides every period.
+    /// Returns the period of oscillation in drive periods, more than 2. Returns `None` if the disturbance does not
+    /// oscillate or alternates in sign.
     #[must_use]
     pub fn beat(&self) -> Option<f64> {
         let angle = math::atan2(self.im, self.re).abs();
@@ -84,13 +86,14 @@ impl Multiplier {
         (angle > least && angle < 0.5 * TAU - least).then(|| TAU / angle)
     }
 
-    /// Whether a disturbance changes sides every period.
+    /// Returns whether a disturbance alternates in sign from period to period.
     #[must_use]
     pub fn alternates(&self) -> bool {
         self.beat().is_none() && self.re < 0.0
     }
 
-    /// Periods after which a disturbance is e times smaller, or larger where it grows; none where it stays, or is forgotten.
+    /// Returns the time constant in drive periods: a disturbance changes by a factor of e. Returns `None` if it is
+    /// neutral or vanishes within a period.
     #[must_use]
     pub fn periods(&self) -> Option<f64> {
         match self.kind() {
@@ -99,7 +102,7 @@ impl Multiplier {
         }
     }
 
-    /// In words.
+    /// Returns a description.
     #[must_use]
     pub fn words(&self) -> String {
         let turns = match self.beat() {
@@ -111,36 +114,36 @@ impl Multiplier {
         let change = digits(100.0 * (self.modulus() - 1.0).abs());
         let periods = self.periods().map_or_else(String::new, digits);
         let becomes = match self.kind() {
-            Kind::Forgotten => "is gone after a period".to_owned(),
+            Kind::Forgotten => "vanishes within a period".to_owned(),
             Kind::Fades => format!("decays by {change} % per period (time constant {periods} periods)"),
             Kind::Stays if self.error > KNOWN => {
-                format!("is neutral, decays or grows: |λ| is known to ± {} only", digits(self.error))
+                format!("is neutral, decays or grows: the error of |λ| is ± {}", digits(self.error))
             }
             Kind::Stays => "neither decays nor grows".to_owned(),
             Kind::Grows => format!(
-                "grows by {change} % per period (time constant {periods} periods): a run leaves this motion"
+                "grows by {change} % per period (time constant {periods} periods): a run leaves this orbit"
             ),
         };
         turns + &becomes
     }
 }
 
-/// Three digits that count.
+/// Formats a number with three significant digits.
 fn digits(x: f64) -> String {
     if !x.is_finite() || x == 0.0 {
         return x.to_string();
     }
-    // Rounded first: 0.09996 has the places of 0.1.
+    // Rounded first, because 0.09996 has the decimal places of 0.1.
     let x: f64 = format!("{x:.2e}").parse().unwrap_or(x);
     let places = (2 - math::log10(x.abs()).floor() as i32).clamp(0, 12);
     format!("{x:.*}", usize::try_from(places).unwrap_or(0))
 }
 
-/// The multipliers of a gradient that was led along by runs of a tolerance near a fixed point, where so large a defect is left, the
-/// largest first; of a pair one stands for both. None where its numbers are not finite.
+/// Returns the multipliers of a Jacobian in descending order of modulus, one for each complex pair.
 ///
-/// Where columns are not known those of the others are multipliers as long as none of the others moves what is not known: the gradient is
-/// then a triangle of blocks. Else there are none.
+/// `tolerance` is that of the runs, `defect` the remaining defect of the fixed point. Columns of unknown effect are
+/// excluded if the other unknowns do not influence them, because the Jacobian
+/// is then block triangular. Returns no multipliers otherwise, or if entries are not finite.
 pub(super) fn of(gradient: &Gradient, (tolerance, defect): (f64, f64)) -> Vec<Multiplier> {
     let size = gradient.numbers.norm();
     let entries = ENTRIES * tolerance.max(defect) * size + gradient.missed + Gradient::noise(tolerance);
@@ -160,7 +163,8 @@ pub(super) fn of(gradient: &Gradient, (tolerance, defect): (f64, f64)) -> Vec<Mu
     all
 }
 
-/// How far an eigenvalue may be off where entries may be by so much: κ times that, and no more than a double one.
+/// Returns the error of an eigenvalue for a given error of the entries: κ times the error, at most that of a double
+/// eigenvalue.
 fn moved(matrix: &DMatrix<f64>, value: Complex<f64>, entries: f64) -> f64 {
     let count = matrix.nrows();
     let shifted =
@@ -168,7 +172,7 @@ fn moved(matrix: &DMatrix<f64>, value: Complex<f64>, entries: f64) -> f64 {
     let svd = SVD::try_new(shifted, true, true, f64::EPSILON, count * SWEEPS);
     let double = (entries * matrix.norm()).sqrt();
     svd.and_then(|svd| svd.u.zip(svd.v_t)).map_or(double, |(left, right)| {
-        // Those of the least singular value, which is 0 but for rounding.
+        // Singular vectors of the smallest singular value, which is 0 except for rounding.
         let (y, x) = (left.column(count - 1), right.row(count - 1));
         let product: Complex<f64> = y.iter().zip(x.iter()).map(|(y, x)| y * x).sum();
         (entries / product.modulus()).min(double)
@@ -213,7 +217,7 @@ mod tests {
         let words = |re: f64| Multiplier { re, im: 0.0, error: NEUTRAL }.words();
         assert_eq!(
             words(1.001),
-            "grows by 0.100 % per period (time constant 1000 periods): a run leaves this motion"
+            "grows by 0.100 % per period (time constant 1000 periods): a run leaves this orbit"
         );
         assert_eq!(
             words(-0.5),
@@ -221,15 +225,16 @@ mod tests {
         );
         assert_eq!(
             (words(1.0).as_str(), words(1e-4).as_str()),
-            ("neither decays nor grows", "is gone after a period")
+            ("neither decays nor grows", "vanishes within a period")
         );
-        // Differences that may be off by 1e-3 say nothing of a ten-thousandth.
+        // An error of 1e-3 does not decide about growth by 1e-4.
         let coarse = |re: f64| Multiplier { re, im: 0.0, error: 1e-3 }.kind();
         assert_eq!((coarse(1.0001), coarse(0.9999), coarse(1.01)), (Kind::Stays, Kind::Stays, Kind::Grows));
     }
 
-    /// A body that bounces by itself: what it is late by stays, and grows with what its bounce is too long by. Rounding parts its two
-    /// multipliers by the root of that. Those of a turn that grows by as much stand alone, and are told.
+    /// An undamped bouncing body has a double eigenvalue 1 with one eigenvector; an error splits it by its square root.
+    /// The multipliers of a growing rotation are simple and have a
+    /// small error.
     #[test]
     fn two_that_are_one_part_by_a_root() {
         let late = |off: f64| led(DMatrix::from_row_slice(2, 2, &[1.0, 3.0, off, 1.0]));

@@ -1,8 +1,10 @@
-//! The fixed point of the map of a period.
+//! Fixed point of the Poincaré map by Newton's method.
 //!
-//! Plain periods as long as they come nearer by themselves; else Newton's method on the defect, its gradient by differences, mended by
-//! Broyden's rule from period to period and made anew where that no longer helps. Where a step leads away it is halved.
-//! Directions along which nothing changes, as in a shakedown, are left alone: the nearest fixed point is the one.
+//! Periods are simulated as long as they reduce the defect quickly. Otherwise Newton's method follows, with a Jacobian
+//! by finite differences. Broyden's update corrects the
+//! Jacobian after each step, and a new one is computed if the convergence is slow. Steps that do not reduce the defect
+//! are halved. Singular directions, as in a shakedown, are
+//! excluded, so the nearest fixed point is found.
 
 use super::SteadyError;
 use super::map::{Gradient, Map, near};
@@ -10,63 +12,70 @@ use nalgebra::{DMatrix, DVector};
 use stickslip_drive::State;
 use stickslip_drive::section::Section;
 
-/// A defect this many times the tolerance is none.
+/// Factor on the tolerance below which the defect counts as zero.
 const GOAL: f64 = 10.0;
-/// A defect below this, in natural scales, that gets no smaller is one of rounding.
+/// Defect in natural scales that is accepted as rounding error if it does not decrease further.
 const ROUNDING: f64 = 1e-8;
-/// Plain periods that come nearer by this are let go on.
+/// Largest ratio of successive defects at which simulated periods continue.
 const BY_ITSELF: f64 = 0.05;
-/// A gradient that brings less than this is made anew, unless it takes fewer periods to the end than that.
+/// Largest ratio of defects for which a Broyden-updated Jacobian is kept. It is also kept if it needs fewer periods
+/// than a new Jacobian.
 const WORN: f64 = 0.1;
-/// Halvings of a step.
+/// Number of step sizes tried, each half of the one before.
 const HALVINGS: u32 = 4;
-/// Differences are taken so many times as far apart, up to that many natural scales, where a step by a new gradient brings nothing: of a heavy
-/// slider, whose speed is nearly the same after a period, near by they tell what rounding leaves. So often that is tried in vain; where a plain
-/// period changes the defect by less than this share they are taken that far apart at once.
+/// Enlargement of finite differences, if a step with a new Jacobian does not reduce the defect.
+///
+/// Differences are multiplied by `WIDER` up to `WIDEST` natural scales; at most `IN_VAIN` times without success. If a
+/// simulated period changes the defect by less than the fraction `SLOW`, differences start at `WIDEST`. An example is a
+/// heavy slider: rounding errors would dominate smaller differences.
 const WIDER: f64 = 100.0;
 const WIDEST: f64 = 1e-2;
 const IN_VAIN: u32 = 4;
 const SLOW: f64 = 1e-3;
-/// Plain periods after a step that nothing has helped.
+/// Number of simulated periods after an unsuccessful Newton step.
 const PLAIN: u32 = 8;
-/// Plain periods in a row that add the same to a state, after which none is waited for that does not.
+/// Number of consecutive periods with the same increase of the state after which the search ends.
 const SAME: u32 = 32;
-/// How far what they add may differ, as a share of it, and how large it is at least, in tolerances.
+/// Relative tolerance for equal increases, and their minimum size in tolerances.
 const ALIKE: f64 = 1e-6;
 const LARGE: f64 = 1e4;
-/// Singular values below this, as a part of the largest, are directions of no change.
+/// Singular values below this fraction of the largest are treated as zero.
 const FLAT: f64 = 1e-7;
 
-/// How a period's state was found from the one before.
+/// Method that gave the state at the start of a period.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Way {
-    /// It is where that one got to.
+    /// Simulation: the end state of the period before.
     Plain,
-    /// By Newton's method.
+    /// Newton's method.
     Newton,
 }
 
-/// What a period left to be wished for.
+/// Defect of a period.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Defect {
-    /// Largest change of a number in the period, in natural scales.
+    /// Largest change of an unknown in the period, in natural scales.
     pub size: f64,
-    /// How its state was found.
+    /// Method that gave the state.
     pub way: Way,
 }
 
-/// A fixed point.
+/// A fixed point of the Poincaré map.
 #[derive(Clone)]
 pub(super) struct Fixed {
     pub(super) state: State,
     pub(super) image: super::map::Image,
     /// P(s) - s, in natural scales.
     pub(super) defect: DVector<f64>,
-    /// On the way.
+    /// Defects of all periods of the search.
     pub(super) defects: Vec<Defect>,
 }
 
-/// Finds the fixed point of a map, from where its section was taken.
+/// Finds a fixed point of a map, starting from the state of its section.
+///
+/// # Errors
+/// Fails if the iteration does not converge within the allowed periods, every period adds the same amount to the state,
+/// or a run fails.
 pub(super) fn fixed_point(map: &mut Map<'_>, from: &State) -> Result<Fixed, SteadyError> {
     let mut search = Search::new(map, from)?;
     loop {
@@ -91,25 +100,25 @@ pub(super) fn fixed_point(map: &mut Map<'_>, from: &State) -> Result<Fixed, Stea
     }
 }
 
-/// A search under way.
+/// State of the iteration.
 struct Search {
     state: State,
     image: super::map::Image,
-    /// None where the image has other knots.
+    /// `None` if the image has another number of memory corners.
     defect: Option<DVector<f64>>,
-    /// Of the state before.
+    /// Size of the previous defect.
     before: Option<f64>,
     gradient: Option<Gradient>,
     goal: f64,
     defects: Vec<Defect>,
-    /// The defect since when plain periods have added the same, and how many have.
+    /// Increase that simulated periods have repeated, and their number.
     same: Option<(DVector<f64>, u32)>,
-    /// Whether the last Newton step has brought nothing.
+    /// True if the last Newton step did not reduce the defect.
     stalled: bool,
-    /// How far apart differences are taken, in natural scales, and how often that was tried farther in vain.
+    /// Distance of finite differences in natural scales, and number of unsuccessful enlargements.
     apart: f64,
     in_vain: u32,
-    /// What a period makes of what its steps miss, in natural scales: no defect gets smaller for sure.
+    /// Integration error after a period, in natural scales: the defect cannot be reliably reduced below it.
     magnified: f64,
 }
 
@@ -157,7 +166,7 @@ impl Search {
         size <= self.goal || self.stalled && size <= self.least_sure()
     }
 
-    /// A defect that is one of rounding, or of what the runs miss, where it gets no smaller.
+    /// Returns the defect below which it is accepted if it does not decrease further: rounding or integration error.
     fn least_sure(&self) -> f64 {
         ROUNDING.max(self.magnified)
     }
@@ -168,7 +177,8 @@ impl Search {
         Fixed { state, image, defect, defects }
     }
 
-    /// A plain period: the state is where the last one got to. Where that has other knots, the map has other numbers.
+    /// Simulates a period from the image. If the image has another number of memory corners, the map gets a new section
+    /// with other unknowns.
     fn plain(&mut self, map: &mut Map<'_>) -> Result<(), SteadyError> {
         self.before = Some(self.size());
         if self.defect.is_none() {
@@ -189,8 +199,9 @@ impl Search {
         Ok(())
     }
 
-    /// Fails where every period adds the same to the state: what pulls is more than what holds, or an undamped swing is shaken at
-    /// its own frequency. Ar = r, and no Newton step leads anywhere.
+    /// Fails if every period adds the same amount to the state: a load exceeds friction, or an undamped vibration is in
+    /// resonance. Newton's method cannot converge then, because
+    /// A r = r.
     fn check_gains(&self, map: &Map<'_>) -> Result<(), SteadyError> {
         match (&self.same, map.section()) {
             (Some((defect, periods)), Some(section)) if *periods >= SAME => {
@@ -201,7 +212,7 @@ impl Search {
         }
     }
 
-    /// A step of Newton's method, halved until it brings something; false where it does not.
+    /// Takes a Newton step, halved until it reduces the defect. Returns `false` if no step does.
     fn newton(&mut self, map: &mut Map<'_>) -> Result<bool, SteadyError> {
         let Some(defect) = self.defect.clone() else { return Ok(false) };
         let fresh = self.gradient.is_none();
@@ -215,7 +226,7 @@ impl Search {
             if self.try_step(map, (&gradient, &step), (&defect, share))? {
                 return Ok(true);
             }
-            // A gradient that has been mended may be at fault, and not the length.
+            // The updated Jacobian may be wrong rather than the step size.
             if !fresh {
                 return self.newton(map);
             }
@@ -231,19 +242,20 @@ impl Search {
         Ok(self.size() <= self.least_sure())
     }
 
-    /// How many more periods it takes where each leaves so much of a defect; a gradient made anew takes one for each number.
+    /// Returns the number of periods to convergence if each reduces the defect by `rate`. A new Jacobian takes one
+    /// period per unknown.
     fn lasts(&self, rate: f64, size: f64) -> f64 {
         math::ln(size / self.goal).max(0.0) / -math::ln(rate)
     }
 
-    /// Tries a part of a step; taken if the defect gets smaller by a part of that.
+    /// Tries a fraction of a step. Accepts it if the defect decreases by a quarter of that fraction.
     fn try_step(
         &mut self,
         map: &mut Map<'_>,
         (gradient, step): (&Gradient, &DVector<f64>),
         (defect, share): (&DVector<f64>, f64),
     ) -> Result<bool, SteadyError> {
-        // What is carried along comes from the image: it is newer.
+        // Memory outside of the map is taken from the image, which is newer.
         let along = step * share;
         let Some(state) = map.moved(&self.image.state, &(&along - defect)) else { return Ok(false) };
         let image = match map.image(&state, 1.0) {
@@ -266,7 +278,7 @@ impl Search {
     }
 }
 
-/// Whether two defects are one, large enough to tell.
+/// Returns whether two defects are equal within the tolerance and large enough to compare.
 fn is_alike(first: &DVector<f64>, other: &DVector<f64>, tolerance: f64) -> bool {
     let size = first.amax();
     first.len() == other.len()
@@ -274,7 +286,7 @@ fn is_alike(first: &DVector<f64>, other: &DVector<f64>, tolerance: f64) -> bool 
         && (first - other).amax() <= ALIKE * size + tolerance
 }
 
-/// (1 - A)⁻¹ r, the smallest where there are several.
+/// Returns the Newton step (1 - A)⁻¹ r; the shortest one if there are several.
 fn step(gradient: &DMatrix<f64>, defect: &DVector<f64>) -> Option<DVector<f64>> {
     let count = defect.len();
     let matrix = DMatrix::identity(count, count) - gradient;
@@ -282,7 +294,7 @@ fn step(gradient: &DMatrix<f64>, defect: &DVector<f64>) -> Option<DVector<f64>> 
     step.iter().all(|x| x.is_finite()).then_some(step)
 }
 
-/// The smallest solution of a linear system, its flat directions left out.
+/// Returns the minimum-norm solution of a linear system, without singular directions.
 pub(super) fn solve(matrix: DMatrix<f64>, right: &DVector<f64>) -> Option<DVector<f64>> {
     if !matrix.iter().all(|entry| entry.is_finite()) {
         return None;
@@ -292,7 +304,8 @@ pub(super) fn solve(matrix: DMatrix<f64>, right: &DVector<f64>) -> Option<DVecto
     svd.solve(right, flat).ok()
 }
 
-/// Broyden's rule: the gradient that agrees with the last step and changes least. A of P, r = P - s: Δr = (A - 1)Δs.
+/// Broyden's update: the Jacobian that agrees with the last step and differs least. For the Jacobian A of P and r = P -
+/// s: Δr = (A - 1) Δs.
 fn mended(
     gradient: &Gradient,
     (along, before, after): (&DVector<f64>, &DVector<f64>, &DVector<f64>),

@@ -1,4 +1,4 @@
-//! Steady motion over one period, from the moment at which a period of the figures' waveform begins.
+//! Time histories of a periodic orbit over one period of the waveform named in `figures`.
 
 use super::{Steady, SteadyError, endless};
 use std::path::PathBuf;
@@ -6,20 +6,21 @@ use stickslip_drive::section::Section;
 use stickslip_drive::{Event, Limits, Model, Plan, Record, Run, State, Stepper};
 use stickslip_run::{Job, Series};
 
-/// Last places by which a moment is passed that corners of waveforms are at: they are rounded sums.
+/// Relative margin by which an instant with waveform corners is passed, because it is a rounded sum.
 const BEYOND: f64 = 4.0 * f64::EPSILON;
 
-/// A period of a steady motion.
+/// One period of a periodic orbit.
 #[derive(Debug, Clone)]
 pub struct Orbit {
-    /// The state at its beginning: as early as everything repeats itself, bodies where a run from the start would have them but
-    /// for the way that is theirs in the motion, its books of energies just opened.
+    /// State at the start: at the earliest time at which everything is periodic. Bodies have the positions of a run
+    /// from the start, apart from their motion in the orbit. The
+    /// energy balance starts at zero.
     pub start: State,
-    /// Rows and moments after events.
+    /// Samples at regular times and after events.
     pub series: Series,
 }
 
-/// Keeps rows and moments after events.
+/// Recorder of samples at regular times and after events.
 struct Rows(Series);
 
 impl Record for Rows {
@@ -32,11 +33,11 @@ impl Record for Rows {
 }
 
 impl Steady {
-    /// One period of the motion, in so many rows.
+    /// Simulates one period with `rows` samples.
     ///
     /// # Errors
     ///
-    /// A run that stops itself.
+    /// Fails if the run stops with an error.
     pub fn orbit(&self, job: &Job, rows: u32) -> Result<Orbit, SteadyError> {
         let start = self.start(job)?;
         let mut record = Rows(Series::new(&self.model.channels(), &[]));
@@ -47,24 +48,24 @@ impl Steady {
         Ok(Orbit { start, series: record.0 })
     }
 
-    /// A job of the same drive with waveforms that never end, whose results go into a folder: what the motion is a motion of. A
-    /// run of it may begin with the state at the beginning of an orbit.
+    /// Returns a job of the same drive with endless waveforms, with results in `folder`. A run of it may start with the
+    /// state at the start of an orbit.
     ///
     /// # Errors
     ///
-    /// A scenario that is none with waveforms without an end.
+    /// Fails if the scenario is invalid with endless waveforms.
     pub fn job(&self, job: &Job, folder: PathBuf) -> Result<Job, SteadyError> {
         endless::job(job, self.beginning(job), folder)
     }
 
-    /// When the first period of the figures' waveform begins from which on everything repeats itself, s.
+    /// Returns the start of the first period of the waveform named in `figures` after which everything is periodic, s.
     fn beginning(&self, job: &Job) -> f64 {
         let waveform = job.scenario.figures.waveform.and_then(|w| job.scenario.scene.waveforms.get(w));
         let delay = waveform.map_or(0.0, |waveform| waveform.part.timing().delay);
         delay + ((self.begins.max(0.0) - delay) / self.period).ceil() * self.period
     }
 
-    /// The motion at that moment.
+    /// Returns the state of the orbit at that time.
     pub(super) fn start(&self, job: &Job) -> Result<State, SteadyError> {
         let plan = self.plan(job);
         let begins = self.beginning(job);
@@ -86,7 +87,7 @@ impl Steady {
     }
 }
 
-/// A state led on to a time, s, its memories where it stands.
+/// Simulates a state until a time, s. Commits the slip memories at the end.
 fn led(model: &Model, plan: &Plan, state: State, until: f64) -> Result<State, SteadyError> {
     let mut run = Run::new(model, plan, state)?;
     run.advance(until, &mut ())?;

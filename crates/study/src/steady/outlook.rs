@@ -1,4 +1,4 @@
-//! What a drive would settle on, as far as a glance tells.
+//! Search for the periodic orbit at limited cost, for the summary of a run.
 
 use super::{Kind, Options, Steady, SteadyError, find};
 use stickslip_drive::Counts;
@@ -6,21 +6,22 @@ use stickslip_drive::scene::{Coordinate, EngineChoice, Freedom, Scene};
 use stickslip_run::outlook::{Outlook, Repetition};
 use stickslip_run::{Job, Real};
 
-/// Local error per step: six digits of a step are enough to compare a run with.
+/// Tolerance of the local error per time step: gives about six digits of the step length.
 const TOLERANCE: f64 = 1e-9;
-/// Steps that a glance may take where a step is cheap: more than all examples need that have a motion to be found but one.
+/// Maximum number of time steps for a small model.
 const STEPS: u64 = 75_000;
-/// The part of a run's own steps that it may cost.
+/// The search may cost this fraction (1/5) of the time steps of a run.
 const SHARE: u64 = 5;
-/// Periods that it takes at least: four to settle, one for Newton's method, two finer ones for the error, two to see it come back.
+/// Minimum number of periods of a search: four simulated, one for Newton's method, two for the error estimate, two for
+/// verification.
 const LEAST: u64 = 9;
-/// Coordinates and contacts up to which a step is: more than those of any example.
+/// Number of free coordinates and contacts up to which a model is small.
 const FEW: usize = 16;
-/// Springs of a row that cost what a contact without a row does.
+/// Number of springs in a row that cost as much as a contact with a memory curve.
 const SPRINGS: usize = 64;
 
 impl Steady {
-    /// What is told of it beside a run; none where no body steps.
+    /// Returns the entry for the summary of a run. Returns `None` if no body makes steps.
     #[must_use]
     pub fn repetition(&self, job: &Job) -> Option<Repetition> {
         let waveform = job.scenario.figures.waveform.and_then(|w| job.scenario.scene.waveforms.get(w));
@@ -31,7 +32,7 @@ impl Steady {
         let led = match carried.is_empty() {
             true => String::new(),
             false => {
-                format!("; that of what {} remembers is not known and may stay longer", carried.join(", "))
+                format!("; a disturbance of the memory of {} may last longer", carried.join(", "))
             }
         };
         Some(Repetition {
@@ -45,32 +46,33 @@ impl Steady {
             fold: largest.and_then(super::Multiplier::periods).map(Real),
             words: match self.doubt() {
                 None => self.becomes() + &self.not_told().unwrap_or_default() + &led,
-                Some(doubt) => format!("decays or is neutral, which is not known: {doubt}"),
+                Some(doubt) => format!("decays or is neutral: {doubt}"),
             },
             carried,
             shaken_down: self.named(&self.shaken_down),
         })
     }
 
-    /// That it is not known what becomes of a disturbance of some numbers.
+    /// Returns the phrase that the effect of some disturbances is unknown.
     fn not_told(&self) -> Option<String> {
-        Some(format!("; of {} that is not known", self.names_untold()?))
+        Some(format!("; the effect of {} is not known", self.names_untold()?))
     }
 
-    /// What becomes of a disturbance, in words: of what stays, and of what fades slowest beside it; and whether others like it do as well.
+    /// Describes a disturbance: the largest multiplier; if it is neutral, also the slowest decaying one; and whether
+    /// the orbit is one of a family.
     fn becomes(&self) -> String {
-        let Some(largest) = self.multipliers.first() else { return "is gone after a period".to_owned() };
+        let Some(largest) = self.multipliers.first() else { return "vanishes within a period".to_owned() };
         let stays = largest.kind() == Kind::Stays;
         let slowest = self.multipliers.iter().find(|multiplier| stays && multiplier.kind() == Kind::Fades);
         let rest = slowest
-            .map_or_else(String::new, |slowest| format!("; of the others the slowest {}", slowest.words()));
+            .map_or_else(String::new, |slowest| format!("; the slowest of the others {}", slowest.words()));
         let is_of_family = stays && self.is_one_of_many() || !self.shaken_down.is_empty();
-        let family = if is_of_family { "; this is one motion of a family" } else { "" };
+        let family = if is_of_family { "; the orbit is one of a family" } else { "" };
         largest.words() + &rest + family
     }
 }
 
-/// Steps that a glance at a scene may take: the fewer, the more there is to every one. Counted, not timed, so that a scenario has one
+/// Returns the maximum number of time steps: fewer for larger models. Counting steps instead of time gives the same
 /// answer on all machines.
 fn steps(scene: &Scene) -> u64 {
     let is_free = |coordinate: &Coordinate| coordinate.freedom == Freedom::Free;
@@ -84,19 +86,21 @@ fn steps(scene: &Scene) -> u64 {
     STEPS * FEW as u64 / parts as u64
 }
 
-/// What is said where a share of a run's steps does not lead to it.
+/// Returns the entry for a search that reached its limit.
 fn too_few(steps: u64) -> Outlook {
     let asked = "`stickslip steady` and figures.steady_motion=true search without this limit";
     Outlook::NotFound {
         fault: format!(
-            "no steady motion found: the search stopped at its limit of {steps} integration steps, a fifth of those of the run; {asked}"
+            "no periodic orbit found: the search stopped at its limit of {steps} time steps, a fifth of those of the run; {asked}"
         ),
     }
 }
 
-/// What a job's drive would settle on, if that can be told at little cost, or is asked for at any; none of scenes that do not ask the
-/// question: without a period, without a free body that figures are of, and of those that say no to it. Beside a run, whose counts are
-/// given, it costs at most a share of its steps. `goes_on` is asked before every period; `false` gives up.
+/// Searches for the periodic orbit of a job's drive at limited cost, or without limit if the scenario requests it.
+///
+/// Returns `None` if the scenario excludes the search, has no period, or has no free body named in `figures`. With the
+/// counts of a run, the search costs at most a fifth of
+/// its time steps. `goes_on` is called before every period; `false` interrupts the search.
 pub fn outlook(job: &Job, run: Option<Counts>, goes_on: &dyn Fn() -> bool) -> Option<Outlook> {
     let (_, waveform) = job.scenario.figures.body.zip(job.scenario.figures.waveform)?;
     let share = run.map(|run| (run.steps + run.rejected) / SHARE);
@@ -120,7 +124,7 @@ pub fn outlook(job: &Job, run: Option<Counts>, goes_on: &dyn Fn() -> bool) -> Op
             | SteadyError::Interrupted(_),
         ) => None,
         Err(SteadyError::Costly { steps }) if Some(steps) == share => Some(too_few(steps)),
-        // Its first line says what, the others what to try.
+        // The first line is the error, the others are advice.
         Err(error) => {
             let fault = error.to_string().lines().next().unwrap_or_default().to_owned();
             Some(Outlook::NotFound { fault })

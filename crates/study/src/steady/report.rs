@@ -1,128 +1,135 @@
-//! What is told of a steady motion, as JSON.
+//! Report of a periodic orbit in JSON.
 
 use super::{Aftermath, Ending, Kind, Multiplier, Steady, Way};
 use schemars::JsonSchema;
 use serde::Serialize;
 use stickslip_run::{Job, Real};
 
-/// What is told of a steady motion, as `steady.json` has it.
+/// Report of a periodic orbit: the content of `steady.json`.
 #[derive(Debug, Clone, Serialize, JsonSchema)]
 pub struct Report {
     /// name of the scenario
     scenario: String,
-    /// SHA-256 of the resolved scenario
+    /// SHA-256 of the complete scenario, with all defaults and --set values
     scenario_sha256: String,
     /// name and version of the program
     program: String,
-    /// local error per step, in natural scales
+    /// tolerance of the search: local error per time step relative to the natural scales
     tolerance: Real,
-    /// period, common to all waveforms
+    /// period of the orbit: common period of all waveforms
     period_s: Real,
-    /// way of the body of the figures along x in a period
+    /// step length: displacement along x of the body named in `figures` in one period of the orbit. Absent if no body is
+    /// free along x.
     #[serde(skip_serializing_if = "Option::is_none")]
     step_m: Option<Real>,
-    /// how far the step may be off: an estimate, [doubled](steady.md#bound)
+    /// uncertainty of the step length: a [first-order estimate,
+    /// doubled](theory/periodic_orbits.md#error-of-the-step-length). Absent without a step length.
     #[serde(skip_serializing_if = "Option::is_none")]
     step_error_m: Option<Real>,
-    /// step over period
+    /// mean velocity: step length divided by period. Absent without a step length.
     #[serde(skip_serializing_if = "Option::is_none")]
     speed_m_s: Option<Real>,
-    /// whether a run that is disturbed a little comes back; left out where a disturbance neither decays nor grows, of a
-    /// shakedown unless it grows, as a run may end in another of its family, and where the memory of a contact that never slips
-    /// grossly is `carried`: its multipliers are not known
+    /// whether small disturbances of the orbit decay. Absent if unknown, if a multiplier has modulus 1 within its
+    /// error, or in a shakedown without growing disturbances.
     #[serde(skip_serializing_if = "Option::is_none")]
     stable: Option<bool>,
-    /// ρ, largest magnitude of a multiplier; 0 where there is none, null where they are not known
+    /// ρ, largest modulus of the Floquet multipliers. 0 if there are none, null if they are unknown.
     #[serde(rename = "largest_multiplier")]
     radius: Real,
     multipliers: Vec<MultiplierReport>,
     #[serde(skip_serializing_if = "Option::is_none")]
     aftermath: Option<AftermathReport>,
-    /// the numbers that the map of a period is of
+    /// names of the unknowns of the Poincaré map
     unknowns: Vec<String>,
-    /// those without a multiplier: memories come back with other knots when one of them is disturbed
+    /// unknowns whose influence on the Poincaré map is not known, because disturbing them changes the corners of a slip
+    /// memory
     #[serde(rename = "without_multiplier")]
     untold: Vec<String>,
-    /// number of ways along which nothing changes but the place
+    /// number of drifts: directions in which only positions change
     drifts: usize,
-    /// contacts whose memories are no numbers of the map: they are propagated beside it, and multipliers do not include them
+    /// contacts whose slip memory is not part of the Poincaré map. These memories are correct on the orbit, but have no
+    /// multipliers.
     #[serde(rename = "memories_not_in_map")]
     carried: Vec<String>,
-    /// contacts that never slip grossly: what they hold near the centre they hold for ever, and this motion is the nearest of a
-    /// whole family
+    /// contacts that never slip grossly. Their slip memory near the centre never changes, so the orbit is one of a
+    /// family.
     shaken_down: Vec<String>,
-    /// periods that were computed
+    /// number of simulated periods
     work_periods: u32,
     defects: Vec<DefectReport>,
-    /// names of the files beside it
+    /// names of the files in the same folder. Absent if none were written.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub files: Vec<String>,
-    /// what is to be known of the rest
+    /// notes on the results. Absent if there are none.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub notes: Vec<String>,
 }
 
 #[derive(Debug, Clone, Serialize, JsonSchema)]
 struct MultiplierReport {
-    /// real part of a Floquet multiplier, the largest first; of a pair one stands for both
+    /// real part of a Floquet multiplier λ. The multipliers are sorted by modulus, the largest first. A complex pair
+    /// has one entry.
     re: Real,
-    /// its imaginary part, at least 0
+    /// imaginary part of the multiplier, at least 0
     im: Real,
-    /// |λ|, by which a disturbance has become larger after a period
+    /// |λ|, modulus of the multiplier: factor by which its disturbance changes per period
     modulus: Real,
-    /// how far both parts, and |λ|, may be off: one as near to 1 as that is `neutral`
+    /// error of re, im and modulus. If the modulus is 1 within this error, the multiplier is `neutral`.
     error: Real,
-    /// what a disturbance does: it is `forgotten` after a period, `decays`, is `neutral` (stays as it is) or `grows`
+    /// behaviour of the disturbance: `forgotten` (gone after one period), `decays`, `neutral` (neither decays nor
+    /// grows) or `grows`
     kind: &'static str,
-    /// 2π/|arg λ|, drive periods of one oscillation; none where it does not oscillate
+    /// period of the oscillation of the disturbance, in drive periods: 2π/|arg λ|. Absent if it does not oscillate.
     #[serde(skip_serializing_if = "Option::is_none")]
     oscillation_periods: Option<Real>,
-    /// 1/|ln |λ||, periods in which it becomes e times smaller, or larger
+    /// time constant of the disturbance, in drive periods: 1/|ln |λ||. Absent for `forgotten` and `neutral`.
     #[serde(skip_serializing_if = "Option::is_none")]
     time_constant_periods: Option<Real>,
-    /// the same in words
+    /// sentence about the disturbance
     #[serde(rename = "text")]
     words: String,
 }
 
 #[derive(Debug, Clone, Serialize, JsonSchema)]
 struct AftermathReport {
-    /// what a run ends on that leaves an unstable motion, every number of it disturbed by a hundredth of a natural scale: it
-    /// `repeats` itself, `oscillates`, is `irregular`, is `not_settled`, or `stops`
+    /// behaviour after an unstable orbit is disturbed by 1 % of the natural scales: the motion `repeats`, `oscillates`,
+    /// is `irregular`, is `not_settled`, or the run `stops`. `aftermath` is absent for other orbits.
     ending: &'static str,
-    /// periods until then
+    /// number of simulated periods until the behaviour `ending` was found
     periods: usize,
-    /// after how many periods it repeats itself; 1: another steady motion
+    /// number of drive periods after which the motion repeats. 1 means another periodic orbit. Absent unless it
+    /// `repeats`.
     #[serde(skip_serializing_if = "Option::is_none")]
     repeats_periods: Option<usize>,
-    /// drive periods of one oscillation
+    /// period of the oscillation in drive periods. Absent unless it `oscillates`.
     #[serde(skip_serializing_if = "Option::is_none")]
     oscillation_periods: Option<Real>,
-    /// mean step of what repeats itself, else of the last half
+    /// mean step length, of the repeated periods or of the last half of the periods
     #[serde(skip_serializing_if = "Option::is_none")]
     step_m: Option<Real>,
-    /// the shortest of these steps
+    /// smallest step length, of the repeated periods or of the last half of the periods
     #[serde(skip_serializing_if = "Option::is_none")]
     smallest_m: Option<Real>,
-    /// the longest of these steps
+    /// largest step length, of the repeated periods or of the last half of the periods
     #[serde(skip_serializing_if = "Option::is_none")]
     largest_m: Option<Real>,
-    /// the same in words
+    /// sentence about the behaviour after the disturbance
     #[serde(rename = "text")]
     words: String,
 }
 
 #[derive(Debug, Clone, Serialize, JsonSchema)]
 struct DefectReport {
-    /// largest change of a number in a period of the search, in natural scales
+    /// defect of a period of the search: largest change of an unknown, relative to its natural scale
     size: Real,
-    /// how the state of that period was found: `iteration`, from the end of the period before, or `newton`
+    /// origin of the state at the start of a period of the search: `iteration` (end of the previous period) or `newton`
+    /// (Newton step)
     #[serde(rename = "method")]
     way: &'static str,
 }
 
 impl Report {
-    /// What is told of a job's steady motion, and of what a run ends on that leaves it.
+    /// Creates the report of a periodic orbit and of the behaviour after a disturbance.
     #[must_use]
     pub fn of(job: &Job, found: &Steady, aftermath: Option<&Aftermath>) -> Self {
         let defect = |defect: &super::Defect| DefectReport {
@@ -157,14 +164,14 @@ impl Report {
         }
     }
 
-    /// On one line.
+    /// Returns JSON in one line.
     #[must_use]
     pub fn line(&self) -> String {
-        // Numbers and strings only: there is nothing that JSON could refuse.
+        // Numbers and strings only: serialisation cannot fail.
         serde_json::to_string(self).unwrap_or_default()
     }
 
-    /// As a file.
+    /// Returns indented JSON.
     #[must_use]
     pub fn file(&self) -> String {
         serde_json::to_string_pretty(self).unwrap_or_default() + "\n"
@@ -208,7 +215,7 @@ impl AftermathReport {
 }
 
 impl Kind {
-    /// Its word in files.
+    /// Returns the word in files.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {

@@ -1,15 +1,17 @@
-//! How often each thing happens in a period.
+//! Event counts of a period.
 
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use stickslip_drive::{Event, EventKind, Record, Source};
 
-/// How often each thing happens, by who and what.
+/// Numbers of events by source and kind.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub(super) struct Tally(BTreeMap<String, usize>);
 
-/// Whether an event tells one motion from another. Corners are the waveform's, and turns are told of some contacts alone. Whether a loop
-/// closes just before the next event or with it is a matter of rounding, and it closes smoothly where it begins.
+/// Returns whether an event characterises a motion.
+///
+/// Excluded are corners of waveforms, turns, which only some contacts report, and closed loops. Rounding decides
+/// whether a loop closes just before the next event or with it.
 pub(super) fn tells(event: &Event) -> bool {
     let of_waveform = matches!(event.source, Source::Waveform(_));
     !of_waveform && !matches!(event.kind, EventKind::Turn | EventKind::LoopClosed)

@@ -1,4 +1,4 @@
-//! The result as one table in a CSV file.
+//! Export of the results to one CSV table.
 
 use super::part::{CASE, ERROR};
 use super::{Study, StudyError};
@@ -8,11 +8,11 @@ use std::path::Path;
 use stickslip_run::folder;
 
 impl Study {
-    /// Writes all parts of a folder into one CSV file, in the order of the cases; words stand as words. Numbers have as many digits as it
-    /// takes to read the same bits back.
+    /// Writes all parts of a folder to one CSV file, ordered by case. Codes are written as words. Numbers have enough
+    /// digits to restore all bits.
     ///
     /// # Errors
-    /// Parts that are missing or cannot be read, and a file that cannot be written; then none is left.
+    /// Fails if parts are missing or cannot be read, or the file cannot be written; then no file is left.
     pub fn write_csv(&self, parts: &Path, path: &Path) -> Result<(), StudyError> {
         self.check_complete(parts)?;
         let failed = |source: io::Error| StudyError::Disk { path: path.to_owned(), source };
@@ -49,7 +49,7 @@ impl Study {
         Ok(())
     }
 
-    /// A result as a table has it: a number, a word, or nothing.
+    /// Formats a result: a number, a word, or nothing.
     fn cell(&self, result: usize, value: f64) -> String {
         if !value.is_finite() {
             return String::new();

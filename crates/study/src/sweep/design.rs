@@ -1,4 +1,4 @@
-//! Which numbers a case has: the product of grids and lists, and samples of distributions at each of its points.
+//! Design of a study: parameter values of each case, from grids, lists and sampled distributions.
 
 use super::points::{Points, Sampling as Drawn};
 use super::spread::Spread;
@@ -6,42 +6,43 @@ use crate::number::text;
 use serde_json::{Value, json};
 use stickslip_scenario::{Parameter, Sampling, ScenarioError, StudyFile, Variation};
 
-/// Most cases: as many numbers can be told apart by a floating-point number.
+/// Maximum number of cases: integers up to 2^53 are exact in floating point.
 const MOST: u64 = 1 << 53;
 
-/// A number that varies.
+/// A varied parameter.
 #[derive(Debug, Clone)]
 pub(crate) struct Axis {
-    /// Its key path.
+    /// Key path.
     pub(crate) path: String,
-    /// Its SI unit; empty for a plain number.
+    /// SI unit; empty for a plain number.
     pub(crate) unit: &'static str,
     pub(crate) source: Source,
 }
 
-/// Where the values of an axis come from.
+/// Source of the values.
 #[derive(Debug, Clone)]
 pub(crate) enum Source {
-    /// A grid or a list.
+    /// Grid or list.
     Values(Vec<f64>),
-    /// A distribution.
+    /// Distribution.
     Spread(Spread),
 }
 
-/// The cases of a study.
+/// Cases of a study.
 ///
-/// Case i has sample ⌊i/G⌋ at point i mod G of the product of grids and lists, which has G points; the last of these in the file
-/// changes fastest. So all points have the same samples, and more cases come after those that are there.
+/// Case i has sample ⌊i/G⌋ at point i mod G of the product of grids and lists, which has G points. The last axis in the
+/// file changes fastest. All grid points have the same samples, and additional cases are
+/// appended.
 #[derive(Debug, Clone)]
 pub(crate) struct Design {
     pub(crate) axes: Vec<Axis>,
     /// Number of cases.
     pub(crate) cases: u64,
     pub(crate) sampling: Sampling,
-    /// Number of samples; of Saltelli's scheme of pairs of them.
+    /// Number of samples; for Saltelli's scheme, number of pairs of samples.
     pub(crate) samples: u64,
     seed: u64,
-    /// Points of the product of grids and lists.
+    /// Number of points of the product of grids and lists.
     grid: u64,
     /// Number of distributions.
     pub(crate) spreads: usize,
@@ -60,22 +61,21 @@ impl Design {
         let refused = |key, message: &str| Err(file.refusal(key, None, message, None));
         let samples = match (file.cases, spreads, sampling) {
             (_, 1.., Sampling::Product) => {
-                let message =
-                    "a product of grids has no distributions; leave \"sampling\" out, or name another one";
+                let message = "a product of grids has no distributions; leave \"sampling\" out, or choose another sampling";
                 return refused("sampling", message);
             }
             (None, 0, _) => 1,
             (Some(_), 0, _) => {
                 return refused(
                     "cases",
-                    "without distributions grids and lists say how many cases there are: leave it out",
+                    "without distributions, grids and lists determine the number of cases: leave this key out",
                 );
             }
             (None, _, _) => {
                 let help = "the number of samples, such as \"cases\": 1024".to_owned();
                 return Err(file.refusal("vary", None, "distributions need \"cases\"", Some(help)));
             }
-            (Some(0), ..) => return refused("cases", "expected a number of samples from 1"),
+            (Some(0), ..) => return refused("cases", "expected at least 1 sample"),
             (Some(cases), ..) => cases,
         };
         let lengths = axes.iter().filter_map(|axis| match &axis.source {
@@ -84,16 +84,13 @@ impl Design {
         });
         let grid = lengths.fold(1_u64, u64::saturating_mul);
         if sampling == Sampling::Saltelli && grid > 1 {
-            return refused("sampling", "Saltelli's scheme takes distributions alone, no grids or lists");
+            return refused("sampling", "Saltelli's scheme takes only distributions, no grids or lists");
         }
         let dimensions = if sampling == Sampling::Saltelli { 2 * spreads } else { spreads };
         let block = if sampling == Sampling::Saltelli { spreads as u64 + 2 } else { 1 };
         let cases = samples.saturating_mul(grid).saturating_mul(block);
         if cases > MOST {
-            return refused(
-                if spreads > 0 { "cases" } else { "vary" },
-                "more cases than can be counted: at most 2^53",
-            );
+            return refused(if spreads > 0 { "cases" } else { "vary" }, "expected at most 2^53 cases");
         }
         let drawn = match sampling {
             Sampling::Random => Drawn::Random,
@@ -105,7 +102,7 @@ impl Design {
         Ok(Self { axes, cases, sampling, samples, seed: file.seed, grid, spreads, points })
     }
 
-    /// Writes the numbers of a case, SI.
+    /// Writes the parameter values of a case, SI.
     pub(crate) fn write(&self, case: u64, numbers: &mut [f64]) {
         let (sample, mut place) = (case / self.grid, case % self.grid);
         let mut point = [0.0; 2 * FEW];
@@ -128,7 +125,7 @@ impl Design {
         }
     }
 
-    /// The point of the unit cube that a sample has.
+    /// Returns the point of the unit cube of a sample.
     fn point<'p>(&self, sample: u64, few: &'p mut [f64; 2 * FEW], more: &'p mut Vec<f64>) -> &'p [f64] {
         let Some(points) = &self.points else { return &[] };
         let k = self.spreads;
@@ -156,12 +153,12 @@ impl Design {
         }
     }
 
-    /// Numbers as overrides of the scenario.
+    /// Returns parameter values as overrides of the scenario.
     pub(crate) fn overrides(&self, numbers: &[f64]) -> Vec<(String, String)> {
         self.axes.iter().zip(numbers).map(|(axis, number)| (axis.path.clone(), text(*number))).collect()
     }
 
-    /// What the numbers of a case depend on.
+    /// Returns everything on which the parameter values of a case depend.
     pub(crate) fn definition(&self) -> Value {
         let axis = |axis: &Axis| match &axis.source {
             Source::Values(values) => json!({ "path": axis.path, "values": values }),
@@ -174,7 +171,7 @@ impl Design {
     }
 }
 
-/// Distributions of most studies: more take room on the heap.
+/// Number of distributions up to which no heap allocation is needed.
 const FEW: usize = 16;
 
 fn axis(file: &StudyFile, (parameter, variation): &(Parameter, Variation)) -> Result<Axis, ScenarioError> {

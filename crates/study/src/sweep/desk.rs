@@ -1,4 +1,4 @@
-//! The parts of a study among threads.
+//! Distribution of the parts of a study among threads.
 
 use super::part::{self, Rows};
 use super::quick::Shortcut;
@@ -13,31 +13,32 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::thread;
 use stickslip_run::{Watcher, folder};
 
-/// Cases that a thread takes at a time where each costs microseconds: none waits long for another at the end.
+/// Number of cases that a thread takes at a time if cases cost microseconds. It keeps the wait for the last thread
+/// short.
 const BLOCK: u64 = 32;
 
-/// What a command has computed.
+/// Result of a study command.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Ran {
-    /// Parts that were computed.
+    /// Number of parts computed.
     pub computed: u64,
-    /// Parts that had been there before.
+    /// Number of parts that existed before.
     pub there: u64,
-    /// Whether it was interrupted before all were done.
+    /// Whether the study was interrupted before all parts were finished.
     pub interrupted: bool,
 }
 
-/// What is still to do, and the parts under way.
+/// Queue of parts and of unfinished results.
 struct Desk {
-    /// Parts that nobody has begun.
+    /// Parts not yet started.
     waiting: VecDeque<u64>,
-    /// Cases of the part begun last that nobody has taken.
+    /// Cases of the last started part that no thread has taken.
     cases: Range<u64>,
     part: u64,
     open: Vec<Begun>,
 }
 
-/// A part under way.
+/// A started part.
 struct Begun {
     part: u64,
     first: u64,
@@ -46,13 +47,14 @@ struct Begun {
 }
 
 impl Study {
-    /// Computes the parts of a shard that are missing in a folder, on so many threads; the watcher is told how many cases are done.
+    /// Computes the missing parts of a shard in a folder, on `threads` threads. The watcher receives the number of
+    /// finished cases.
     ///
-    /// A part is written under another name and renamed when it is whole. What is there is not computed again. Its bytes depend on the study
-    /// and the version of the program alone.
+    /// A part is written to a temporary file and renamed when complete. Its content depends only on the study and the
+    /// program version. Existing parts are not computed again.
     ///
     /// # Errors
-    /// Parts of another study, and a folder that cannot be written; finished parts stay.
+    /// Fails if there are parts of another study, or the folder cannot be written. Finished parts are kept.
     pub fn run(
         &self,
         out: &Path,
@@ -76,7 +78,7 @@ impl Study {
         let work = || {
             let mut worker = Worker::new(self, shortcut.as_ref(), &stop);
             loop {
-                // Not in the condition of a loop, whose lock would last as long as its body.
+                // Outside the loop condition, which would hold the lock during the body.
                 let next = lock(&desk).take(self, block);
                 let Some((part, cases)) = next else { break };
                 let finished = match self.block(&mut worker, cases.clone()) {
@@ -109,7 +111,7 @@ impl Study {
         }
     }
 
-    /// The rows of some cases; none where somebody interrupted them.
+    /// Computes the rows of some cases. Returns `None` if interrupted.
     fn block(&self, worker: &mut Worker<'_>, cases: Range<u64>) -> Option<Rows> {
         let mut rows = Rows::default();
         let width = self.wanted.len();
@@ -136,7 +138,7 @@ impl Study {
 }
 
 impl Desk {
-    /// The next cases, and the part that they belong to.
+    /// Returns the next cases and their part.
     fn take(&mut self, study: &Study, block: u64) -> Option<(u64, Range<u64>)> {
         if self.cases.is_empty() {
             self.part = self.waiting.pop_front()?;
@@ -153,7 +155,7 @@ impl Desk {
         Some((self.part, from..self.cases.start))
     }
 
-    /// Takes rows; the part, when it is whole.
+    /// Stores rows. Returns the part when it is complete.
     fn give(&mut self, study: &Study, part: u64, cases: &Range<u64>, rows: &Rows) -> Option<Rows> {
         let place = self.open.iter().position(|begun| begun.part == part)?;
         let begun = &mut self.open[place];
@@ -166,7 +168,7 @@ impl Desk {
     }
 }
 
-/// Ends all threads where one has failed.
+/// Watcher that stops all threads after an error.
 struct Stop<'a> {
     watcher: &'a (dyn Watcher + Sync),
     is_over: AtomicBool,

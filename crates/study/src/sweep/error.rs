@@ -1,4 +1,4 @@
-//! Why a study does not come to its end.
+//! Errors of a study.
 
 use std::io;
 use std::path::PathBuf;
@@ -6,60 +6,60 @@ use stickslip_run::complaint::words;
 use stickslip_scenario::ScenarioError;
 use thiserror::Error;
 
-/// Why a study does not come to its end.
+/// Reason why a study fails.
 #[derive(Debug, Error)]
 pub enum StudyError {
-    /// Something in the study file or the scenario.
+    /// The study file or the scenario is invalid.
     #[error(transparent)]
     Scenario(#[from] ScenarioError),
-    /// A folder with parts of something else.
-    #[error("{}: this belongs to another study: {why}\n   help: choose another folder with --out, or remove what is in it", .path.display())]
+    /// The folder has parts of another study.
+    #[error("{}: the folder has parts of another study: {why}\n   help: choose another folder with --out, or empty this one", .path.display())]
     Foreign {
-        /// The part.
+        /// Path of the part.
         path: PathBuf,
-        /// What differs.
+        /// Difference between the studies.
         why: String,
     },
-    /// A file or folder that cannot be read or written.
+    /// A file or folder cannot be read or written.
     #[error("{}: {}", .path.display(), words(.source))]
     Disk {
-        /// Which.
+        /// Path of the file or folder.
         path: PathBuf,
-        /// Why.
+        /// Reason for the error.
         source: io::Error,
     },
-    /// A part that is not a part, found where all are read.
+    /// A part is damaged.
     #[error("{}: {why}", .path.display())]
     Damaged {
-        /// The part.
+        /// Path of the part.
         path: PathBuf,
-        /// What is wrong with it.
+        /// Kind of damage.
         why: String,
     },
-    /// Parts that are missing where all are needed.
+    /// Parts are missing although all are needed.
     #[error("{missing} of {of} parts are missing\n   help: `stickslip study run` computes them")]
     Incomplete {
-        /// How many.
+        /// Number of missing parts.
         missing: u64,
-        /// Of how many.
+        /// Number of parts of the study.
         of: u64,
     },
-    /// What the study does not have.
+    /// The request does not fit the study.
     #[error("{0}")]
     Unasked(String),
-    /// No case of a search has the result.
+    /// No case of an optimisation has the result.
     #[error("all cases failed: {0}")]
     AllFailed(String),
-    /// A shard that is none.
+    /// The shard is invalid.
     #[error("{0}")]
     Shard(String),
-    /// Somebody interrupted it.
-    #[error("interrupted: finished parts stay, and the same command continues")]
+    /// The watcher interrupted.
+    #[error("interrupted: finished parts are kept, and the same command resumes")]
     Interrupted,
 }
 
 impl StudyError {
-    /// Whether the input is to blame, not the machine.
+    /// Returns whether the error is in the input instead of the file system or the runs.
     #[must_use]
     pub fn is_input(&self) -> bool {
         !matches!(self, Self::Disk { .. } | Self::Damaged { .. } | Self::AllFailed(_) | Self::Interrupted)

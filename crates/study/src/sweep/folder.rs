@@ -1,4 +1,4 @@
-//! The folder of the parts: it is the result.
+//! Folder of the parts of a study.
 
 use super::part::{self, Label, Open};
 use super::{Study, StudyError};
@@ -7,24 +7,25 @@ use std::fs;
 use std::io;
 use std::path::Path;
 
-/// Which parts are there.
+/// Parts in a folder.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Status {
-    /// Number of parts that are there.
+    /// Number of parts in the folder.
     pub parts: u64,
     /// Number of parts of the study.
     pub of: u64,
-    /// Those that are missing, or not whole.
+    /// Parts that are missing or damaged.
     pub missing: Vec<u64>,
-    /// Of these, those that are there and not whole: they are computed anew.
+    /// Parts that are damaged. They are computed again.
     pub damaged: Vec<u64>,
 }
 
 impl Study {
-    /// Which parts are in a folder; nothing is written. A part of the same study with fewer cases counts as missing.
+    /// Returns which parts are in a folder. Writes nothing. A part with fewer cases, from the same study before it was
+    /// enlarged, counts as missing.
     ///
     /// # Errors
-    /// Parts of another study, more cases than the study has, or a folder that cannot be read.
+    /// Fails if there are parts of another study or with more cases than the study has, or the folder cannot be read.
     pub fn status(&self, folder: &Path) -> Result<Status, StudyError> {
         let mut found = vec![false; usize::try_from(self.parts()).unwrap_or(usize::MAX)];
         let mut damaged = Vec::new();
@@ -44,7 +45,7 @@ impl Study {
             if label.rows > cases.end - cases.start {
                 let (rows, own) = (label.rows, cases.end - cases.start);
                 return foreign(format!(
-                    "it has {rows} cases, this study has {own} there: \"cases\" was larger"
+                    "a part has {rows} cases, but this study has {own}: \"cases\" was larger"
                 ));
             }
             if let Some(is_there) = found.get_mut(number as usize) {
@@ -58,13 +59,13 @@ impl Study {
     fn difference(&self, label: &Label) -> String {
         let own = format!("{} {}", stickslip_run::program::NAME, stickslip_run::program::VERSION);
         match label.program.as_str() {
-            "" => "it was not written by this program".to_owned(),
-            program if program != own => format!("it was computed by {program}, this is {own}"),
-            _ => "scenario, variations, results or chunk were others".to_owned(),
+            "" => "another program wrote it".to_owned(),
+            program if program != own => format!("{program} computed it, this is {own}"),
+            _ => "scenario, variations, results or chunk differ".to_owned(),
         }
     }
 
-    /// The numbers of the files that have names of parts.
+    /// Returns the part numbers of all files with names of parts.
     fn numbers(&self, folder: &Path) -> Result<Vec<u64>, StudyError> {
         let failed = |source| StudyError::Disk { path: folder.to_owned(), source };
         let entries = match fs::read_dir(folder) {
@@ -80,10 +81,10 @@ impl Study {
         Ok(numbers)
     }
 
-    /// Removes all parts of this study from a folder.
+    /// Deletes all parts of this study from a folder.
     ///
     /// # Errors
-    /// Parts of another study; then none is removed. A part that cannot be removed.
+    /// Fails if there are parts of another study; then nothing is deleted. Fails if a part cannot be deleted.
     pub fn remove(&self, folder: &Path) -> Result<(), StudyError> {
         self.status(folder)?;
         for number in self.numbers(folder)? {
@@ -93,10 +94,10 @@ impl Study {
         Ok(())
     }
 
-    /// That all parts are in a folder.
+    /// Checks that all parts are in a folder.
     ///
     /// # Errors
-    /// Parts that are missing; those of [`Self::status`].
+    /// Fails if parts are missing, and as [`Self::status`].
     pub(crate) fn check_complete(&self, folder: &Path) -> Result<(), StudyError> {
         let Status { missing, of, .. } = self.status(folder)?;
         match missing.len() as u64 {
@@ -105,7 +106,7 @@ impl Study {
         }
     }
 
-    /// Does something with every part, in order, of a folder that has them all.
+    /// Calls `act` for every part in order. The folder must have all parts.
     pub(crate) fn each_part(
         &self,
         folder: &Path,

@@ -1,4 +1,5 @@
-//! Variance-based sensitivity indices of the results: which number accounts for how much of the spread.
+//! Variance-based sensitivity indices (Sobol indices): fraction of the variance of a result that each parameter
+//! explains.
 
 use super::sobol_indices::{Accumulator, Index};
 use super::{Study, StudyError};
@@ -8,46 +9,48 @@ use std::path::{Path, PathBuf};
 use stickslip_quantity::Real;
 use stickslip_scenario::Sampling;
 
-/// The indices of all results.
+/// Sobol indices of all results.
 #[derive(Debug, Serialize, JsonSchema)]
 pub struct Indices {
-    /// how they were computed
+    /// estimators of the indices
     pub scheme: String,
-    /// number of base samples N: of k numbers N (k + 2) cases were run
+    /// number N of base samples. For k parameters, N (k + 2) cases were run.
     pub samples: u64,
-    /// base samples left out since one of their cases has no such result, by result
+    /// number of base samples omitted because one of their cases has no such result, by result
     pub left_out: IndexTable<u64>,
-    /// by result and by number that varies
+    /// indices by result and by varied parameter: `first` (first-order index: fraction of the variance that the
+    /// parameter explains alone), `total` (total index: fraction that remains if all other parameters are fixed), and
+    /// their standard errors `first_error`, `total_error`
     pub indices: IndexTable<IndexTable<IndexOf>>,
 }
 
-/// Things by name, in order.
+/// Map from names to values, in order.
 pub type IndexTable<T> = stickslip_run::Parts<T>;
 
-/// The indices of a result for a number.
+/// Sobol indices of a result for one parameter.
 #[derive(Debug, Clone, Copy, Serialize, JsonSchema)]
 pub struct IndexOf {
-    /// first-order index: share of the variance that this number accounts for alone
+    /// first-order index: fraction of the variance that the parameter explains alone
     pub first: Real,
     /// standard error of the first-order index
     pub first_error: Real,
-    /// total index: share of the variance that is left where all others are known
+    /// total index: fraction of the variance that remains if all other parameters are fixed
     pub total: Real,
     /// standard error of the total index
     pub total_error: Real,
 }
 
 impl Study {
-    /// The study whose cases the indices need: this one where it is sampled by Saltelli's scheme, or else one with as many base samples
-    /// as this one has samples; and the folder of its parts, beside those of this one.
+    /// Returns the study with the cases for the indices, and the folder of its parts. It is this study if its sampling
+    /// is Saltelli's scheme, otherwise a study with as many base samples as this one has samples.
     ///
     /// # Errors
-    /// Grids and lists, or no distribution.
+    /// The study has grids or lists, or no distribution.
     pub fn for_indices(&self, out: &Path) -> Result<(Self, PathBuf), StudyError> {
         let mut file = self.file.clone();
         if self.design.spreads == 0 {
             return Err(StudyError::Unasked(
-                "indices need distributions; grids and lists have no variance of their own".to_owned(),
+                "indices need distributions; grids and lists have no variance".to_owned(),
             ));
         }
         let is_own = self.design.sampling == Sampling::Saltelli;
@@ -58,10 +61,10 @@ impl Study {
         Ok((Self::new(file)?, folder))
     }
 
-    /// Indices from the parts of a study by Saltelli's scheme.
+    /// Computes the indices from the parts of a study sampled by Saltelli's scheme.
     ///
     /// # Errors
-    /// Parts that are missing or cannot be read.
+    /// Parts are missing or cannot be read.
     pub fn indices(&self, folder: &Path) -> Result<Indices, StudyError> {
         self.check_complete(folder)?;
         let k = self.design.spreads;
@@ -97,11 +100,11 @@ impl Study {
         }
         if all.is_empty() {
             return Err(StudyError::Unasked(
-                "indices are those of numbers: all results of this study are words".to_owned(),
+                "indices need a numeric result; all results of this study are words".to_owned(),
             ));
         }
         Ok(Indices {
-            scheme: "Saltelli's samples of the Sobol sequence; first order by Saltelli (2010), total by Jansen (1999)".to_owned(),
+            scheme: "samples of the Sobol sequence by Saltelli's scheme; first order by Saltelli (2010), total by Jansen (1999)".to_owned(),
             samples: self.design.samples,
             left_out: stickslip_run::Parts(left_out),
             indices: stickslip_run::Parts(all),

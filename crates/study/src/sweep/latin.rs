@@ -1,15 +1,14 @@
-//! The strata of a Latin hypercube: a pseudo-random permutation that is computed place by place and never
-//! stored.
+//! Strata of a Latin hypercube: a pseudo-random permutation, computed element by element without storage.
 
-/// Rounds of the Feistel network, an even number. Four suffice for long permutations, short ones need more.
+/// Number of rounds of the Feistel network, even. Four suffice for long permutations, short ones need more.
 pub(crate) const ROUNDS: usize = 8;
 
-/// A permutation of 0..count, one of many, chosen by the keys.
+/// A pseudo-random permutation of 0..count, selected by the keys.
 ///
-/// A Feistel network on pairs (left, right) with left < rows and right < columns, rows * columns >= count:
-/// each round adds a hash of one half to the other half, which can be undone, so that the network permutes
-/// all pairs. A result that is no place in 0..count goes through the network again until it is one ("cycle
-/// walking"). J. Black and P. Rogaway, "Ciphers with arbitrary finite domains", CT-RSA 2002.
+/// It is a Feistel network on pairs (left, right) with left < rows and right < columns, rows * columns >= count. Each
+/// round adds a hash of one half to the other, which is invertible. If a result is not in
+/// 0..count, the network is applied again ("cycle walking"). Source: J. Black and P. Rogaway, "Ciphers with arbitrary
+/// finite domains", CT-RSA 2002.
 #[derive(Debug, Clone)]
 pub(crate) struct Permutation {
     count: u64,
@@ -19,14 +18,14 @@ pub(crate) struct Permutation {
 }
 
 impl Permutation {
-    /// `count` from 1 to 2^32.
+    /// Creates a permutation of `count` elements, 1 to 2^32.
     pub(crate) fn new(count: u64, keys: [u64; ROUNDS]) -> Self {
         let count = count.max(1);
         let rows = (count - 1).isqrt() + 1;
         Self { count, rows, columns: count.div_ceil(rows), keys }
     }
 
-    /// Where place `index` goes; places from `count` on begin anew at 0.
+    /// Returns the image of `index`, taken modulo `count`.
     pub(crate) fn place(&self, index: u64) -> u64 {
         let mut place = self.through(index % self.count);
         while place >= self.count {
@@ -35,7 +34,7 @@ impl Permutation {
         place
     }
 
-    /// Once through the network.
+    /// Applies the network once.
     fn through(&self, place: u64) -> u64 {
         let (mut left, mut right) = (place / self.columns, place % self.columns);
         for [first, second] in self.keys.as_chunks::<2>().0 {
@@ -46,15 +45,15 @@ impl Permutation {
     }
 }
 
-/// `x` plus a number below `size` that is made of the hash, modulo `size`; `x` is below `size`.
+/// Returns `x` plus a number below `size` derived from the hash, modulo `size`. `x` must be below `size`.
 fn sum(x: u64, hash: u64, size: u64) -> u64 {
     let scaled = (u128::from(hash) * u128::from(size)) >> 64;
     let sum = x + scaled as u64;
     if sum < size { sum } else { sum - size }
 }
 
-/// 64 bits mixed so that each depends on all: the finaliser of SplitMix64 (G. L. Steele, D. Lea and C. H.
-/// Flood, "Fast splittable pseudorandom number generators", OOPSLA 2014).
+/// Returns mixed bits, each of which depends on all bits of `x`: the finaliser of SplitMix64 (G. L. Steele, D. Lea and
+/// C. H. Flood, "Fast splittable pseudorandom number generators", OOPSLA 2014).
 fn hash(x: u64) -> u64 {
     let x = (x ^ (x >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
     let x = (x ^ (x >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
@@ -65,9 +64,8 @@ fn hash(x: u64) -> u64 {
 mod tests {
     use super::*;
 
-    /// All six orders of three places, and all 24 of four, come up about equally often: chi-squared of 5 and
-    /// of 23 degrees of freedom stay below their 99.99 % quantiles, 25.7 and 56.0 (tables of the
-    /// distribution).
+    /// All six orders of three elements, and all 24 of four, are about equally frequent. Chi-squared with 5 and 23
+    /// degrees of freedom stays below the 99.99 % quantiles 25.7 and 56.0.
     #[test]
     fn every_order_is_as_likely() {
         for (count, orders, most) in [(3, 6, 25.7), (4, 24, 56.0)] {

@@ -1,8 +1,8 @@
-//! The standard normal distribution: its cumulative probability and the inverse of it.
+//! Standard normal distribution: cumulative probability and its inverse.
 
 use std::f64::consts::FRAC_1_SQRT_2;
 
-/// Numerator for |p - 1/2| <= 0.425, highest power first, in 0.180625 - (p - 1/2)^2.
+/// Numerator for |p - 1/2| <= 0.425 in 0.180625 - (p - 1/2)^2, highest power first.
 const CENTRE_TOP: [f64; 8] = [
     2509.0809287301227,
     33430.57558358813,
@@ -13,7 +13,7 @@ const CENTRE_TOP: [f64; 8] = [
     133.14166789178438,
     3.3871328727963665,
 ];
-/// Denominator to it.
+/// Denominator for the same range.
 const CENTRE_BOTTOM: [f64; 8] = [
     5226.495278852854,
     28729.085735721943,
@@ -24,7 +24,7 @@ const CENTRE_BOTTOM: [f64; 8] = [
     42.31333070160091,
     1.0,
 ];
-/// Numerator for r <= 5, highest power first, in r - 1.6.
+/// Numerator for r <= 5 in r - 1.6, highest power first.
 const NEAR_TOP: [f64; 8] = [
     0.0007745450142783414,
     0.022723844989269184,
@@ -35,7 +35,7 @@ const NEAR_TOP: [f64; 8] = [
     4.630337846156546,
     1.4234371107496835,
 ];
-/// Denominator to it.
+/// Denominator for the same range.
 const NEAR_BOTTOM: [f64; 8] = [
     1.0507500716444169e-09,
     0.0005475938084995345,
@@ -46,7 +46,7 @@ const NEAR_BOTTOM: [f64; 8] = [
     2.053191626637759,
     1.0,
 ];
-/// Numerator for r > 5, highest power first, in r - 5.
+/// Numerator for r > 5 in r - 5, highest power first.
 const FAR_TOP: [f64; 8] = [
     2.0103343992922881e-07,
     2.7115555687434876e-05,
@@ -57,7 +57,7 @@ const FAR_TOP: [f64; 8] = [
     5.463784911164114,
     6.657904643501103,
 ];
-/// Denominator to it.
+/// Denominator for the same range.
 const FAR_BOTTOM: [f64; 8] = [
     2.0442631033899397e-15,
     1.421511758316446e-07,
@@ -69,19 +69,20 @@ const FAR_BOTTOM: [f64; 8] = [
     1.0,
 ];
 
-/// The probability that a standard normal variable is at most `z`: erfc(-z / sqrt(2)) / 2. Its relative
-/// accuracy holds in the lower tail, down to z = -37; for the upper tail take `cumulative(-z)`, the
+/// Returns the probability that a standard normal variable is at most `z`: erfc(-z / sqrt(2)) / 2.
+///
+/// The relative accuracy holds in the lower tail, down to z = -37. For the upper tail use `cumulative(-z)`, the
 /// probability above `z`.
 pub(crate) fn cumulative(z: f64) -> f64 {
     0.5 * math::erfc(-z * FRAC_1_SQRT_2)
 }
 
-/// The `z` below which a standard normal variable lies with probability `p`, 0 < p < 1, to about 16 digits.
+/// Returns the quantile of the standard normal distribution for the probability `p`, to about 16 digits. Returns -+
+/// infinity for p = 0 and 1.
 ///
-/// M. J. Wichura, "Algorithm AS 241: The percentage points of the normal distribution", Applied Statistics 37
-/// (1988), 477-484, routine PPND16: with q = p - 1/2, z = q R(0.180625 - q^2) in the centre, and in the tails
-/// z = -+ R(r - constant) with r = sqrt(-ln(min(p, 1 - p))); R is a ratio of two polynomials of degree 7. At
-/// p = 0 and 1 it gives -+ infinity.
+/// M. J. Wichura, "Algorithm AS 241: The percentage points of the normal distribution", Applied Statistics 37 (1988),
+/// 477-484, routine PPND16. With q = p - 1/2, z = q R(0.180625 - q^2) in the centre. In the
+/// tails z = -+ R(r - constant) with r = sqrt(-ln(min(p, 1 - p))). R is a ratio of two polynomials of degree 7.
 pub(crate) fn inverse(p: f64) -> f64 {
     let q = p - 0.5;
     if q.abs() <= 0.425 {
@@ -100,7 +101,7 @@ pub(crate) fn inverse(p: f64) -> f64 {
     z.copysign(q)
 }
 
-/// The ratio of two polynomials at `x`, their coefficients from the highest power down.
+/// Returns the ratio of two polynomials at `x`, with coefficients from the highest power down.
 fn ratio(top: &[f64; 8], bottom: &[f64; 8], x: f64) -> f64 {
     let value = |coefficients: &[f64; 8]| coefficients.iter().fold(0.0, |sum, c| sum * x + c);
     value(top) / value(bottom)
@@ -110,8 +111,8 @@ fn ratio(top: &[f64; 8], bottom: &[f64; 8], x: f64) -> f64 {
 mod tests {
     use super::*;
 
-    /// Solved for with mpmath 1.4.1 at 60 digits, by Newton's method on ln(erfc(-z / sqrt(2)) / 2) = ln(p), p
-    /// the nearest f64 to what is written here; above 1/2 by symmetry.
+    /// Reference: mpmath 1.4.1 at 60 digits, by Newton's method on ln(erfc(-z / sqrt(2)) / 2) = ln(p). p is the nearest
+    /// f64 to the given value; values above 1/2 follow by symmetry.
     #[test]
     fn the_inverse_has_sixteen_digits() {
         let table = [
@@ -142,8 +143,8 @@ mod tests {
         assert_eq!((inverse(0.5), inverse(0.0), inverse(1.0)), (0.0, f64::NEG_INFINITY, f64::INFINITY));
     }
 
-    /// erfc(-z / sqrt(2)) / 2 with mpmath 1.4.1 at 60 digits. In the tail a rounding of z / sqrt(2) counts
-    /// z^2 times.
+    /// Reference: erfc(-z / sqrt(2)) / 2 with mpmath 1.4.1 at 60 digits. In the tail, a rounding error of z / sqrt(2)
+    /// is multiplied by z^2.
     #[test]
     fn the_cumulative_probability_keeps_its_digits_in_the_lower_tail() {
         let table = [

@@ -1,8 +1,9 @@
-//! A part of the result: the rows of some cases, as a Parquet file.
+//! Part of the results: the rows of some cases as a Parquet file.
 //!
-//! Columns: `case` (from 0), the numbers that vary in SI under their paths, the results under the names of the study file (null where there
-//! is none; a word as its code, whose words the file's metadata has), and `error` (null where the case ran). Numbers are split by bytes
-//! and compressed by LZ4. The metadata say of which study and program a part is.
+//! Columns: `case` (from 0), the varied parameters in SI under their key paths, the results under their names in the
+//! study file, and `error`. Missing results are null; a word is stored as a code, and the words
+//! are in the metadata. `error` is null if the case ran. Numbers use byte-stream splitting and LZ4. The metadata
+//! identify study and program.
 
 use super::Study;
 use parquet::basic::{Compression, ConvertedType, Encoding, LogicalType, Repetition, Type as Physical};
@@ -21,25 +22,25 @@ use std::path::Path;
 use std::sync::Arc;
 use stickslip_run::program;
 
-/// Keys of the metadata.
+/// Metadata keys.
 const STUDY: &str = "stickslip.study";
 const PROGRAM: &str = "stickslip.program";
 const FIRST: &str = "stickslip.first_case";
 const CODES: &str = "stickslip.codes.";
-/// Names of the first and of the last column.
+/// Names of the first and last column.
 pub(crate) const CASE: &str = "case";
 pub(crate) const ERROR: &str = "error";
 
-/// The rows of a part.
+/// Rows of a part.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Rows {
-    /// Results, row after row; NaN where there is none.
+    /// Results, row after row; NaN if missing.
     pub(crate) results: Vec<f64>,
-    /// Why a case has none.
+    /// Reason for each case without results.
     pub(crate) errors: Vec<Option<String>>,
 }
 
-/// What a file says of itself.
+/// Metadata of a part.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct Label {
     pub(crate) study: String,
@@ -48,19 +49,19 @@ pub(crate) struct Label {
     pub(crate) rows: u64,
 }
 
-/// Name of a part's file.
+/// Returns the file name of a part.
 pub(crate) fn name(part: u64) -> String {
     format!("part-{part:06}.parquet")
 }
 
-/// The number of a part by the name of its file.
+/// Returns the number of a part from its file name.
 pub(crate) fn number(name: &str) -> Option<u64> {
     let digits = name.strip_prefix("part-")?.strip_suffix(".parquet")?;
     let number = digits.parse().ok()?;
     (self::name(number) == name).then_some(number)
 }
 
-/// The columns of a study's parts.
+/// Returns the columns of a study's parts.
 fn schema(study: &Study) -> Result<Arc<Type>, ParquetError> {
     let column = |name: &str, physical, repetition| {
         let built = Type::primitive_type_builder(name, physical).with_repetition(repetition).build();
@@ -90,7 +91,7 @@ fn properties(study: &Study, first: u64) -> WriterProperties {
         said(FIRST, first.to_string()),
     ];
     for wanted in &study.wanted {
-        // Words: there is nothing that JSON could refuse.
+        // Lists of words have no JSON errors.
         let words = wanted.codes.as_ref().map(|codes| serde_json::to_string(codes).unwrap_or_default());
         metadata.extend(words.map(|words| said(&format!("{CODES}{}", wanted.name), words)));
     }
@@ -113,7 +114,7 @@ fn properties(study: &Study, first: u64) -> WriterProperties {
     properties.build()
 }
 
-/// The bytes of a part.
+/// Returns the content of a part file.
 pub(crate) fn bytes(study: &Study, cases: Range<u64>, rows: &Rows) -> Result<Vec<u8>, ParquetError> {
     let properties = Arc::new(properties(study, cases.start));
     let mut writer = SerializedFileWriter::new(Vec::new(), schema(study)?, properties)?;
@@ -160,7 +161,7 @@ fn column<T: DataType>(
     column.close()
 }
 
-/// What a file says of itself; none of a file that is no whole part.
+/// Reads the metadata of a file. Returns `None` if it is not a complete Parquet file.
 pub(crate) fn label(path: &Path) -> io::Result<Option<Label>> {
     let file = File::open(path)?;
     let Ok(metadata) = ParquetMetaDataReader::new().parse_and_finish(&file) else { return Ok(None) };
@@ -178,11 +179,11 @@ pub(crate) fn label(path: &Path) -> io::Result<Option<Label>> {
             rows,
         })
     };
-    // Whole, and of nobody that is known: another program's.
+    // A complete file without our metadata is from another program.
     Ok(Some(label().unwrap_or(Label { study: String::new(), program: String::new(), first: 0, rows })))
 }
 
-/// A part that is read column by column.
+/// A part opened for reading by columns.
 pub(crate) struct Open {
     reader: SerializedFileReader<File>,
     rows: usize,
@@ -190,6 +191,9 @@ pub(crate) struct Open {
 
 impl Open {
     /// Opens a part of a study.
+    ///
+    /// # Errors
+    /// Fails if the file cannot be read or has other columns.
     pub(crate) fn new(study: &Study, path: &Path) -> Result<Self, ParquetError> {
         let file = File::open(path)?;
         let reader = SerializedFileReader::new(file)?;
@@ -222,7 +226,7 @@ impl Open {
         Ok((values, levels))
     }
 
-    /// A result of each case, NaN where there is none.
+    /// Reads a result of each case; NaN if missing.
     pub(crate) fn result(&self, study: &Study, result: usize) -> Result<Vec<f64>, ParquetError> {
         let place = 1 + study.design.axes.len() + result;
         let (values, levels) = if study.wanted.get(result).is_some_and(|wanted| wanted.codes.is_some()) {
@@ -238,7 +242,7 @@ impl Open {
             .collect())
     }
 
-    /// Why each case has no results.
+    /// Reads the reason for each case without results.
     pub(crate) fn errors(&self, study: &Study) -> Result<Vec<Option<String>>, ParquetError> {
         let (texts, levels) = self.read::<ByteArrayType>(1 + study.design.axes.len() + study.wanted.len())?;
         let mut texts = texts.iter().map(|text| String::from_utf8_lossy(text.data()).into_owned());

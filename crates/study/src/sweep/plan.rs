@@ -1,4 +1,4 @@
-//! What a study will take, from some of its cases.
+//! Estimated time and size of a study, from some of its cases.
 
 use super::quick::Shortcut;
 use super::worker::{Fault, Worker};
@@ -9,39 +9,39 @@ use std::time::Instant;
 use stickslip_quantity::Real;
 use stickslip_run::Watcher;
 
-/// Cases that are run for the forecast, evenly over the study.
+/// Number of cases that are run for the estimate, evenly distributed over the study.
 const DRAWN: u64 = 10;
-/// Least wall time that they are measured over, s: where a case takes microseconds they are run again and again.
+/// Shortest total wall time of these cases, s. Short cases are repeated.
 const LEAST: f64 = 0.05;
-/// Bytes of a number in a part, about: split by bytes and compressed, its sign and the high bits of its exponent take next to none.
+/// Mean number of bytes of a number in a compressed part.
 const BYTES: u64 = 7;
-/// Bytes of a part without rows, about.
+/// Size of a part without rows, bytes.
 const EMPTY: u64 = 2500;
 
-/// What a study will take.
+/// Estimated time and size of a study.
 #[derive(Debug, Serialize, JsonSchema)]
 pub struct Forecast {
     /// number of cases
     pub cases: u64,
     /// number of parts
     pub chunks: u64,
-    /// wall time of all cases on the number of threads, from ten of them
+    /// estimated wall time of all cases on the given number of threads
     pub expected_s: Real,
-    /// wall time of one case on one thread: the mean of these ten
+    /// mean wall time of one case on one thread, from ten cases
     pub case_s: Real,
-    /// size of all parts, an estimate
+    /// estimated size of all parts in bytes
     pub bytes: u64,
-    /// number of parallel threads that is reckoned with
+    /// number of threads for which the time is estimated
     pub threads: usize,
-    /// of the ten cases those that failed, with the reason
+    /// number and reason of each failed case among the ten
     pub failed: Vec<(u64, String)>,
 }
 
 impl Study {
-    /// What the study will take on so many threads.
+    /// Estimates time and size of the study on a number of threads.
     ///
     /// # Errors
-    /// Somebody interrupted it.
+    /// The estimate was interrupted.
     pub fn forecast(&self, threads: usize, watcher: &(dyn Watcher + Sync)) -> Result<Forecast, StudyError> {
         let shortcut = Shortcut::of(self);
         let mut worker = Worker::new(self, shortcut.as_ref(), watcher);
@@ -62,7 +62,7 @@ impl Study {
             results.clear();
             Ok(begun.elapsed().as_secs_f64() / drawn as f64)
         };
-        // The first one reads each number once, which a long study does not feel.
+        // The first pass includes reading the numbers, which is negligible in a long study.
         let first = pass(&mut failed)?;
         let mut rest = Vec::new();
         while first * drawn as f64 + rest.iter().sum::<f64>() * (drawn as f64) < LEAST {

@@ -1,23 +1,23 @@
-//! Points of the unit cube at which a study is evaluated. Each is computed from its number alone: the same
-//! whichever others were asked for, in any order, on any machine.
+//! Sample points in the unit cube. Each point is computed from its index alone, so it does not depend on other points,
+//! their order or the machine.
 
 use super::latin::{Permutation, ROUNDS};
 use super::sobol_points::{MOST_DIMENSIONS, MOST_POINTS, Sobol};
 use chacha20::ChaCha8Rng;
 use chacha20::rand_core::{Rng, SeedableRng};
 
-/// How the points are laid.
+/// Sampling method.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Sampling {
-    /// Independent and uniform: plain Monte Carlo.
+    /// Independent and uniform points (Monte Carlo).
     Random,
-    /// The Sobol sequence of low discrepancy, with a random digital shift.
+    /// Low-discrepancy Sobol sequence with a random digital shift.
     Sobol,
-    /// In each dimension, one point in each of `count` equal strata.
+    /// Latin hypercube: in each dimension, one point in each of `count` equal strata.
     LatinHypercube,
 }
 
-/// The points of one sampling.
+/// Points of one sampling.
 #[derive(Debug, Clone)]
 pub(crate) struct Points {
     seed: u64,
@@ -31,7 +31,7 @@ enum Layout {
     Latin { strata: Vec<Permutation>, count: u64 },
 }
 
-/// What random numbers are for: each use has its own, of the same seed.
+/// Purpose of random numbers; each purpose has its own stream of the same seed.
 #[derive(Debug, Clone, Copy)]
 enum Purpose {
     Point = 1,
@@ -41,11 +41,11 @@ enum Purpose {
 }
 
 impl Points {
-    /// Points 0..count in `dimensions` dimensions. The seed chooses the random numbers, the digital shift, or
-    /// the order of the strata.
+    /// Creates the points 0..count in `dimensions` dimensions. The seed selects the random numbers, the digital shift
+    /// or the order of the strata.
     ///
     /// # Errors
-    /// No points or dimensions at all, or more than the sampling has.
+    /// Fails if there are no points or dimensions, or more than the sampling supports.
     pub(crate) fn new(sampling: Sampling, dimensions: usize, seed: u64, count: u64) -> Result<Self, String> {
         check(sampling, dimensions, count)?;
         let layout = match sampling {
@@ -65,17 +65,17 @@ impl Points {
         Ok(Self { seed, layout })
     }
 
-    /// The Sobol sequence itself, without a shift: what other programs begin with.
+    /// Creates the Sobol sequence without shift, as other programs have it.
     ///
     /// # Errors
-    /// No points or dimensions at all, or more than the sequence has.
+    /// Fails if there are no points or dimensions, or more than the sequence supports.
     #[cfg(test)]
     pub(crate) fn unshifted(dimensions: usize, count: u64) -> Result<Self, String> {
         check(Sampling::Sobol, dimensions, count)?;
         Ok(Self { seed: 0, layout: Layout::Sobol(Sobol::new(vec![0; dimensions])) })
     }
 
-    /// Writes point `index`, below `count`, one coordinate per dimension. Each is above 0 and below 1.
+    /// Writes point `index`, below `count`. Each coordinate is above 0 and below 1.
     pub(crate) fn write(&self, index: u64, point: &mut [f64]) {
         match &self.layout {
             Layout::Random => {
@@ -93,20 +93,20 @@ impl Points {
     }
 }
 
-/// A random place inside one of `count` equal strata of 0..1. The bits of the place within the stratum and
-/// those of the stratum's number make 48, so that no rounding moves the place into the next stratum.
+/// Returns a random number inside one of `count` equal strata of 0..1. Stratum number and position have 48 bits
+/// together, so rounding does not move the number into the next stratum.
 fn inside(stratum: u64, count: u64, random: u64) -> f64 {
     let bits = 48 - (count - 1).checked_ilog2().map_or(0, |log| log + 1);
     (stratum as f64 + centred(random, bits)) / count as f64
 }
 
-/// A random number in the middle of one of 2^bits equal parts of 0..1, exactly; at most 52 bits.
+/// Returns a random number at the exact centre of one of 2^bits equal parts of 0..1; at most 52 bits.
 fn centred(random: u64, bits: u32) -> f64 {
     ((random >> (64 - bits)) as f64 + 0.5) / (1_u64 << bits) as f64
 }
 
-/// The random numbers of one seed, purpose and number. ChaCha with 8 rounds encrypts a counter, so that any
-/// of them is computed without those before it; its bits are the same on every machine.
+/// Returns the random numbers of a seed, purpose and stream. ChaCha with 8 rounds is counter-based and gives the same
+/// bits on every machine.
 fn generator(seed: u64, purpose: Purpose, stream: u64) -> ChaCha8Rng {
     let mut key = [0; 32];
     key[..8].copy_from_slice(&seed.to_le_bytes());
@@ -120,13 +120,13 @@ fn check(sampling: Sampling, dimensions: usize, count: u64) -> Result<(), String
     let sobol = sampling == Sampling::Sobol;
     if dimensions == 0 || count == 0 {
         return Err(format!(
-            "a sampling needs a dimension and a point at least, got {dimensions} and {count}"
+            "a sampling needs at least one dimension and one point, got {dimensions} and {count}"
         ));
     }
     if sobol && dimensions > MOST_DIMENSIONS {
-        let instead = "take a Latin hypercube or random points for more";
+        let instead = "use a Latin hypercube or random points for more";
         return Err(format!(
-            "the Sobol sequence has {MOST_DIMENSIONS} dimensions here, got {dimensions}: {instead}"
+            "the Sobol sequence has at most {MOST_DIMENSIONS} dimensions, got {dimensions}: {instead}"
         ));
     }
     if sampling != Sampling::Random && count > MOST_POINTS {
@@ -153,14 +153,14 @@ mod tests {
         (0..count).map(|index| point(&points, index, dimensions)).collect()
     }
 
-    /// The correlation coefficient of two dimensions.
+    /// Returns the correlation coefficient of two dimensions.
     fn correlation(points: &[Vec<f64>], first: usize, second: usize) -> f64 {
         let covariance = |i: usize, j: usize| points.iter().map(|p| (p[i] - 0.5) * (p[j] - 0.5)).sum::<f64>();
         covariance(first, second) / (covariance(first, first) * covariance(second, second)).sqrt()
     }
 
-    /// ChaCha with 8 rounds written anew in Python: key 1 (8 bytes), 1 (a byte), zeros; the stream is the
-    /// index.
+    /// Reference: independent implementation of ChaCha with 8 rounds in Python. Key: 1 (8 bytes), 1 (a byte), zeros;
+    /// the stream is the index.
     #[test]
     fn random_points_are_the_same_everywhere() {
         let random = Points::new(Sampling::Random, 9, 1, 10_000_000_000).unwrap();
@@ -206,7 +206,7 @@ mod tests {
         }
     }
 
-    /// The order of the points says nothing about their strata, nor do neighbours about each other.
+    /// The order of the points is not correlated with their strata, nor are neighbouring points.
     #[test]
     fn strata_come_in_no_order() {
         let found = points(Sampling::LatinHypercube, 2, 3, 10_000);
@@ -218,7 +218,7 @@ mod tests {
         }
     }
 
-    /// Places within the strata are uniform (mean 1/2, variance 1/12) and go neither with each other nor with
+    /// Positions within the strata are uniform (mean 1/2, variance 1/12), and not correlated with each other or with
     /// the strata.
     #[test]
     fn places_in_the_strata_are_random() {
@@ -248,8 +248,7 @@ mod tests {
         }
     }
 
-    /// The mean of x^2 y^2 over the square is 1/9, with a standard deviation of sqrt(1/25 - 1/81) = 0.166 per
-    /// point.
+    /// The mean of x^2 y^2 over the square is 1/9; the standard deviation is sqrt(1/25 - 1/81) = 0.166 per point.
     #[test]
     fn means_converge_as_each_sampling_should() {
         for (sampling, most) in ALL.into_iter().zip([4.0 * 0.166 / 128.0, 2e-4, 4.0 * 0.166 / 128.0]) {
@@ -262,8 +261,8 @@ mod tests {
     #[test]
     fn what_a_sampling_has_not_is_refused() {
         let fault = |sampling, dimensions, count| Points::new(sampling, dimensions, 1, count).err();
-        let sobol = "the Sobol sequence has 64 dimensions here, got 65: \
-                     take a Latin hypercube or random points for more";
+        let sobol = "the Sobol sequence has at most 64 dimensions, got 65: use a Latin hypercube or random \
+                     points for more";
         let latin = "a Latin hypercube has at most 4294967296 points, got 4294967297";
         assert_eq!(fault(Sampling::Sobol, 65, 1).as_deref(), Some(sobol));
         assert_eq!(fault(Sampling::LatinHypercube, 65, (1 << 32) + 1).as_deref(), Some(latin));

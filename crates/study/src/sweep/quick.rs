@@ -1,5 +1,5 @@
-//! Cases of which nothing has to be read anew: their numbers are set in the scene that was read, model, state and workspace of each run
-//! are made in the room of the one before.
+//! Fast runs of cases: parameters are set in the resolved scenario, without reading it again. Model, state and
+//! workspace reuse the memory of the run before.
 
 use super::Study;
 use super::wanted::{Place, Wanted};
@@ -9,7 +9,7 @@ use crate::sketch::Sketch;
 use stickslip_drive::{Limits, Plan, Scene, Variants};
 use stickslip_run::Watcher;
 
-/// What a study's results are where a run need not be recorded for them.
+/// Data for fast runs of a study.
 #[derive(Debug, Clone)]
 pub(crate) struct Shortcut {
     numbers: Vec<Number>,
@@ -19,8 +19,8 @@ pub(crate) struct Shortcut {
 }
 
 impl Shortcut {
-    /// That of a study; none where a number is none of the scene, a result needs more than a few moments of the run, or the run ends
-    /// when its steps are steady.
+    /// Creates it for a study. Returns `None` if a parameter cannot be set directly or a result needs more than a few
+    /// instants of a run. Also returns `None` if the run ends when its steps are steady.
     pub(crate) fn of(study: &Study) -> Option<Self> {
         let scenario = &study.job.scenario;
         let scene = scenario.scene.clone();
@@ -35,7 +35,7 @@ impl Shortcut {
     }
 }
 
-/// The figure that a result is.
+/// Returns the form in which a result can be evaluated during a run, if it has one.
 fn figure(study: &Study, wanted: &Wanted) -> Option<Figure> {
     let scenario = &study.job.scenario;
     if let Place::End(place) = wanted.place {
@@ -48,11 +48,11 @@ fn figure(study: &Study, wanted: &Wanted) -> Option<Figure> {
     Some(Figure::Step { channel: format!("{}.x_m", scenario.scene.bodies.get(body)?.name), waveform })
 }
 
-/// Where cases are run so, one after the other.
+/// Runs cases one after another.
 pub(crate) struct Quick<'s> {
     shortcut: &'s Shortcut,
     scene: Scene,
-    /// Waveforms whose numbers vary, and whether they have yet to be drawn.
+    /// Waveforms with varied parameters, and whether they must be built again.
     sketches: Vec<(usize, Sketch, bool)>,
     variants: Variants,
     reading: Reading<'s>,
@@ -72,9 +72,9 @@ impl<'s> Quick<'s> {
         Self { shortcut, scene: shortcut.scene.clone(), sketches, variants: Variants::new(), reading }
     }
 
-    /// The results of a case with these numbers; none where something is wrong with it.
+    /// Returns the results of a case, or `None` if it fails.
     pub(crate) fn run(&mut self, numbers: &[f64]) -> Option<&[f64]> {
-        // All of them, whatever is wrong with one: the next case finds none of this one.
+        // Sets all parameters even if one is invalid, so that the next case does not inherit old values.
         let is_set = self.set(numbers);
         let plan = &self.shortcut.plan;
         self.reading.begin(&self.scene, plan);

@@ -1,18 +1,19 @@
-//! The parts of a study among processes.
+//! Distribution of the parts of a study among processes.
 
 use super::StudyError;
 use std::str::FromStr;
 
-/// One of several processes that share a study: shard i of n takes the parts i - 1, i - 1 + n, …
+/// One of several processes that share a study. Shard i of n computes the parts i - 1, i - 1 + n, …
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Shard {
-    /// Which, from 0.
+    /// Index, from 0.
     index: u64,
-    /// Of how many.
+    /// Number of shards.
     count: u64,
 }
 
-/// Environment variables of array jobs: number of the task, the least of them and their number; and what sets them.
+/// Environment variables of array jobs: task number, smallest task number, number of tasks; and the name of the
+/// scheduler.
 const ARRAYS: [(&str, &str, &str, &str); 4] = [
     ("SLURM_ARRAY_TASK_ID", "SLURM_ARRAY_TASK_MIN", "SLURM_ARRAY_TASK_COUNT", "Slurm"),
     ("HQ_TASK_ID", "HQ_TASK_MIN", "HQ_TASK_COUNT", "HyperQueue"),
@@ -21,31 +22,31 @@ const ARRAYS: [(&str, &str, &str, &str); 4] = [
 ];
 
 impl Shard {
-    /// All parts.
+    /// The single shard with all parts.
     pub const WHOLE: Self = Self { index: 0, count: 1 };
 
-    /// Shard i of n, i from 0: with as many shards as there are parts, one part.
+    /// Creates shard `index` of `count`, from 0. Returns `None` if `index` is not below `count`.
     #[must_use]
     pub fn new(index: u64, count: u64) -> Option<Self> {
         (index < count).then_some(Self { index, count })
     }
 
-    /// Whether it takes a part.
+    /// Returns whether the shard computes a part.
     #[must_use]
     pub fn takes(self, part: u64) -> bool {
         part % self.count == self.index
     }
 
-    /// Whether it takes all parts.
+    /// Returns whether the shard computes all parts.
     #[must_use]
     pub fn is_whole(self) -> bool {
         self.count == 1
     }
 
-    /// That of the array job which the environment tells of.
+    /// Returns the shard of the array job that environment variables describe.
     ///
     /// # Errors
-    /// No array job, or one that does not say how many tasks it has.
+    /// Fails if there is no array job, or its number of tasks is unknown.
     pub fn from_environment(variable: &dyn Fn(&str) -> Option<String>) -> Result<Self, StudyError> {
         let refused = |text: String| StudyError::Shard(text);
         let number = |name: &str| -> Result<Option<u64>, StudyError> {
@@ -56,7 +57,7 @@ impl Shard {
             })
         };
         for (id, least, count, engine) in ARRAYS {
-            // Grid Engine sets "undefined" outside of arrays.
+            // Grid Engine sets "undefined" outside of array jobs.
             if variable(id).is_none_or(|text| text == "undefined") {
                 continue;
             }
@@ -64,7 +65,7 @@ impl Shard {
             let first = number(least)?.unwrap_or(1);
             let of = match number(count)? {
                 Some(of) => Some(of),
-                // Grid Engine says which is the last one.
+                // Grid Engine gives the last task number.
                 None if id == "SGE_TASK_ID" => {
                     number("SGE_TASK_LAST")?.map(|last| (last + 1).saturating_sub(first))
                 }
@@ -72,18 +73,18 @@ impl Shard {
             };
             let Some(of) = of.filter(|of| *of > 0) else {
                 return Err(refused(format!(
-                    "--shard auto: {engine} says which task this is ({id}={id_value}), and not how many there are\n   help: set {count}, or give --shard i/n"
+                    "--shard auto: {engine} sets the task number ({id}={id_value}), but not the number of tasks\n   help: set {count}, or give --shard i/n"
                 )));
             };
             return Self::numbered(id_value.wrapping_sub(first).wrapping_add(1), of).ok_or_else(|| {
                 refused(format!(
-                    "--shard auto: task {id_value} of {engine} is not one of {of} from {first} on"
+                    "--shard auto: task {id_value} of {engine} is not one of the {of} tasks from {first} on"
                 ))
             });
         }
         let known: Vec<&str> = ARRAYS.iter().map(|(id, ..)| *id).collect();
         Err(refused(format!(
-            "--shard auto: this is no array job: none of {} is set\n   help: give --shard i/n",
+            "--shard auto: this is not an array job: none of {} is set\n   help: give --shard i/n",
             known.join(", ")
         )))
     }
@@ -136,12 +137,12 @@ mod tests {
         };
         assert_eq!(slurm("3", "0", "4"), Ok("4/4".parse().unwrap()));
         assert_eq!(slurm("1", "1", "4"), Ok("1/4".parse().unwrap()));
-        assert!(slurm("7", "1", "4").unwrap_err().contains("task 7 of Slurm is not one of 4"));
+        assert!(slurm("7", "1", "4").unwrap_err().contains("task 7 of Slurm is not one of the 4 tasks"));
         assert_eq!(
             auto(&[("SGE_TASK_ID", "2"), ("SGE_TASK_FIRST", "1"), ("SGE_TASK_LAST", "5")]),
             Ok("2/5".parse().unwrap())
         );
         assert!(auto(&[("PBS_ARRAY_INDEX", "2")]).unwrap_err().contains("PBS_ARRAY_COUNT"));
-        assert!(auto(&[("SGE_TASK_ID", "undefined")]).unwrap_err().contains("no array job"));
+        assert!(auto(&[("SGE_TASK_ID", "undefined")]).unwrap_err().contains("not an array job"));
     }
 }

@@ -1,8 +1,8 @@
-//! Where each dimension of the Sobol sequence begins: the first 64 dimensions of `new-joe-kuo-6.21201`.
+//! Initial direction numbers of the Sobol sequence: the first 64 dimensions of `new-joe-kuo-6.21201`.
 //!
-//! S. Joe and F. Y. Kuo, "Constructing Sobol sequences with better two-dimensional projections", SIAM Journal
-//! on Scientific Computing 30 (2008), 2635-2654; <https://web.maths.unsw.edu.au/~fkuo/sobol/>. SciPy's
-//! `qmc.Sobol` has the same numbers. Their licence asks that this notice stays with them:
+//! S. Joe and F. Y. Kuo, "Constructing Sobol sequences with better two-dimensional projections", SIAM Journal on
+//! Scientific Computing 30 (2008), 2635-2654; <https://web.maths.unsw.edu.au/~fkuo/sobol/>. SciPy's
+//! `qmc.Sobol` uses the same numbers. The licence requires this notice:
 
 // Copyright (c) 2008, Frances Y. Kuo and Stephen Joe
 // All rights reserved.
@@ -30,9 +30,10 @@
 // OR TORT (INCLUDING NEGLIGENCE OR OTHERWISE) ARISING IN ANY WAY OUT OF THE USE OF THIS SOFTWARE, EVEN
 // IF ADVISED OF THE POSSIBILITY OF SUCH DAMAGE.
 
-/// For dimensions 2 to 64: the primitive polynomial modulo 2, one bit per coefficient and the highest power
-/// first, and the odd initial numbers m_1, m_2 ..., as many as the polynomial's degree. Dimension 1 needs
-/// none.
+/// Initial numbers of dimensions 2 to 64; dimension 1 needs none.
+///
+/// Each entry has the primitive polynomial modulo 2, one bit per coefficient with the highest power first. The initial
+/// numbers m_1, m_2, … follow, as many as the degree of the polynomial.
 pub(crate) const INITIAL: [(u32, &[u32]); 63] = [
     (3, &[1]),
     (7, &[1, 3]),

@@ -1,56 +1,50 @@
-//! Variance-based sensitivity indices (Sobol indices): which share of a result's variance comes from which
-//! parameter.
+//! Sobol indices: variance-based sensitivity of a result to each parameter.
 
-/// The sums that the indices of one parameter need.
+/// Number of terms per sample from which the indices of one parameter are computed.
 const TERMS: usize = 6;
 
-/// Indices of one parameter, pure numbers. All are NaN where the result does not vary or was evaluated only
-/// once.
+/// Indices of one parameter, pure numbers. All are NaN if the result does not vary or there is only one sample.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Index {
-    /// First-order index: the share of the variance that goes if this parameter alone is known.
+    /// First-order index: fraction of the variance that would vanish if this parameter were known.
     pub(crate) first: f64,
-    /// Total index: the share of the variance that stays if all the other parameters are known.
+    /// Total index: fraction of the variance that would remain if all other parameters were known.
     pub(crate) total: f64,
-    /// Standard error of `first`, as if the samples were independent: for a Sobol sequence it is an upper
-    /// estimate.
+    /// Standard error of `first` for independent samples; an upper bound for a Sobol sequence.
     pub(crate) first_error: f64,
-    /// Standard error of `total`, likewise.
+    /// Standard error of `total` for independent samples; an upper bound for a Sobol sequence.
     pub(crate) total_error: f64,
 }
 
-/// Takes the results f(A), f(B) and f(AB_i) sample by sample, where A and B are two independent samples and
-/// AB_i is A with parameter i from B. Its memory does not grow with the number of samples.
+/// Accumulates the results f(A), f(B) and f(AB_i) sample by sample. A and B are independent samples, and AB_i is A with
+/// parameter i from B. Memory does not grow with the number of samples.
 ///
-/// With means over the samples, V the variance of f(A) and f(B) together, and results less their mean over
-/// all samples:
+/// V is the variance of f(A) and f(B) together, and results are relative to their mean over all samples:
 ///
-/// - first order: mean(f(B) (f(AB_i) - f(A))) / V: A. Saltelli et al., Computer Physics Communications 181
-///   (2010), 259-270, table 2 (b);
-/// - total: mean((f(A) - f(AB_i))^2) / (2 V): M. J. W. Jansen, Computer Physics Communications 117 (1999),
-///   35-43.
+/// - first order: mean(f(B) (f(AB_i) - f(A))) / V: A. Saltelli et al., Computer Physics Communications 181 (2010),
+///   259-270, table 2 (b);
+/// - total: mean((f(A) - f(AB_i))^2) / (2 V): M. J. W. Jansen, Computer Physics Communications 117 (1999), 35-43.
 ///
-/// The mean is known only after the last sample. The sums are therefore of results relative to the first one,
-/// which keeps their digits, and `finish` corrects them for the mean by exact algebra. The indices are then
-/// those of SALib.
+/// The mean is known only after the last sample. Sums are therefore relative to the first result, which preserves
+/// digits, and `finish` corrects them exactly. The indices equal those of SALib.
 #[derive(Debug, Clone)]
 pub(crate) struct Accumulator {
     /// f(A) of the first sample.
     origin: f64,
     samples: u64,
-    /// The sum of f(A), relative to the origin.
+    /// Sum of f(A), relative to the origin.
     sum_a: f64,
-    /// Per parameter, the sums of all products of two of its terms.
+    /// For each parameter, sums of all products of two of its terms.
     products: Vec<[[f64; TERMS]; TERMS]>,
 }
 
 impl Accumulator {
-    /// For as many parameters.
+    /// Creates an accumulator for `dimensions` parameters.
     pub(crate) fn new(dimensions: usize) -> Self {
         Self { origin: 0.0, samples: 0, sum_a: 0.0, products: vec![[[0.0; TERMS]; TERMS]; dimensions] }
     }
 
-    /// Takes one sample: f(A), f(B) and f(AB_i) of each parameter i. All must be finite.
+    /// Adds one sample: f(A), f(B) and f(AB_i) of each parameter i. All must be finite.
     pub(crate) fn take(&mut self, f_a: f64, f_b: f64, f_ab: &[f64]) {
         if self.samples == 0 {
             self.origin = f_a;
@@ -67,22 +61,23 @@ impl Accumulator {
         }
     }
 
-    /// The indices of each parameter, from the samples so far.
+    /// Returns the indices of each parameter for the samples so far.
     pub(crate) fn finish(&self) -> Vec<Index> {
         let mean = self.mean();
         self.products.iter().map(|products| self.index(products, mean)).collect()
     }
 
-    /// The mean of all results f(A), f(B) and f(AB_i), relative to the origin.
+    /// Returns the mean of all results f(A), f(B) and f(AB_i), relative to the origin.
     fn mean(&self) -> f64 {
         let Some(both) = self.products.first().map(|products| products[0][1]) else { return 0.0 };
         let mixed: f64 = self.products.iter().map(|products| products[0][3] + self.sum_a).sum();
         (both + mixed) / (self.samples as f64 * (self.products.len() + 2) as f64)
     }
 
-    /// Both indices are ratios of means M / V. A sample's part in M and V is a linear combination of its
-    /// terms, and with m and v for them the standard error is sqrt(mean((m - index v)^2) / (n - 1)) / V (the
-    /// delta method).
+    /// Returns the indices of one parameter. Both are ratios of means M / V.
+    ///
+    /// The contributions m and v of a sample to M and V are linear combinations of its terms. The standard error is
+    /// sqrt(mean((m - index v)^2) / (n - 1)) / V (delta method).
     fn index(&self, products: &[[f64; TERMS]; TERMS], mean: f64) -> Index {
         let n = self.samples as f64;
         let [_, sum, square, change, product, half_square] = products[0].map(|sum| sum / n);
@@ -103,7 +98,7 @@ impl Accumulator {
     }
 }
 
-/// The sum of the squares of a linear combination of terms, from the sums of their products.
+/// Returns the sum of squares of a linear combination of terms, from the sums of their products.
 fn quadratic(products: &[[f64; TERMS]; TERMS], weights: &[f64; TERMS]) -> f64 {
     let along = |row: &[f64; TERMS]| row.iter().zip(weights).map(|(sum, weight)| sum * weight).sum::<f64>();
     products.iter().zip(weights).map(|(row, weight)| weight * along(row)).sum()
@@ -115,8 +110,8 @@ mod tests {
     use super::*;
     use std::f64::consts::PI;
 
-    /// The indices of a function of the unit cube from n samples: A the first k dimensions of a Sobol point,
-    /// B the others.
+    /// Returns the indices of a function on the unit cube from n samples. A has the first k dimensions of a Sobol
+    /// point, B the others.
     fn indices<const K: usize>(n: u64, f: impl Fn(&[f64]) -> f64) -> Vec<Index> {
         let points = Points::unshifted(2 * K, n).unwrap();
         let mut accumulator = Accumulator::new(K);
@@ -150,9 +145,9 @@ mod tests {
         (std::array::from_fn(|i| found[i].first), std::array::from_fn(|i| found[i].total))
     }
 
-    /// S1 and ST of `SALib.analyze.sobol.analyze(..., calc_second_order=False)`, SALib 1.6.0, for the same
-    /// samples: SciPy 1.17.1's `qmc.Sobol(6, scramble=False, bits=32).random(1024) + 2**-33`, Ishigami's
-    /// function in NumPy 2.4.6.
+    /// Reference: S1 and ST of `SALib.analyze.sobol.analyze(..., calc_second_order=False)`, SALib 1.6.0, for the same
+    /// samples. Samples: SciPy 1.17.1's `qmc.Sobol(6, scramble=False, bits=32).random(1024) + 2**-33`;
+    /// Ishigami's function in NumPy 2.4.6.
     const FIRST: [f64; 3] = [0.332955075203446, 0.4413139385461684, 0.01857841297473376];
     const TOTAL: [f64; 3] = [0.5581790457112, 0.44328458402858145, 0.24214937334017256];
 
@@ -163,7 +158,7 @@ mod tests {
         near(total, TOTAL, 1e-12);
     }
 
-    /// The rounding of 1e6 + f, to 1e-10, moves the results themselves; the sums add nothing to that.
+    /// 1e6 + f is rounded to 1e-10. The sums must not lose further digits.
     #[test]
     fn a_great_mean_costs_no_digits() {
         let (first, total) = split(&indices::<3>(1024, |u| 1e6 + ishigami(u)));
@@ -171,7 +166,7 @@ mod tests {
         near(total, TOTAL, 2e-12);
     }
 
-    /// `S1_conf` and `ST_conf` of the same run, less the factor 1.96: bootstrap estimates from 2000 resamples
+    /// Reference: `S1_conf` and `ST_conf` of the same run divided by 1.96, bootstrap estimates from 2000 resamples
     /// (seed 7).
     #[test]
     fn the_standard_errors_are_those_of_a_bootstrap() {
@@ -186,8 +181,8 @@ mod tests {
         }
     }
 
-    /// T. Ishigami and T. Homma, ISUMA 1990: V1 = (1 + b pi^4 / 5)^2 / 2, V2 = a^2 / 8, and
-    /// V13 = b^2 pi^8 (1/18 - 1/50).
+    /// T. Ishigami and T. Homma, ISUMA 1990: V1 = (1 + b pi^4 / 5)^2 / 2, V2 = a^2 / 8, and V13 = b^2 pi^8 (1/18 -
+    /// 1/50).
     #[test]
     fn ishigamis_function_has_its_closed_indices() {
         let (first, total) = split(&indices::<3>(1 << 16, ishigami));
@@ -200,9 +195,8 @@ mod tests {
         near(total, [(v1 + v13) / v, v2 / v, v13 / v], 1e-3);
     }
 
-    /// Of a product of independent factors with means m and variances s: V = prod(m^2 + s) - prod(m^2), the
-    /// first-order index is s_i prod(m_j^2) / V and the total one s_i prod(m_j^2 + s_j) / V, over j other
-    /// than i.
+    /// Product of independent factors with means m and variances s: V = prod(m^2 + s) - prod(m^2). The first-order
+    /// index is s_i prod(m_j^2) / V and the total one s_i prod(m_j^2 + s_j) / V, over j other than i.
     #[test]
     fn a_product_has_its_closed_indices() {
         let ranges = [[0.5, 1.5], [1.0, 4.0], [-1.0, 2.0]];

@@ -1,17 +1,17 @@
-//! The Sobol sequence, 32 bits per coordinate, any point at once.
+//! Sobol sequence with 32 bits per coordinate and direct access to every point.
 
 use super::sobol_directions::INITIAL;
 
 /// Bits per coordinate.
 const BITS: usize = 32;
 
-/// The most points that the sequence has.
+/// Number of points of the sequence.
 pub(crate) const MOST_POINTS: u64 = 1 << BITS;
 
-/// The most dimensions that it has here.
+/// Maximum number of dimensions.
 pub(crate) const MOST_DIMENSIONS: usize = INITIAL.len() + 1;
 
-/// The direction numbers of each dimension, and the digital shift of each.
+/// Sobol sequence: direction numbers and digital shift of each dimension.
 ///
 /// I. M. Sobol', "On the distribution of points in a cube and the approximate evaluation of integrals", USSR
 /// Computational Mathematics and Mathematical Physics 7 (1967), 86-112.
@@ -21,19 +21,20 @@ pub(crate) struct Sobol {
 }
 
 impl Sobol {
-    /// The sequence with one shift per dimension: a 32-bit number that all coordinates of that dimension are
-    /// combined with by exclusive or. Shifts of 0 leave the sequence as Sobol defined it. At most
-    /// [`MOST_DIMENSIONS`] are taken.
+    /// Creates the sequence with one digital shift per dimension, a 32-bit number that is combined with all its
+    /// coordinates by exclusive or. Shifts of 0 give the original sequence. Shifts beyond
+    /// [`MOST_DIMENSIONS`] are ignored.
     pub(crate) fn new(shifts: impl IntoIterator<Item = u32>) -> Self {
         let directions =
             std::iter::once(first()).chain(INITIAL.iter().map(|&(polynomial, m)| later(polynomial, m)));
         Self { dimensions: directions.zip(shifts).collect() }
     }
 
-    /// Point `index`, below 2^32, in the order of Antonov and Saleev (USSR Computational Mathematics and
-    /// Mathematical Physics 19, 1979, 252-256), which SciPy has too: the exclusive or of the direction
-    /// numbers at which the Gray code index ^ (index / 2) has a 1. A coordinate of bits b becomes the number
-    /// (b + 1/2) / 2^32, never 0 or 1.
+    /// Writes point `index`, below 2^32. Coordinates are never 0 or 1.
+    ///
+    /// The order is that of Antonov and Saleev (USSR Computational Mathematics and Mathematical Physics 19, 1979,
+    /// 252-256), as in SciPy. The bits of a point are the exclusive or of the direction numbers for which the Gray code
+    /// index ^ (index / 2) has a 1. A coordinate with bits b is (b + 1/2) / 2^32.
     pub(crate) fn write(&self, index: u64, point: &mut [f64]) {
         let gray = index ^ (index >> 1);
         for ((directions, shift), coordinate) in self.dimensions.iter().zip(point) {
@@ -47,14 +48,15 @@ impl Sobol {
     }
 }
 
-/// The direction numbers of dimension 1: one half, one quarter, one eighth, in units of 2^-32.
+/// Returns the direction numbers of dimension 1: one half, one quarter, one eighth, …, in units of 2^-32.
 fn first() -> [u32; BITS] {
     std::array::from_fn(|k| 1 << (BITS - 1 - k))
 }
 
-/// The direction numbers of another dimension: v_k = m_k / 2^k for the initial ones, in units of 2^-32. Those
-/// beyond follow from the polynomial x^s + a_1 x^(s-1) + ... + a_(s-1) x + 1, with ^ for the exclusive or:
-/// v_k = a_1 v_(k-1) ^ ... ^ a_(s-1) v_(k-s+1) ^ v_(k-s) ^ v_(k-s) / 2^s.
+/// Returns the direction numbers of another dimension in units of 2^-32. The initial ones are v_k = m_k / 2^k.
+///
+/// The others follow from the polynomial x^s + a_1 x^(s-1) + ... + a_(s-1) x + 1, with ^ for the exclusive or: v_k =
+/// a_1 v_(k-1) ^ ... ^ a_(s-1) v_(k-s+1) ^ v_(k-s) ^ v_(k-s) / 2^s.
 fn later(polynomial: u32, m: &[u32]) -> [u32; BITS] {
     let degree = m.len();
     let mut v = [0; BITS];
@@ -73,14 +75,14 @@ fn later(polynomial: u32, m: &[u32]) -> [u32; BITS] {
 mod tests {
     use super::*;
 
-    /// Point `index` of 64 dimensions without a shift, in units of 2^-32.
+    /// Returns point `index` in 64 dimensions without shift, in units of 2^-32.
     fn bits(index: u64) -> Vec<u32> {
         let mut point = vec![0.0; MOST_DIMENSIONS];
         Sobol::new(vec![0; MOST_DIMENSIONS]).write(index, &mut point);
         point.iter().map(|x| (x * MOST_POINTS as f64 - 0.5) as u32).collect()
     }
 
-    /// `scipy.stats.qmc.Sobol(6, scramble=False, bits=32).random(8)` times 2^32, SciPy 1.17.1.
+    /// Reference: `scipy.stats.qmc.Sobol(6, scramble=False, bits=32).random(8)` times 2^32, SciPy 1.17.1.
     #[test]
     fn the_first_points_are_scipys() {
         let first = [
@@ -98,7 +100,7 @@ mod tests {
         }
     }
 
-    /// `Sobol(64, scramble=False, bits=32)` after `fast_forward(1_000_003)`, times 2^32, SciPy 1.17.1.
+    /// Reference: `Sobol(64, scramble=False, bits=32)` after `fast_forward(1_000_003)`, times 2^32, SciPy 1.17.1.
     #[test]
     fn a_late_point_is_scipys() {
         let point = bits(1_000_003);
@@ -106,8 +108,8 @@ mod tests {
         assert_eq!((point[36], point[63]), (796602368, 1323372544));
     }
 
-    /// All 64 times 32 direction numbers: a checksum of the array `_sv` of SciPy 1.17.1's `Sobol(64,
-    /// bits=32)`.
+    /// Reference: checksum of all 64 times 32 direction numbers in the array `_sv` of `Sobol(64, bits=32)`, SciPy
+    /// 1.17.1.
     #[test]
     fn all_direction_numbers_are_scipys() {
         let sobol = Sobol::new(vec![0; MOST_DIMENSIONS]);

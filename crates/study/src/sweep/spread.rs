@@ -1,48 +1,47 @@
-//! How a parameter is distributed, and the value below which it lies with a given probability.
+//! Probability distributions of parameters with their quantile functions.
 
 use super::normal;
 
-/// The distribution of one parameter. All numbers but the probabilities have the unit of the parameter.
+/// Distribution of one parameter. All values except probabilities have the unit of the parameter.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) enum Spread {
-    /// Every value between the two is as likely as any other.
+    /// Uniform distribution between two bounds.
     Uniform([f64; 2]),
-    /// The normal distribution, truncated to the bounds where there are any: values outside do not occur, and
-    /// the density inside is raised by the same factor everywhere.
+    /// Normal distribution, optionally truncated to bounds.
     Normal {
-        /// The mean before truncation.
+        /// Mean before truncation.
         mean: f64,
-        /// The standard deviation before truncation, above 0.
+        /// Standard deviation before truncation, above 0.
         deviation: f64,
-        /// The lowest and the highest value that occur.
+        /// Lower and upper bound.
         bounds: Option<[f64; 2]>,
     },
-    /// The logarithm is normally distributed: x = median * deviation^z with a standard normal z.
+    /// Log-normal distribution: x = median * deviation^z with a standard normal z.
     Lognormal {
-        /// Above 0.
+        /// Median, above 0.
         median: f64,
-        /// The geometric standard deviation, a pure number above 1: two thirds of the values lie between
-        /// median / deviation and median * deviation.
+        /// Geometric standard deviation, a pure number above 1. Two thirds of the values lie between median / deviation
+        /// and median * deviation.
         deviation: f64,
     },
-    /// The density rises linearly from 0 at `low` to its greatest value at `mode` and falls linearly to 0 at
-    /// `high`.
+    /// Triangular distribution: the density increases linearly from 0 at `low` to its maximum at `mode`, and decreases
+    /// linearly to 0 at `high`.
     Triangular {
-        /// The lowest value.
+        /// Smallest value.
         low: f64,
-        /// The most likely value.
+        /// Most likely value.
         mode: f64,
-        /// The highest value.
+        /// Largest value.
         high: f64,
     },
 }
 
-/// Bounds that hold less probability than this are reported as holding none: nearer to 0 the digits run out.
+/// Smallest probability between bounds that counts as non-zero. Smaller values lose digits.
 const LEAST_PROBABILITY: f64 = 1e-300;
 
 impl Spread {
-    /// The quantile function (inverse of the cumulative distribution): the value below which the parameter
-    /// lies with probability `p`, 0 < p < 1. The numbers must have no [`fault`](Self::fault).
+    /// Returns the quantile function (inverse cumulative distribution) for the probability `p`, 0 < p < 1. The
+    /// distribution must have no [`fault`](Self::fault).
     pub(crate) fn quantile(&self, p: f64) -> f64 {
         match *self {
             Self::Uniform([low, high]) => within(low + p * (high - low), low, high),
@@ -56,7 +55,7 @@ impl Spread {
         }
     }
 
-    /// What is wrong with the numbers of the distribution, in a sentence; none where it can be drawn from.
+    /// Returns an error message for invalid parameters of the distribution, or `None`.
     pub(crate) fn fault(&self) -> Option<String> {
         match *self {
             Self::Uniform([low, high]) => ordered(low, high),
@@ -72,14 +71,16 @@ impl Spread {
     }
 }
 
-/// The nearest number to `x` between the two; unlike `f64::clamp` it accepts any two numbers.
+/// Returns the value nearest to `x` between two numbers. Unlike `f64::clamp` it accepts bounds in any order.
 fn within(x: f64, low: f64, high: f64) -> f64 {
     x.max(low).min(high)
 }
 
-/// The quantile of the standard normal distribution truncated to a..b: the z with Phi(z) = Phi(a) + p P,
-/// where P = Phi(b) - Phi(a). If z is positive, it is computed from the probability above it, by symmetry: a
-/// probability near 1 would lose the digits that matter in the upper tail.
+/// Returns the quantile of the standard normal distribution truncated to a..b: z with Phi(z) = Phi(a) + p P, where P =
+/// Phi(b) - Phi(a).
+///
+/// A positive z is computed from the probability above it, because a probability near 1 would lose digits in the upper
+/// tail.
 fn truncated(a: f64, b: f64, p: f64) -> f64 {
     let mass = probability(a, b);
     let below = normal::cumulative(a) + p * mass;
@@ -90,8 +91,7 @@ fn truncated(a: f64, b: f64, p: f64) -> f64 {
     }
 }
 
-/// The probability that a standard normal variable lies between a and b, from the tail on the side where both
-/// are.
+/// Returns the probability that a standard normal variable lies between a and b. Uses the nearer tail for accuracy.
 fn probability(a: f64, b: f64) -> f64 {
     if a > 0.0 {
         normal::cumulative(-a) - normal::cumulative(-b)
@@ -100,8 +100,8 @@ fn probability(a: f64, b: f64) -> f64 {
     }
 }
 
-/// The quantile of the triangular distribution: low + width sqrt(p f) up to the mode, where p <= f, and
-/// high - width sqrt((1 - p)(1 - f)) beyond it; f = (mode - low) / width is the probability below the mode.
+/// Returns the quantile of the triangular distribution. With f = (mode - low) / width, it is low + width sqrt(p f) for
+/// p <= f, otherwise high - width sqrt((1 - p)(1 - f)).
 fn triangular(low: f64, mode: f64, high: f64, p: f64) -> f64 {
     let width = high - low;
     let rising = (mode - low) / width;
@@ -146,13 +146,13 @@ fn outside(low: f64, mode: f64, high: f64) -> Option<String> {
 fn unreached(mean: f64, deviation: f64, [low, high]: [f64; 2]) -> Option<String> {
     let none = || {
         let (low, high) = (shown(low), shown(high));
-        format!("the bounds leave nothing: the probability between {low} and {high} is 0")
+        format!("the probability between the bounds {low} and {high} is 0")
     };
     let mass = || probability((low - mean) / deviation, (high - mean) / deviation);
     ordered(low, high).or_else(|| (mass() < LEAST_PROBABILITY).then(none))
 }
 
-/// A number as people write it: 0 and 5e-9, not 0.0 or 0.000000005.
+/// Formats a number without unnecessary digits: 0 and 5e-9, not 0.0 or 0.000000005.
 fn shown(x: f64) -> String {
     let text = format!("{x:?}");
     text.strip_suffix(".0").map_or(text.clone(), str::to_owned)
@@ -170,9 +170,8 @@ mod tests {
         assert!((found - expected).abs() <= 1e-15 * scale, "{found:?} for {expected:?}");
     }
 
-    /// Mean, deviation, bounds, p and the quantile: mean + deviation z, where Phi(z) = Phi(a) + p (Phi(b) -
-    /// Phi(a)) was solved with mpmath 1.4.1 at 60 digits. The tolerance is 1e-15 of |mean| + deviation +
-    /// |quantile|.
+    /// Columns: mean, deviation, bounds, p and quantile. Phi(z) = Phi(a) + p (Phi(b) - Phi(a)) was solved with mpmath
+    /// 1.4.1 at 60 digits. The tolerance is 1e-15 of |mean| + deviation + |quantile|.
     #[test]
     fn a_truncated_normal_distribution_is_accurate_in_both_tails() {
         let table = [
@@ -202,7 +201,7 @@ mod tests {
         assert_eq!(spread.quantile(0.5), 3.0);
     }
 
-    /// median * deviation^z with z as in `normal`, mpmath 1.4.1 at 60 digits.
+    /// Reference: median * deviation^z with z as in `normal`, mpmath 1.4.1 at 60 digits.
     #[test]
     fn a_lognormal_distribution_is_a_power_of_its_deviation() {
         let table = [
@@ -215,7 +214,7 @@ mod tests {
         }
     }
 
-    /// low + sqrt(p (high - low)(mode - low)) and its mirror image, mpmath 1.4.1 at 60 digits.
+    /// Reference: low + sqrt(p (high - low)(mode - low)) and its mirror image, mpmath 1.4.1 at 60 digits.
     #[test]
     fn a_triangular_distribution_rises_and_falls() {
         let table = [
@@ -259,14 +258,8 @@ mod tests {
             ),
             (normal(0.0, 0.0, 0.0, 1.0), "the standard deviation must be above 0, got 0"),
             (normal(0.0, 1.0, 2.0, 2.0), "low must be below high, got 2 and 2"),
-            (
-                normal(0.0, 1.0, 40.0, 50.0),
-                "the bounds leave nothing: the probability between 40 and 50 is 0",
-            ),
-            (
-                normal(0.0, 5e-9, -2.0, -1.0),
-                "the bounds leave nothing: the probability between -2 and -1 is 0",
-            ),
+            (normal(0.0, 1.0, 40.0, 50.0), "the probability between the bounds 40 and 50 is 0"),
+            (normal(0.0, 5e-9, -2.0, -1.0), "the probability between the bounds -2 and -1 is 0"),
             (normal(f64::INFINITY, 1.0, 0.0, 1.0), "the mean must be a finite number, got inf"),
             (lognormal(0.0, 2.0), "the median must be above 0, got 0"),
             (lognormal(5e-9, 1.0), "the geometric standard deviation must be above 1, got 1"),

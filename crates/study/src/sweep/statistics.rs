@@ -1,4 +1,4 @@
-//! What the results of a study say: quantiles, failures, extremes. Memory does not grow with the number of cases.
+//! Statistics of a study: quantiles, failures, extremes. The memory does not depend on the number of cases.
 
 use super::{Study, StudyError};
 use schemars::JsonSchema;
@@ -9,65 +9,65 @@ use stickslip_quantity::Real;
 
 /// Probabilities of the quantiles.
 const PROBABILITIES: [f64; 7] = [0.0, 0.05, 0.25, 0.5, 0.75, 0.95, 1.0];
-/// Cases at each end that are told as extremes.
+/// Number of extreme cases reported at each end.
 const FAR: usize = 5;
-/// Reasons of failures that are told apart; all others are counted together.
+/// Number of reasons of failures that are counted separately.
 const REASONS: usize = 20;
-/// Bits of a number that one reading of the results sorts by, and how many readings there are.
+/// Bits by which one pass sorts numbers, and number of passes.
 const BITS: u32 = 16;
 const READINGS: u32 = 4;
 
-/// What the results of a study say.
+/// Statistics of a study.
 #[derive(Debug, Serialize, JsonSchema)]
 pub struct Statistics {
     /// number of cases
     pub cases: u64,
     /// number of cases without results
     pub failed: u64,
-    /// failed cases by reason, without the values that differ from case to case
+    /// number of failed cases by reason. Values that differ from case to case are omitted from the reasons.
     pub reasons: Vec<(String, u64)>,
-    /// quantiles of each result, in the order of the study file
+    /// Quantiles of each result, in the order of the study file.
     pub quantiles: Vec<Quantiles>,
-    /// cases with the smallest and the largest values of the first numerical result
+    /// Cases with the smallest and largest values of the first numerical result.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub extremes: Option<Extremes>,
 }
 
-/// Quantiles of one result, or how often each word occurs.
+/// Quantiles of one result, or frequencies of its words.
 #[derive(Debug, Serialize, JsonSchema)]
 pub struct Quantiles {
-    /// the result
+    /// name of the result
     pub result: String,
-    /// number of cases in which it has a value
+    /// number of cases that have this result
     pub count: u64,
-    /// arithmetic mean
+    /// arithmetic mean of the result
     pub mean: Real,
-    /// standard deviation of the sample
+    /// sample standard deviation of the result
     pub standard_deviation: Real,
-    /// smallest value, the quantiles of 5, 25, 50, 75 and 95 %, and the largest value: linear between the values of the ranks next to
-    /// p (n - 1)
+    /// minimum, quantiles of 5, 25, 50, 75 and 95 %, and maximum. Quantile p is interpolated linearly between the
+    /// sorted values at rank p (n - 1), counted from 0.
     pub quantiles: [Real; 7],
-    /// how often each word occurs, of a result that is a word
+    /// frequency of each word, if the result is a word. Absent for numbers.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub words: Vec<(String, u64)>,
 }
 
-/// Cases at both ends of a result.
+/// Extreme cases of a result.
 #[derive(Debug, Serialize, JsonSchema)]
 pub struct Extremes {
-    /// the result
+    /// name of the first numerical result
     pub result: String,
-    /// number of each case and its value, the smallest first
+    /// case numbers and values of the smallest results, the smallest first
     pub lowest: Vec<(u64, Real)>,
-    /// number of each case and its value, the largest first
+    /// case numbers and values of the largest results, the largest first
     pub highest: Vec<(u64, Real)>,
 }
 
 impl Study {
-    /// What the results in a folder say, all parts of them.
+    /// Computes the statistics from all parts in a folder.
     ///
     /// # Errors
-    /// Parts that are missing or cannot be read.
+    /// Parts are missing or cannot be read.
     pub fn statistics(&self, folder: &Path) -> Result<Statistics, StudyError> {
         self.check_complete(folder)?;
         let (mut failed, mut reasons) = (0, BTreeMap::new());
@@ -106,9 +106,9 @@ impl Study {
         let wanted = &self.wanted[result];
         let (mut count, mut sum, mut squares) = (0_u64, Sum::default(), Sum::default());
         let mut words = vec![0_u64; wanted.codes.as_ref().map_or(0, Vec::len)];
-        // For each probability the ranks on both sides of it.
+        // The two ranks next to each probability.
         let mut search = [Search::default(); 2 * PROBABILITIES.len()];
-        // The digits of all wanted values are found one after the other, from the highest on: a histogram for each prefix.
+        // Radix selection: each pass finds the next digit of all values with a histogram per prefix.
         for reading in 0..if wanted.codes.is_some() { 1 } else { READINGS } {
             let mut prefixes: Vec<u64> = search.iter().map(|search| search.prefix).collect();
             prefixes.dedup();
@@ -159,7 +159,7 @@ impl Study {
     }
 }
 
-/// A rank that is looked for among numbers, digit by digit.
+/// Search for the value with a given rank, digit by digit.
 #[derive(Debug, Clone, Copy, Default)]
 struct Search {
     prefix: u64,
@@ -178,7 +178,7 @@ impl Search {
     }
 }
 
-/// A number as bits that are ordered as numbers are.
+/// Returns bits that sort like the numbers.
 fn ordered(value: f64) -> u64 {
     let bits = value.to_bits();
     if bits >> 63 == 1 { !bits } else { bits | (1 << 63) }
@@ -188,14 +188,14 @@ fn value(ordered: u64) -> f64 {
     f64::from_bits(if ordered >> 63 == 1 { ordered & !(1 << 63) } else { !ordered })
 }
 
-/// The digits before that of a reading, and that digit.
+/// Returns the digits before that of a pass, and that digit.
 fn split(ordered: u64, reading: u32) -> (u64, usize) {
     let below = BITS * (READINGS - reading);
     let prefix = ordered.checked_shr(below).unwrap_or(0);
     (prefix, ((ordered >> (below - BITS)) & ((1 << BITS) - 1)) as usize)
 }
 
-/// A sum that keeps what rounding would lose (Neumaier's).
+/// Compensated sum (Neumaier).
 #[derive(Debug, Default)]
 struct Sum {
     sum: f64,
@@ -215,7 +215,7 @@ impl Sum {
     }
 }
 
-/// The cases at both ends.
+/// Extreme cases found so far.
 #[derive(Debug, Default)]
 struct Ends {
     lowest: Vec<(u64, f64)>,
@@ -237,7 +237,7 @@ fn keep(ends: &mut Vec<(u64, f64)>, case: (u64, f64), is_before: impl Fn(f64, f6
     }
 }
 
-/// A reason without what was given: `bodies.slider.mass: expected a mass above 0`.
+/// Returns an error message without the given value: `bodies.slider.mass: expected a mass above 0`.
 fn without_values(error: &str) -> String {
     error.split(", got ").next().unwrap_or(error).to_owned()
 }
@@ -246,7 +246,7 @@ fn without_values(error: &str) -> String {
 mod tests {
     use super::*;
 
-    /// Against sorting.
+    /// Comparison with sorting.
     #[test]
     fn ranks_are_found_digit_by_digit() {
         let values: Vec<f64> =

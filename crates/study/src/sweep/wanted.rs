@@ -1,4 +1,4 @@
-//! What is kept of each run: channels at its end, and numbers and words of its summary.
+//! Results of a case: channels at the end of the run, and numbers and words of its summary.
 
 use schemars::generate::SchemaSettings;
 use serde_json::Value;
@@ -8,15 +8,15 @@ use stickslip_quantity::names;
 use stickslip_run::{Job, Summary};
 use stickslip_scenario::{ScenarioError, StudyFile, suggestion};
 
-/// Parts of a summary that are not the same whenever the same case is run.
+/// Part of the summary that differs between runs of the same case.
 const UNSTEADY: &str = "timing";
-/// The part of a summary that takes a search of its own.
+/// Part of the summary that needs a search for the periodic orbit.
 const OUTLOOK: &str = "steady_motion";
-/// What that search says of settled steps.
+/// Results of settled steps that also need this search.
 const COMPARED: [&str; 2] = ["steps.steady.error_m", "steps.steady.back_step"];
 
-/// Whether a number of a summary is made of rows that are written as the run goes on: extremes of loads and of the energy balance. All
-/// others are made of moments and events alone.
+/// Returns whether a number of the summary is computed from rows. Examples are peak loads and maxima of the energy
+/// balance. All others need only instants and events.
 pub(crate) fn needs_rows(name: &str) -> bool {
     match name.split('.').next() {
         Some("steps" | "status") => false,
@@ -29,24 +29,27 @@ pub(crate) fn needs_rows(name: &str) -> bool {
 /// A result of each case.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Wanted {
-    /// Its name in the study file.
+    /// Name in the study file.
     pub(crate) name: String,
     pub(crate) place: Place,
-    /// The words that its codes stand for, by their place; none of a number.
+    /// Words of the codes, by index; `None` for a number.
     pub(crate) codes: Option<Vec<String>>,
 }
 
-/// Where a result is read.
+/// Source of a result.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) enum Place {
-    /// A channel at the end of the run, by its place in a row.
+    /// A channel at the end of the run, by its index in a row.
     End(usize),
-    /// The summary, by keys and places in lists.
+    /// The summary, by keys and list indices.
     Summary(Vec<String>),
 }
 
 impl Wanted {
-    /// What a name of a study file means.
+    /// Finds the result with a given name.
+    ///
+    /// # Errors
+    /// Fails if there is no such result, or it is not a number or word.
     pub(crate) fn named(
         file: &StudyFile,
         job: &Job,
@@ -63,7 +66,7 @@ impl Wanted {
         let keys: Vec<String> =
             name.replace('[', ".").replace(']', "").split('.').map(str::to_owned).collect();
         if keys[0] == UNSTEADY {
-            return refused("the time that a run takes differs from run to run", None);
+            return refused("the computing time differs from run to run", None);
         }
         let root = summary_schema();
         let mut here = vec![root];
@@ -84,31 +87,31 @@ impl Wanted {
             Sort::Words(codes) => {
                 Ok(Self { name: name.to_owned(), place: Place::Summary(keys), codes: Some(codes) })
             }
-            Sort::Text => refused("this is a text, and no number or one of a few words", None),
+            Sort::Text => refused("this is a text; expected a number or a keyword", None),
             Sort::Whole => {
                 let known = known(&here, job, (&keys, &[]));
                 let help = suggestion("", known.iter().map(String::as_str));
-                refused("this is no number: it holds several results", help)
+                refused("this is not a number, it has several results", help)
             }
         }
     }
 
-    /// Whether it is one of the steady motion, which needs no run.
+    /// Returns whether the result belongs to the periodic orbit and needs no run.
     pub(crate) fn is_of_motion(&self) -> bool {
         matches!(&self.place, Place::Summary(keys) if keys[0] == OUTLOOK)
     }
 
-    /// Whether the search for the steady motion is needed for it.
+    /// Returns whether the result needs the search for the periodic orbit.
     pub(crate) fn needs_outlook(&self) -> bool {
         self.is_of_motion() || COMPARED.contains(&self.name.as_str())
     }
 
-    /// Whether it needs rows: [`needs_rows`].
+    /// Returns whether the result is computed from rows: [`needs_rows`].
     pub(crate) fn needs_rows(&self) -> bool {
         matches!(self.place, Place::Summary(_)) && !self.is_of_motion() && needs_rows(&self.name)
     }
 
-    /// What it is in a summary: a number, the code of a word, or NaN where there is none.
+    /// Returns the value in a summary: a number or the code of a word. Returns NaN if it is missing.
     pub(crate) fn of(&self, summary: &Value) -> f64 {
         let Place::Summary(keys) = &self.place else { return f64::NAN };
         let step = |here: &'_ Value, key: &String| match here {
@@ -133,12 +136,12 @@ impl Wanted {
     }
 }
 
-/// Parts of a summary that hold results of the motion.
+/// Parts of the summary with results that are suggested in error messages.
 const HOLDERS: [&str; 6] = ["contacts", "steps", "steady_motion", "energy", "drivers", "counts"];
-/// Codes of the states of a contact, in their order.
+/// Codes of the states of a contact.
 const STATES: [f64; 4] = [0.0, 1.0, 2.0, 3.0];
 
-/// The JSON Schema of a summary.
+/// Returns the JSON Schema of a summary.
 fn summary_schema() -> &'static Value {
     static SCHEMA: OnceLock<Value> = OnceLock::new();
     SCHEMA.get_or_init(|| {
@@ -147,7 +150,7 @@ fn summary_schema() -> &'static Value {
     })
 }
 
-/// A schema, what it refers to, and the choices that it leaves, all the way down.
+/// Collects a schema, its references and alternatives recursively.
 fn parts<'a>(root: &'a Value, schema: &'a Value, found: &mut Vec<&'a Value>) {
     found.push(schema);
     let name = schema.get("$ref").and_then(Value::as_str).and_then(|name| name.strip_prefix("#/$defs/"));
@@ -160,7 +163,7 @@ fn parts<'a>(root: &'a Value, schema: &'a Value, found: &mut Vec<&'a Value>) {
     }
 }
 
-/// What stands under a key in a schema, or at a place of a list.
+/// Returns the schemas at a key or a list index of a schema.
 fn inside<'a>(root: &'a Value, schema: &'a Value, key: &str) -> Vec<&'a Value> {
     let mut all = Vec::new();
     parts(root, schema, &mut all);
@@ -173,14 +176,14 @@ fn inside<'a>(root: &'a Value, schema: &'a Value, key: &str) -> Vec<&'a Value> {
     all.iter().filter_map(of).collect()
 }
 
-/// What a result is.
+/// Type of a result.
 enum Sort {
     Number,
-    /// One of a few words.
+    /// One of several words.
     Words(Vec<String>),
     /// Any text.
     Text,
-    /// Something that holds others.
+    /// An object or list.
     Whole,
 }
 
@@ -212,7 +215,7 @@ fn sort(root: &Value, schemas: &[&Value]) -> Sort {
     }
 }
 
-/// What could have been meant: keys under a path of the summary, and at its root the channels.
+/// Returns suggestions: keys at a path of the summary, at its root also the channels.
 fn known(here: &[&Value], job: &Job, (path, channels): (&[String], &[Channel])) -> Vec<String> {
     if path == ["contacts"] {
         return job.model.contacts().map(|(name, _)| name.to_owned()).collect();

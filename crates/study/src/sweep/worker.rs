@@ -1,4 +1,4 @@
-//! One case after the other, on one thread.
+//! Runs the cases of a study one after another on one thread.
 
 use super::Study;
 use super::quick::{Quick, Shortcut};
@@ -11,24 +11,25 @@ use stickslip_run::summary::Status;
 use stickslip_run::{Job, Summary, Watcher};
 use stickslip_scenario::{Report, ScenarioError};
 
-/// Why a case has no results.
+/// Reason why a case has no results.
 pub(crate) enum Fault {
-    /// Somebody interrupted it.
+    /// The watcher interrupted.
     Interrupted,
-    /// Its numbers make no scenario, or its run stopped itself.
+    /// The scenario is invalid or its run stopped early.
     Failed(String),
 }
 
-/// Where cases are run.
+/// Runs cases of a study.
 ///
-/// What a case comes to depends on its numbers alone. Where [`Shortcut`] knows how, it is run without reading the scenario again; numbers
-/// that nobody has read yet are, which makes sure that they are in their ranges, and so is what fails, for the words.
+/// The results of a case depend only on its parameter values. If [`Shortcut`] supports the study, cases run without
+/// reading the scenario again. Otherwise the scenario is read again: to check a value outside the range of earlier
+/// values, and for the error message of a failed case.
 pub(crate) struct Worker<'s> {
     study: &'s Study,
     quick: Option<Quick<'s>>,
     watcher: &'s (dyn Watcher + Sync),
     numbers: Vec<f64>,
-    /// Between which values each number was read and found good.
+    /// Range in which each parameter is known to be valid.
     known: Vec<[f64; 2]>,
     row: Vec<f64>,
 }
@@ -59,7 +60,10 @@ impl<'s> Worker<'s> {
         }
     }
 
-    /// Appends the results of a case; where it has none, nothing.
+    /// Appends the results of a case.
+    ///
+    /// # Errors
+    /// Fails if the case has no results; then nothing is appended.
     pub(crate) fn run(&mut self, case: u64, results: &mut Vec<f64>) -> Result<(), Fault> {
         self.study.design.write(case, &mut self.numbers);
         let is_known =
@@ -91,7 +95,7 @@ impl<'s> Worker<'s> {
     }
 }
 
-/// Appends what is wanted of a job, which is run as `stickslip run` does; `row` is room for a row.
+/// Runs a job like `stickslip run` and appends the requested results. `row` is a buffer.
 pub(crate) fn record(
     mut job: Job,
     (wanted, watcher): (&[Wanted], &(dyn Watcher + Sync)),
@@ -103,7 +107,7 @@ pub(crate) fn record(
         job.scenario.plan.every = Some(job.scenario.plan.duration);
     }
     if wanted.iter().any(Wanted::is_of_motion) {
-        // It is asked for: at whatever it costs.
+        // The result is requested, so the search has no limit.
         job.scenario.steady_motion = Some(true);
     }
     if wanted.iter().all(Wanted::is_of_motion) {
@@ -133,7 +137,7 @@ pub(crate) fn record(
             summary.stop().map_or_else(String::new, |(why, _)| format!("stopped: {why}")),
         ));
     }
-    // Numbers and texts: there is nothing that JSON could refuse.
+    // The summary consists of numbers and strings, for which JSON has no errors.
     let is_told = wanted.iter().any(|wanted| matches!(wanted.place, Place::Summary(_)));
     let told = if is_told { serde_json::to_value(&summary).unwrap_or_default() } else { Value::Null };
     outcome.state.write_row(&job.model, row);
@@ -144,8 +148,7 @@ pub(crate) fn record(
     Ok(())
 }
 
-/// A job of which nothing is drawn, and nothing written but what summaries are made of; no clock ends it, whose time is another one on
-/// every machine.
+/// Returns a job without plots, optional output files and limit of wall time, which would differ between machines.
 pub(crate) fn without_output(mut job: Job) -> Job {
     job.scenario.plots.clear();
     job.scenario.own_plots.clear();
@@ -154,7 +157,7 @@ pub(crate) fn without_output(mut job: Job) -> Job {
     job
 }
 
-/// What is wrong with the numbers of a case, in one line.
+/// Returns the error of an invalid case in one line.
 pub(crate) fn refused(error: &ScenarioError) -> Fault {
     let Report { path, message, .. } = &**error;
     let message = message.lines().next().unwrap_or_default();

@@ -1,4 +1,4 @@
-//! Where branches of drawn sliders end, and what is told on the way, against closed forms and what a slider can do.
+//! Ends of branches for randomly drawn sliders, compared with closed forms.
 
 use std::collections::BTreeMap;
 use std::error::Error;
@@ -18,12 +18,12 @@ struct Slider {
     waveforms: &'static str,
     /// kg.
     mass: f64,
-    /// Of the ball, m.
+    /// Radius of the ball, m.
     radius: f64,
     friction: f64,
-    /// Normal force, N or what it follows.
+    /// Normal force, N, or the waveform that it follows.
     normal: &'static str,
-    /// Along x, N.
+    /// Load along x, N.
     load: f64,
     /// Other keys of the scenario.
     more: &'static str,
@@ -61,7 +61,7 @@ impl Slider {
 const LOAD: &str = "loads[0].x";
 const FORCE: &str = "contacts.ball.normal.force";
 
-/// Held by a spring, too: its memory has another form at the motion than where the search for it began.
+/// Also held by a spring. The structure of its slip memory on the orbit differs from that at the start of the search.
 const HELD: Slider = Slider {
     waveforms: r#""drive": {"trapezoid": {"stroke": 9.117e-9, "rise": 0.0113663, "hold": 9.47195e-4, "fall": 0.00568317, "period": 0.0189439}}"#,
     mass: 12.6089,
@@ -72,7 +72,7 @@ const HELD: Slider = Slider {
     more: r#""springs": {"d": {"between": ["ground", "slider"], "direction": "x", "stiffness": 9862.1319, "damping": 0.35263}},"#,
 };
 
-/// Pressed in time with its foot.
+/// The normal force oscillates with the period of the foot.
 const PRESSED: Slider = Slider {
     waveforms: r#""drive": {"sine": {"amplitude": 6.418283206544569e-7, "period": 0.0010730889986615324}},
         "press": {"sine": {"amplitude": 0.15957865331120755, "period": 0.0010730889986615324, "phase": 4.002211407804633, "offset": 0.26596442218534594}}"#,
@@ -84,7 +84,7 @@ const PRESSED: Slider = Slider {
     more: "",
 };
 
-/// On a trapezoid, pulled by 40 % of what friction holds.
+/// Trapezoid; the load is 40 % of the friction limit.
 const PULLED: Slider = Slider {
     waveforms: r#""drive": {"trapezoid": {"stroke": 4.032803299487651e-7, "rise": 9.895906405260225e-4, "hold": 8.246588671050188e-5, "fall": 9.895906405260224e-5, "period": 0.0016493177342100374}}"#,
     mass: 0.17507211550774796,
@@ -95,7 +95,7 @@ const PULLED: Slider = Slider {
     more: "",
 };
 
-/// On a sine, pulled by 80 % of what friction holds.
+/// Sine; the load is 80 % of the friction limit.
 const DRAGGED: Slider = Slider {
     waveforms: r#""drive": {"sine": {"amplitude": 2.3413614487428988e-7, "period": 0.0017359235839901955}}"#,
     mass: 0.22159392240291798,
@@ -106,7 +106,7 @@ const DRAGGED: Slider = Slider {
     more: "",
 };
 
-/// On a cycloid, pulled by 80 % of what friction holds.
+/// Cycloid; the load is 80 % of the friction limit.
 const SWEPT: Slider = Slider {
     waveforms: r#""drive": {"cycloid": {"stroke": 2.74478793716773e-8, "flyback": 0.00256132511688786, "period": 0.0256132511688786}}"#,
     mass: 0.13890905692718117,
@@ -117,7 +117,7 @@ const SWEPT: Slider = Slider {
     more: "",
 };
 
-/// On a trapezoid, pulled back by 80 % of what friction holds: near that gross slips come and go all the time.
+/// Trapezoid; the load is -80 % of the friction limit. Near the limit, gross slip events appear and vanish frequently.
 const HELD_BACK: Slider = Slider {
     waveforms: r#""drive": {"trapezoid": {"stroke": 9.442806301183679e-8, "rise": 6.352485154329077e-5, "hold": 5.293737628607564e-6, "fall": 1.905745546298723e-5, "period": 1.0587475257215128e-4}}"#,
     mass: 1.4786533858320991e-5,
@@ -128,7 +128,7 @@ const HELD_BACK: Slider = Slider {
     more: "",
 };
 
-/// Pressed in time with its foot, and pulled back by 80 % of what friction holds on the average.
+/// The normal force oscillates with the period of the foot; the load is -80 % of the mean friction limit.
 const SQUEEZED: Slider = Slider {
     waveforms: r#""drive": {"sine": {"amplitude": 4.971388967257197e-8, "period": 0.001329620376180839}},
         "press": {"sine": {"amplitude": 0.1104989948770782, "period": 0.001329620376180839, "phase": 2.7177771864437354, "offset": 0.18416499146179702}}"#,
@@ -140,7 +140,7 @@ const SQUEEZED: Slider = Slider {
     more: "",
 };
 
-/// On a trapezoid, pulled back by 40 % of what friction holds.
+/// Trapezoid; the load is -40 % of the friction limit.
 const LOADED: Slider = Slider {
     waveforms: r#""drive": {"trapezoid": {"stroke": 6.634095312135536e-7, "rise": 6e-4, "hold": 5e-5, "fall": 1e-4, "period": 1e-3}}"#,
     mass: 0.016733347499236488,
@@ -151,7 +151,7 @@ const LOADED: Slider = Slider {
     more: "",
 };
 
-/// A ball that a table throws up, and strides along below.
+/// A ball thrown up by a vibrating table that also moves horizontally.
 const BOUNCING: &str = r#"{
     "stickslip": 1,
     "materials": {"steel": {"youngs_modulus": "210 GPa", "poisson_ratio": 0.3}},
@@ -172,7 +172,7 @@ const BOUNCING: &str = r#"{
     "run": {"cycles": 300, "start": "equilibrium", "stepper": {"event": {"tolerance": 1e-10}}}
 }"#;
 
-/// A slider between its foot and a guide that brakes it.
+/// A slider between its foot and a guide with friction.
 const GUIDED: &str = r#"{
     "stickslip": 1,
     "materials": {"steel": {"youngs_modulus": 210e9, "poisson_ratio": 0.3}},
@@ -196,8 +196,8 @@ const GUIDED: &str = r#"{
     "run": {"cycles": 20, "stepper": {"event": {"tolerance": 1e-10}}}
 }"#;
 
-/// What a branch tells is what its motions are: multipliers where they must be, and events in which something changes. Where the varied
-/// number rises all along, as often as something happens above one of them it happens below the next.
+/// Checks the consistency of a branch: multipliers at special points, and changes at events. If the parameter increases
+/// along the branch, event counts of successive special points must match.
 fn is_sound(branch: &Branch) -> Checked {
     let mut counts = BTreeMap::new();
     let rises = branch.points.windows(2).all(|pair| pair[0].value <= pair[1].value);
@@ -230,7 +230,7 @@ fn is_sound(branch: &Branch) -> Checked {
     Ok(())
 }
 
-/// Whatever a contact remembers where the branch starts, it is followed or it is told why not.
+/// A branch with memory at its start is followed, or an error gives the reason.
 #[test]
 fn memories_of_another_form_are_met() -> Checked {
     for (slider, range) in [(HELD, [0.0, 5.4489e-3]), (PRESSED, [-0.1915, 0.0])] {
@@ -244,7 +244,7 @@ fn memories_of_another_form_are_met() -> Checked {
     Ok(())
 }
 
-/// Friction holds μ F_N: where the load is as much, any speed does.
+/// At a load of μ F_N any velocity is possible, and the branch ends.
 #[test]
 fn a_branch_ends_where_the_load_is_what_friction_holds() -> Checked {
     let away = End::SlidesAway("slider".to_owned());
@@ -263,7 +263,7 @@ fn a_branch_ends_where_the_load_is_what_friction_holds() -> Checked {
     Ok(())
 }
 
-/// Near the load that friction holds much happens in a period, and the branch goes on to that load.
+/// Many events occur near the friction limit, but the branch continues to this load.
 #[test]
 #[ignore = "takes long: .ci/full"]
 fn a_branch_does_not_turn_back_where_multipliers_are_small() -> Checked {
@@ -277,8 +277,8 @@ fn a_branch_does_not_turn_back_where_multipliers_are_small() -> Checked {
     Ok(())
 }
 
-/// With ever less friction at its foot: the branch does not turn back at an event where no multiplier is beyond 1 on either side, but goes on to where
-/// foot and guide hold no more than the load.
+/// The friction of the foot decreases. The branch does not turn back at an event without a multiplier beyond 1 on
+/// either side. It continues until the friction of foot and guide equals the load.
 #[test]
 fn a_branch_does_not_turn_back_at_an_event() -> Checked {
     let job = Job::new(Scenario::from_str_alone(GUIDED, "guided")?, "guided".to_owned(), PathBuf::new())?;
@@ -292,7 +292,7 @@ fn a_branch_does_not_turn_back_at_an_event() -> Checked {
     Ok(())
 }
 
-/// Where much comes and goes in a period the branch goes on all the same, and tells each of it once.
+/// The branch continues although many events appear and vanish, and reports each of them once.
 #[test]
 fn branches_go_on_where_events_come_and_go() -> Checked {
     let branch = HELD_BACK.branch(LOAD, [-0.935, 0.0])?;
@@ -311,9 +311,9 @@ fn branches_go_on_where_events_come_and_go() -> Checked {
     Ok(())
 }
 
-/// A ball that is thrown up a little less than it is would touch the table once more: differences that reach so far made a multiplier of
-/// 12 one of -110, which is near neither -1 nor 1 on the way. There is no doubling, no branching and no break, but the touch itself: at
-/// that place the branch ends, whether motions with the touch are met there or not: that is a matter of last digits.
+/// A slightly lower throw would touch the table once more. Finite differences must not extend across this touch: they
+/// would give a wrong multiplier. The branch has no period doubling, branching or break.
+/// It ends at the touch or continues beyond it, depending on rounding.
 #[test]
 #[ignore = "takes long: .ci/full"]
 fn a_touch_beside_the_motion_is_none_of_its_own() -> Checked {
@@ -344,7 +344,7 @@ fn a_touch_beside_the_motion_is_none_of_its_own() -> Checked {
     Ok(())
 }
 
-/// Of two waveforms of one period only one is varied: they part.
+/// Two waveforms have the same period, but only one of them is varied.
 #[test]
 fn a_period_that_is_not_varied_alone_is_told() -> Checked {
     let of = Continuation::new(PRESSED.job()?, "waveforms.drive.sine.period", [1e-3, 1.2e-3])?;

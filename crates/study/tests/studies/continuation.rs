@@ -1,4 +1,4 @@
-//! Branches of steady motions of the examples, against motions that are found by themselves and plain runs.
+//! Branches of periodic orbits of the examples, compared with single orbits and simulations.
 
 use std::error::Error;
 use std::path::{Path, PathBuf};
@@ -25,7 +25,7 @@ fn p1(range: [f64; 2]) -> Result<Branch, Box<dyn Error>> {
     Ok(Continuation::new(job("p1.json", &[])?, STROKE, range)?.follow(&Course::default())?)
 }
 
-/// At 20 of its strokes, drawn by a linear congruential generator: each is found from the start of its own scenario.
+/// 20 strokes drawn by a linear congruential generator: each orbit is found from the initial state of its own scenario.
 #[test]
 fn the_branch_of_p1_is_what_is_found_at_each_stroke() -> Checked {
     let branch = p1([60e-9, 2e-6])?;
@@ -44,7 +44,7 @@ fn the_branch_of_p1_is_what_is_found_at_each_stroke() -> Checked {
     Ok(())
 }
 
-/// Gross slips.
+/// Counter of gross slip events.
 #[derive(Default)]
 struct Slips(u32);
 
@@ -55,7 +55,7 @@ impl Record for Slips {
     }
 }
 
-/// How often the contact slips grossly in the last 10 of 400 plain periods.
+/// Returns the number of gross slip events in the last 10 of 400 simulated periods.
 fn slips(stroke: f64) -> Result<u32, Box<dyn Error>> {
     let job =
         job("p1.json", &[(STROKE, &format!("{stroke:e}")), ("waveforms.drive.sawtooth.cycles", "1e9")])?;
@@ -68,7 +68,7 @@ fn slips(stroke: f64) -> Result<u32, Box<dyn Error>> {
     Ok(slips.0)
 }
 
-/// S₀: a plain run a millionth of it larger slips grossly once a period for ever, one a millionth smaller does not.
+/// At S₀, simulations with a stroke larger or smaller by one millionth have one or no gross slip per period.
 #[test]
 fn the_branch_of_p1_ends_where_gross_slip_ceases() -> Checked {
     let branch = p1([10e-9, 0.6e-6])?;
@@ -82,8 +82,8 @@ fn the_branch_of_p1_ends_where_gross_slip_ceases() -> Checked {
     Ok(())
 }
 
-/// However little friction there is, the slider comes to go along with the ramp, 0.5 µm in 0.9 ms, which a flyback of 0.1 ms hardly slows: by μ F_N τ²/m a
-/// period. Where that is rounding the branch ends, and says so.
+/// At any small friction, the slider moves with the ramp, 0.5 µm in 0.9 ms. The flyback of 0.1 ms slows it by μ F_N
+/// τ²/m per period. The branch ends where this is below rounding.
 #[test]
 fn the_branch_of_p1_goes_on_to_next_to_no_friction() -> Checked {
     let friction = "contacts.ball.friction";
@@ -128,7 +128,7 @@ fn what_cannot_be_followed_is_told() -> Checked {
     Ok(())
 }
 
-/// A branch that is cut short keeps its motions.
+/// An interrupted branch keeps its orbits.
 #[test]
 fn an_interrupted_branch_keeps_what_was_found() -> Checked {
     let asked = std::cell::Cell::new(0_u32);
@@ -143,8 +143,8 @@ fn an_interrupted_branch_keeps_what_was_found() -> Checked {
     Ok(())
 }
 
-/// A mass on a spring alone: |λ| = 1 all along the branch, but for rounding, and nothing is crossed. In units of its own frequency the period is
-/// 2π·1 ms·√(k/m)/2π turns, and the multipliers are e^{±i2πν}.
+/// Undamped mass on a spring: |λ| = 1 along the whole branch except for rounding, and nothing is crossed. The
+/// multipliers are e^{±i2πν}, with ν the number of natural oscillations per period.
 #[test]
 fn what_nothing_damps_crosses_the_unit_circle_nowhere() -> Checked {
     let scene = r#"{ "stickslip": 1, "waveforms": { "drive": { "sine": { "amplitude": "100 nm", "frequency": "1 kHz" } } },

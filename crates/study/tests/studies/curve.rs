@@ -1,4 +1,4 @@
-//! Curves: each point against a plain run of its own file, the same for any number of cores, and what is refused.
+//! Curves: points compared with simulations, independence of the number of cores, and errors.
 
 use crate::prepared;
 use std::error::Error;
@@ -27,7 +27,7 @@ fn motion(point: &Point) -> Result<Motion, Motionless> {
     point.motion.clone()
 }
 
-/// The last of so many steps of a plain run of a file in which a point's pairs are set, m.
+/// Returns the last of `periods` step lengths of a simulation with the overrides of a point, m.
 fn last_step(name: &str, point: &Point, periods: u32) -> Result<f64, Box<dyn Error>> {
     let job = Job::prepare(&file(name), &point.set, Path::new(""))?;
     let body = job.scenario.figures.body.ok_or("a body")?;
@@ -42,7 +42,7 @@ fn last_step(name: &str, point: &Point, periods: u32) -> Result<f64, Box<dyn Err
     Ok(x[1] - x[0])
 }
 
-/// Waiting knows nothing of the search; its tolerance is that of the file, 1e-9.
+/// Compares points with simulations, which use the tolerance of the file, 1e-9.
 fn is_where_a_run_ends(name: &str, kind: Kind, values: &[f64], periods: u32, within: f64) -> Checked {
     let curve = curve(name, &[], kind)?;
     for point in &curve.trace(values, 1, &()).points {
@@ -75,7 +75,7 @@ fn speeds_against_a_load_are_those_of_long_runs() -> Checked {
     is_where_a_run_ends("ruby_drive.json", Kind::ForceSpeed, &[0.0, 0.05, 0.15], 300, 1e-7)
 }
 
-/// A driver remembers; its steady motion is found directly all the same, with how a disturbance of it fades.
+/// A driver has a state of its own; its periodic orbit is still found by shooting, with multipliers.
 #[test]
 fn a_driver_at_its_limit_has_a_curve() -> Checked {
     is_where_a_run_ends("driven_stage.json", Kind::SpeedFrequency, &[500.0, 2e3], 200, 1e-5)?;
@@ -87,7 +87,7 @@ fn a_driver_at_its_limit_has_a_curve() -> Checked {
     Ok(())
 }
 
-/// A load against steps to the left acts to the right: of the mirrored drive the mirrored curve, to the last digit of the search.
+/// A load against steps to the left acts to the right: the mirrored drive has the mirrored curve.
 #[test]
 fn a_load_acts_against_the_steps() -> Checked {
     let mirrored = [("waveforms.drive.sawtooth.stroke", "-100 nm")];
@@ -105,8 +105,8 @@ fn a_load_acts_against_the_steps() -> Checked {
     Ok(())
 }
 
-/// Backward the sawtooth is reversed in time: up at once, slowly back. Up and down changed, that is the drive of a stroke below zero, which
-/// steps the other way as far as the drive itself does: of the symmetric drive both senses are mirror images.
+/// Backward, the sawtooth is reversed in time: a fast rise and a slow fall. This is the drive with a negative stroke,
+/// which steps in the opposite direction. For a symmetric drive both directions are mirror images.
 #[test]
 fn backward_is_the_mirror_image_of_a_symmetric_drive() -> Checked {
     let [forward, backward] = Curve::both(prepared(&file("ruby_drive.json"), &[])?, &Kind::ForceSpeed)?;
@@ -116,7 +116,7 @@ fn backward_is_the_mirror_image_of_a_symmetric_drive() -> Checked {
     for (a, b) in to_right.points.iter().zip(&to_left.points) {
         let (there, back) = (motion(a)?, motion(b)?);
         assert!((there.step + back.step).abs() <= 1e-7 * there.step, "{} {}", there.step, back.step);
-        // What is told for the backward point makes it from the file.
+        // The overrides of the backward point reproduce it from the file.
         let waited = last_step("ruby_drive.json", b, 300)?;
         assert!((waited - back.step).abs() <= 1e-7 * 40e-9, "{waited:e} {:e}", back.step);
     }
@@ -133,8 +133,8 @@ fn backward_is_the_mirror_image_of_a_symmetric_drive() -> Checked {
     Ok(())
 }
 
-/// Waveforms that lie beside each other by phases or delays are reversed together. A walking drive of two sines, sin(ωt + φ), backward is
-/// that of sin(-ωt + φ) = sin(ωt + π - φ) written out; with a part of the phases as delays it is the same.
+/// Waveforms with phases or delays relative to each other are reversed together. Reversing sin(ωt + φ) gives sin(-ωt +
+/// φ) = sin(ωt + π - φ). The result must not depend on whether a shift is a phase or a delay.
 #[test]
 fn waveforms_are_reversed_together() -> Checked {
     let stroke = |job: &[(&str, &str)]| -> Result<Motion, Box<dyn Error>> {
@@ -147,7 +147,7 @@ fn waveforms_are_reversed_together() -> Checked {
         ("waveforms.lift_a.sine.phase", "0 deg"),
         ("waveforms.lift_b.sine.phase", "180 deg"),
     ])?;
-    // 270° forward are 90° back, of a period of 2 ms a delay of 0.5 ms.
+    // A phase of 270° equals -90°, which is a delay of 0.5 ms for a period of 2 ms.
     let delayed = [("waveforms.stride_b.sine.phase", "0 deg"), ("waveforms.stride_b.sine.delay", "0.5 ms")];
     for set in [&[][..], &delayed] {
         let set: Vec<_> = set.iter().map(|(path, value)| ((*path).to_owned(), (*value).to_owned())).collect();
@@ -155,7 +155,7 @@ fn waveforms_are_reversed_together() -> Checked {
             Curve::both(prepared(&file("walking_drive.json"), &set)?, &Kind::StepAmplitude)?;
         let [there, back] = [forward, backward].map(|curve| curve.trace(&[300e-9], 1, &()));
         let [there, back] = [motion(&there.points[0])?, motion(&back.points[0])?];
-        // Both are found by differences of their own, to what they are told to be off.
+        // Both orbits use their own finite differences and agree within their errors.
         let off = (back.step - by_hand.step).abs();
         assert!(there.step > 1e-6 && off <= back.error + by_hand.error, "{there:?} {back:?} {by_hand:?}");
         assert!(back.error + by_hand.error <= 1e-7 * there.step, "{back:?} {by_hand:?}");
@@ -165,11 +165,11 @@ fn waveforms_are_reversed_together() -> Checked {
     Ok(())
 }
 
-/// F_N of all contacts is what the preload says, shared as it was.
+/// The preload is the sum of the normal forces of all contacts, whose ratios are kept.
 #[test]
 fn a_preload_is_the_sum_of_all_contacts() -> Checked {
     let curve = curve("ruby_drive.json", &[], Kind::Preload)?;
-    // Three balls of 0.3 N.
+    // Three balls with 0.3 N each.
     assert!((curve.variation.present.ok_or("a preload")? - 0.9).abs() < 1e-15);
     let traced = curve.trace(&[1.8], 1, &());
     let job = Job::prepare(&file("ruby_drive.json"), &traced.points[0].set, Path::new(""))?;
@@ -177,8 +177,8 @@ fn a_preload_is_the_sum_of_all_contacts() -> Checked {
     Ok(())
 }
 
-/// Beyond μF_N = 0.173 · 1.66 N, or with less friction than a load of 17 mN needs, nothing holds the body: it accelerates for ever.
-/// Once the limit of steps that grow evenly was told where they were rounded so: -164 Mm.
+/// Above μF_N = 0.173 · 1.66 N, or with too little friction for a load of 17 mN, the body accelerates without limit.
+/// Rounding of its uniform increments must not be taken for a limit.
 #[test]
 fn what_no_friction_holds_slides_away() -> Checked {
     let friction = Kind::Vary("contacts.c.friction".to_owned());
@@ -193,8 +193,8 @@ fn what_no_friction_holds_slides_away() -> Checked {
     Ok(())
 }
 
-/// A slider that hops: a run of it says "irregular" and warns of flight. Once the stretches in the air, even by themselves, were
-/// told for its steady step.
+/// A hopping slider: a run reports irregular motion and flight. Constant distances in the air must not count as steady
+/// steps.
 #[test]
 fn what_it_flies_in_a_period_is_no_steady_step() -> Checked {
     let curve = Curve::new(prepared(&scene("hopper.json"), &[])?, Kind::StepAmplitude)?;
@@ -209,7 +209,7 @@ fn what_it_flies_in_a_period_is_no_steady_step() -> Checked {
 #[test]
 fn any_number_of_cores_tells_the_same() -> Checked {
     let curve = curve("quickstart.json", &[], Kind::Vary("contacts.ball.friction".to_owned()))?;
-    // Some are refused.
+    // Some values are invalid.
     let values: Vec<f64> = (0..12).map(|k| -0.1 + 0.05 * f64::from(k)).collect();
     let told = [1, 2, 3].map(|cores| {
         let traced = curve.trace(&values, cores, &());
@@ -227,7 +227,7 @@ fn any_number_of_cores_tells_the_same() -> Checked {
     Ok(())
 }
 
-/// Somebody who has seen enough after a number of points.
+/// Watcher that interrupts after a number of points.
 struct Patience(AtomicUsize);
 
 impl Watcher for Patience {
@@ -257,13 +257,13 @@ fn scenes_without_such_a_curve_are_refused() {
         let refused = refused.unwrap_or_default();
         assert!(refused.contains(words), "{refused}");
     };
-    says(refused("bouncing_ball.json", &[], Kind::StepAmplitude), "nothing here repeats itself");
-    says(refused("worn_ball.json", &[], Kind::StepAmplitude), "no body makes the steps");
-    says(refused("three_ball_stage.json", &[], Kind::Preload), "is pressed by a constant force");
+    says(refused("bouncing_ball.json", &[], Kind::StepAmplitude), "no waveform has a period");
+    says(refused("worn_ball.json", &[], Kind::StepAmplitude), "no body of the model makes steps");
+    says(refused("three_ball_stage.json", &[], Kind::Preload), "has a constant normal force");
     let vary = |path: &str| refused("ruby_drive.json", &[], Kind::Vary(path.to_owned()));
     says(vary("contacts.bal.friction"), "did you mean \"ball\"?");
-    says(vary("contacts.ball.count"), "counts whole things");
-    says(vary("run.cycles"), "changes no motion");
+    says(vary("contacts.ball.count"), "is a count");
+    says(vary("run.cycles"), "has no effect on the motion");
     let both = |set: &[(&str, &str)]| {
         let set: Vec<_> = set.iter().map(|(p, v)| ((*p).to_owned(), (*v).to_owned())).collect();
         Curve::both(prepared(&file("ruby_drive.json"), &set).unwrap(), &Kind::Preload)
@@ -272,19 +272,19 @@ fn scenes_without_such_a_curve_are_refused() {
     };
     says(both(&[("waveforms.drive.sawtooth.flyback", "0")]), "a waveform that jumps cannot be reversed");
     let burst = [("waveforms.drive.sawtooth.burst", r#"{"cycles": 2, "dwell": "5 ms"}"#)];
-    says(both(&burst), "is a pattern already");
+    says(both(&burst), "has a burst or a sequence");
     let table = r#"{"points": [[0, 0], [9.99e-3, 1e-7], [10e-3, 0]], "repeat": true}"#;
     let table = [("waveforms.drive.table", table)];
     let found = refused("ruby_drive.json", &table, Kind::StepAmplitude);
-    says(found, "no one stroke or amplitude");
+    says(found, "no single stroke or amplitude");
     says(both(&table), "is a table, which cannot be reversed");
     let still = [("waveforms.drive.sawtooth.stroke", "0")];
     let still =
         curve("ruby_drive.json", &still, Kind::StepAmplitude).map(|curve| curve.no_range().to_string());
-    says(still.ok(), "is not known: it is 0");
+    says(still.ok(), "no default range for stroke: it is 0");
 }
 
-/// Rise, hold and fall of 1.2 ms leave room up to 833 Hz.
+/// Rise, hold and fall take 1.2 ms, so the largest frequency is 833 Hz.
 #[test]
 fn ranges_by_default_end_where_scenarios_are_refused() -> Checked {
     let drive = r#"{"trapezoid": {"stroke": "0.2 um", "frequency": "500 Hz", "rise": "0.5 ms", "hold": "0.5 ms", "fall": "0.2 ms"}}"#;
@@ -293,13 +293,13 @@ fn ranges_by_default_end_where_scenarios_are_refused() -> Checked {
     let [from, to] = curve.range(&()).ok_or("a range")?;
     assert!((from - 50.0).abs() < 1e-9 && (825.0..=1.0 / 1.2e-3).contains(&to), "{from} to {to}");
     assert!(curve.trace(&[from, to], 1, &()).points.iter().all(|point| point.motion.is_ok()));
-    // A sawtooth has room: ten times slower and twice as fast.
+    // A sawtooth allows the full range from one tenth to twice its frequency.
     let plain = self::curve("ruby_drive.json", &[], Kind::SpeedFrequency)?;
     assert_eq!(plain.range(&()), Some([10.0, 200.0]));
     Ok(())
 }
 
-/// A foot that hardly moves makes no step: the loads end a little beyond those it holds.
+/// A foot with a small stroke makes no steps: the default range ends slightly above the largest load that is held.
 #[test]
 fn loads_by_default_end_beyond_those_that_are_held() -> Checked {
     let curve = curve("ruby_drive.json", &[("waveforms.drive.sawtooth.stroke", "20 nm")], Kind::StepLoad)?;
@@ -315,7 +315,7 @@ fn loads_by_default_end_beyond_those_that_are_held() -> Checked {
     Ok(())
 }
 
-/// A foot that hardly moves: what is told of the step is told of its motion and its power, in all places.
+/// A foot with a small stroke: step, motion and power are consistently reported as zero.
 #[test]
 fn a_steady_motion_without_a_step_is_called_so() -> Checked {
     let curve = curve("ruby_drive.json", &[("waveforms.drive.sawtooth.stroke", "2 nm")], Kind::ForceSpeed)?;

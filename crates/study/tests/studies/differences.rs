@@ -1,5 +1,6 @@
-//! Derivatives at drawn points of ten scenes against five-point differences of runs of their own, with other steps and at another
-//! tolerance. Steppers that locate no events are no help: by Dopri5 at 1e-11 the slope of P1's step over the mass was 12 % off.
+//! Sensitivities at random parameter values of ten scenarios, compared with five-point differences of separate runs
+//! with other distances and another tolerance. Integrators without event location are not accurate
+//! enough for the comparison.
 
 use crate::five_points::{Drawn, chosen, example, moved, slopes};
 use crate::prepared;
@@ -8,7 +9,7 @@ use stickslip_study::sensitivity::{Asked, Derivative, Sensitivity};
 
 type Checked = Result<(), Box<dyn Error>>;
 
-/// Scenes, each for so many periods or so long.
+/// Scenarios with the number of periods or the duration of their runs.
 const SCENES: [(&str, &str, &str); 10] = [
     ("p1", "run.cycles", "3"),
     ("quickstart", "run.duration", "30 ms"),
@@ -21,21 +22,21 @@ const SCENES: [(&str, &str, &str); 10] = [
     ("vibrated_slider", "run.cycles", "3"),
     ("fretting_force", "run.duration", "1 s"),
 ];
-/// Points of each, numbers moved at each of them, and quantities of each.
+/// Number of random points per scenario, of parameters changed at each point, and of parameters examined.
 const POINTS: usize = 2;
 const MOVED: usize = 2;
 const QUANTITIES: usize = 3;
-/// What was compared.
+/// Results of the comparison.
 #[derive(Default)]
 struct Compared {
     all: usize,
-    /// Beyond the error told and what the differences leave open.
+    /// Deviations beyond the reported error plus that of the differences.
     beyond: Vec<String>,
-    /// Where the derivative has two sides.
+    /// Number of derivatives with two sides.
     split: usize,
-    /// Largest share of the error told by which any was off, in bins: below 0.1, below 1, more.
+    /// Histogram of deviations relative to the reported error: below 0.1, below 1, more.
     shares: [usize; 3],
-    /// Errors told as shares of the derivatives' scale, figure over quantity.
+    /// Reported errors relative to result / parameter.
     errors: Vec<f64>,
 }
 
@@ -96,7 +97,7 @@ fn compare() -> Result<Compared, Box<dyn Error>> {
     Ok(compared)
 }
 
-/// At least 200 of them, of which 95 % must lie within the errors told and what the differences themselves leave open.
+/// At least 200 derivatives, of which 95 % must agree within the reported error and that of the differences.
 #[test]
 #[ignore = "takes long: .ci/full"]
 fn drawn_derivatives_are_those_of_other_differences_within_their_errors() -> Checked {

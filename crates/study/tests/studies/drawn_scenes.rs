@@ -1,4 +1,4 @@
-//! Steady motion of scenes drawn at random against plain runs of 300 periods, which know nothing of the search.
+//! Steady motions of random scenarios, compared with simulations of 300 periods.
 
 use crate::prepared;
 use std::error::Error;
@@ -19,15 +19,15 @@ const DRIVES: [&str; 7] = [
     "vibrated_slider.json",
 ];
 const PERIODS: u32 = 300;
-/// How far steps may lie from each other to be the same, u_c or shares: the runs' tolerance is 1e-9.
+/// Largest difference of equal steps, relative to u_c or to the step: the runs have a tolerance of 1e-9.
 const SAME: f64 = 1e-4;
 
-/// What is left, from the second quarter of a run to the last, of what fades.
+/// Largest ratio of deviations from the second to the last quarter of a run that counts as decay.
 const FADES: f64 = 0.9;
 
 type Set = Vec<(String, String)>;
 
-/// Numbers from 0 to 1 that look random (Knuth's MMIX).
+/// Random numbers from 0 to 1 (Knuth's MMIX).
 struct Draw(u64);
 
 impl Draw {
@@ -41,7 +41,8 @@ fn file(name: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenarios").join(name)
 }
 
-/// Friction of 0 to 1 on all contacts, and a load of up to 3 μF_N either way on the body that steps; u_c. None where that makes no scenario.
+/// Returns overrides with random friction of 0 to 1 for all contacts and a random load of up to ±3 μF_N, and u_c.
+/// Returns `None` if the scenario is invalid.
 fn drawn(name: &str, draw: &mut Draw) -> Result<Option<(Set, f64)>, Box<dyn Error>> {
     let job = Job::prepare(&file(name), &[], Path::new(""))?;
     let body = job.scenario.figures.body.ok_or("a body")?;
@@ -54,12 +55,12 @@ fn drawn(name: &str, draw: &mut Draw) -> Result<Option<(Set, f64)>, Box<dyn Erro
     let load = (6.0 * draw.next() - 3.0) * friction * pressed;
     let on = &job.scenario.scene.bodies[body].name;
     set.push(("loads[+]".to_owned(), format!(r#"{{"on": "{on}", "x": {load}}}"#)));
-    // Some start at an equilibrium, and with such a load have none.
+    // Some scenarios start at equilibrium, which does not exist with such a load.
     let job = Job::prepare(&file(name), &set, Path::new(""));
     Ok(job.ok().map(|job| (set, job.contact_scale(0).0)))
 }
 
-/// The steps of a plain run.
+/// Returns the step lengths of a simulation.
 fn steps(job: &Job, period: f64) -> Result<Vec<f64>, RunError> {
     let plan = Plan { every: None, until_steady: None, duration: f64::MAX, ..job.scenario.plan };
     let mut run = Run::new(&job.model, &plan, job.start.clone())?;
@@ -72,7 +73,8 @@ fn steps(job: &Job, period: f64) -> Result<Vec<f64>, RunError> {
     Ok(places.windows(2).map(|pair| pair[1] - pair[0]).collect())
 }
 
-/// What a plain run says against a steady step; none where it agrees or comes nearer: what rings may fade for a thousand periods.
+/// Describes how a simulation contradicts a steady step length. Returns `None` if it agrees or approaches it, because
+/// ringing may decay over a thousand periods.
 fn contradiction(motion: &Motion, steps: &[f64]) -> Option<String> {
     let bounds = Bounds { least: SAME * motion.natural, most: f64::INFINITY, error: 0.0 };
     let scale = SAME * motion.natural.max(motion.step.abs());
@@ -102,7 +104,7 @@ fn no_plain_run_contradicts_a_steady_step() -> Result<(), Box<dyn Error>> {
     for k in 0..count {
         let name = DRIVES[k % DRIVES.len()];
         let Some((set, natural)) = drawn(name, &mut draw)? else { continue };
-        // From a tenth to a thousand u_c, by its logarithm.
+        // From 0.1 to 1000 u_c, logarithmic.
         let amplitude = natural * 10.0_f64.powf(4.0 * draw.next() - 1.0);
         let curve = Curve::new(prepared(&file(name), &set)?, Kind::StepAmplitude)?;
         let traced = curve.trace(&[amplitude], 1, &());
@@ -122,7 +124,7 @@ fn no_plain_run_contradicts_a_steady_step() -> Result<(), Box<dyn Error>> {
         let found = contradiction(motion, &steps(&job, motion.period)?);
         assert_eq!(found, None, "{k} {name} {all:?}");
     }
-    // That it was asked of some at all.
+    // The comparison must include enough cases.
     assert!(told[0] >= count / 4 && told[3] > 0, "{told:?}");
     Ok(())
 }

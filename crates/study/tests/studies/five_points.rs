@@ -1,4 +1,4 @@
-//! Slopes by five-point differences of runs of their own, with other steps than the program's and at another tolerance.
+//! Slopes by five-point differences of separate runs, with other distances than the program's and another tolerance.
 
 use crate::prepared;
 use serde_json::Value;
@@ -10,12 +10,12 @@ use stickslip_scenario::Scenario;
 use stickslip_study::sensitivity::{Asked, Sensitivity};
 use stickslip_study::steady::{self, Options};
 
-/// Tolerance of the runs that differences are taken of.
+/// Tolerance of the runs.
 const OWN: f64 = 1e-13;
-/// Steps of the five-point differences, as shares of the quantity; none is one of the program's.
+/// Distances of the five-point differences relative to the parameter; the program uses none of them.
 const STEPS: [f64; 6] = [3e-3, 1e-3, 3e-4, 1e-4, 3e-5, 1e-5];
 
-/// The figure of steady motion, which is asked for alone.
+/// Result of the periodic orbit; it is requested alone.
 pub(crate) const STEADY: &str = "steady.step_m";
 /// Overrides.
 pub(crate) type Set = Vec<(String, String)>;
@@ -24,7 +24,7 @@ pub(crate) fn example(name: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("../../scenarios/{name}.json"))
 }
 
-/// Numbers from 0 to 1 (Knuth's MMIX generator).
+/// Random numbers from 0 to 1 (Knuth's MMIX generator).
 pub(crate) struct Drawn(pub(crate) u64);
 
 impl Drawn {
@@ -38,7 +38,8 @@ impl Drawn {
     }
 }
 
-/// Figures of the file with some values set: the step of its steady motion, or of its run numbers of the summary and channels at the end.
+/// Returns results of the file with overrides: the step length of the periodic orbit, or numbers of the summary and
+/// channels at the end of a run.
 fn figures(file: &Path, set: &Set, names: &[String]) -> Result<Vec<f64>, Box<dyn Error>> {
     let set: Vec<(&str, &str)> = set.iter().map(|(path, value)| (path.as_str(), value.as_str())).collect();
     let mut scenario = Scenario::load_with(file, &set)?;
@@ -60,7 +61,8 @@ fn figures(file: &Path, set: &Set, names: &[String]) -> Result<Vec<f64>, Box<dyn
     Ok(names.iter().map(figure).collect::<Result<_, _>>()?)
 }
 
-/// Slopes of figures, each the middle one of three steps between which it changes least, and by how much it does.
+/// Returns the slopes of results with their uncertainties. Each is the middle one of the three distances between which
+/// it changes least.
 pub(crate) fn slopes(
     file: &Path,
     set: &Set,
@@ -79,7 +81,7 @@ pub(crate) fn slopes(
         let slope = |f: usize| (a[f] - 8.0 * b[f] + 8.0 * c[f] - d[f]) / (12.0 * step);
         by_step.push((0..names.len()).map(slope).collect::<Vec<f64>>());
     }
-    // One alone may be like its neighbour by accident.
+    // A single slope may agree with its neighbour by accident.
     let best = |f: usize| {
         let threes = by_step.windows(3).map(|three| {
             let [before, own, after] = [0, 1, 2].map(|k| three[k][f]);
@@ -90,7 +92,7 @@ pub(crate) fn slopes(
     Ok((0..names.len()).map(best).collect())
 }
 
-/// A scene that ends somewhere, with so many numbers moved by up to 10 %.
+/// Returns overrides of a scenario with `count` parameters changed by up to 10 %.
 pub(crate) fn moved(
     (file, asked): (&Path, &Asked),
     end: (&str, &str),
@@ -101,7 +103,7 @@ pub(crate) fn moved(
     let plain = Sensitivity::new(prepared(file, &set)?, asked, &())?;
     for _ in 0..count {
         let quantity = &plain.quantities[drawn.below(plain.quantities.len())];
-        // Waveforms that go together keep their period, what is known of it stays true.
+        // Related waveforms keep their common period.
         if quantity.unit != "s" && quantity.unit != "Hz" && quantity.unit != "rad" {
             set.retain(|(path, _)| *path != quantity.path);
             set.push((quantity.path.clone(), format!("{:e}", quantity.value * (0.9 + 0.2 * drawn.next()))));
@@ -110,7 +112,7 @@ pub(crate) fn moved(
     Ok(set)
 }
 
-/// So many numbers of a scene, each once.
+/// Returns `count` different parameters of a scenario.
 pub(crate) fn chosen(
     (file, set): (&Path, &Set),
     asked: &Asked,

@@ -1,8 +1,9 @@
-//! One mass on a spring and a Jenkins element, an elastic spring that slips at a limit, under a sine: the flat punch is one, of
-//! stiffness 2 G* a and limit μF_N.
+//! A mass on a spring and a Jenkins element under harmonic excitation. A Jenkins element is an elastic spring in series
+//! with a friction slider; a flat punch is one with stiffness 2 G* a and limit μF_N.
 //!
-//! Against harmonic balance of pyharm-os 1.2.2 (`tests/data/jenkins.py`), and against one written here: alternately in frequency and time (Cameron and Griffin, J. Appl. Mech. 56 (1989) 149),
-//! the element marched through two periods from rest, its force of the second taken apart into harmonics.
+//! The reference solutions are harmonic balance by pyharm-os 1.2.2 (`tests/data/jenkins.py`) and by the code below. The
+//! latter uses alternating frequency/time (Cameron and Griffin, J. Appl. Mech. 56 (1989) 149): the element
+//! is simulated for two periods from rest, and the force of the second period is expanded in harmonics.
 
 use nalgebra::{DMatrix, DVector};
 use std::error::Error;
@@ -18,12 +19,12 @@ const DAMPING: f64 = 60.0;
 const PUSH: f64 = 6.0;
 const PERIOD: f64 = 4.5e-3;
 const LIMIT: f64 = 0.5 * 10.0;
-/// 2 G* a of a punch of 10 µm, steel on steel: 1/G* = (2 - ν)/(2 G), G = E/(2(1 + ν)).
+/// 2 G* a of a punch with a radius of 10 µm, steel on steel: 1/G* = (2 - ν)/(2 G), G = E/(2(1 + ν)).
 const ELEMENT: f64 = 2.0 * 10e-6 * 2.0 * 210e9 / (2.0 * (1.0 + 0.3) * (2.0 - 0.3));
-/// Moments of a period at which the element is looked at.
+/// Number of samples per period.
 const MOMENTS: usize = 2048;
 
-/// 1, cos ωt, sin ωt, cos 2ωt … at a moment.
+/// Basis functions at a time: 1, cos ωt, sin ωt, cos 2ωt, …
 fn basis(harmonics: usize, t: f64) -> DVector<f64> {
     DVector::from_fn(2 * harmonics + 1, |i, _| {
         let angle = i.div_ceil(2) as f64 * TAU * t / PERIOD;
@@ -33,7 +34,7 @@ fn basis(harmonics: usize, t: f64) -> DVector<f64> {
 
 struct Balance {
     harmonics: usize,
-    /// The basis at each moment, row by row.
+    /// Basis at each sample, row by row.
     moments: DMatrix<f64>,
 }
 
@@ -58,7 +59,7 @@ impl Balance {
         harmonics
     }
 
-    /// What is left over of the balance of each harmonic, N.
+    /// Residual of each harmonic, N.
     fn left(&self, x: &DVector<f64>) -> DVector<f64> {
         let mut left = self.element(x);
         left[0] += SPRING * x[0];
@@ -73,7 +74,7 @@ impl Balance {
         left
     }
 
-    /// The motion, by Newton's method from that of a mass without the element.
+    /// Solution by Newton's method, starting without the element.
     fn solve(&self) -> Option<DVector<f64>> {
         let count = 2 * self.harmonics + 1;
         let mut x = DVector::zeros(count);
@@ -112,7 +113,7 @@ fn job() -> Result<Job, Box<dyn Error>> {
     Ok(Job::new(Scenario::from_str_alone(&text, "mass")?, "mass".to_owned(), PathBuf::new())?)
 }
 
-/// How far sums of harmonics are off the steady motion, as shares of its amplitude.
+/// Periodic orbit with which harmonic solutions are compared.
 struct Motion {
     time: Vec<f64>,
     place: Vec<f64>,
@@ -123,7 +124,7 @@ impl Motion {
     fn new() -> Result<Self, Box<dyn Error>> {
         let job = job()?;
         let found = steady::find(&job, &Options::default())?;
-        // It slips, or there would be nothing to compare.
+        // The contact must slip for a meaningful comparison.
         assert!(found.shaken_down.is_empty() && found.is_stable());
         let orbit = found.orbit(&job, 256)?;
         let place = orbit.series.column("mass", "x_m").to_vec();
@@ -131,7 +132,7 @@ impl Motion {
         Ok(Self { time: orbit.series.time().to_vec(), place, amplitude })
     }
 
-    /// Largest, for so many harmonics.
+    /// Largest deviation of a solution, relative to the amplitude.
     fn missed(&self, (harmonics, x): (usize, &DVector<f64>)) -> f64 {
         let off = |(t, place): (&f64, &f64)| (basis(harmonics, *t).dot(x) - place).abs();
         self.time.iter().zip(&self.place).map(off).fold(0.0, f64::max) / self.amplitude

@@ -1,4 +1,4 @@
-//! Holding forces against closed forms, and against runs of the drive at rest.
+//! Holding forces, compared with closed forms and with runs of the drive at rest.
 
 use crate::prepared;
 use std::error::Error;
@@ -11,9 +11,9 @@ use stickslip_study::curve::holding::{Held, Holding, Holdless, csv, json};
 
 type Checked = Result<(), Box<dyn Error>>;
 
-/// A second, whatever the scenario has.
+/// Run settings that replace those of the scenario.
 const RUN: &str = r#"{"duration": "1 s", "stepper": {"event": {"tolerance": 1e-9}}}"#;
-/// To a share of a force.
+/// Relative tolerance.
 const TOLERANCE: f64 = 1e-6;
 
 fn file(name: &str) -> PathBuf {
@@ -27,7 +27,7 @@ fn holding(name: &str, set: &[(&str, &str)], over: Option<&str>) -> Result<Holdi
 
 type Ways = [Result<Held, Holdless>; 2];
 
-/// What is held along x and against it at each value.
+/// Returns the holding forces along +x and -x at each value.
 fn ways(holding: &Holding, values: &[f64]) -> Result<Vec<Ways>, CurveError> {
     Ok(holding.trace(values, TOLERANCE, 2, &())?.into_iter().map(|point| point.ways).collect())
 }
@@ -41,7 +41,7 @@ fn are(ways: Ways, wanted: [f64; 2]) -> Checked {
     Ok(())
 }
 
-/// Without its load the quickstart holds μF_N both ways: of three balls 0.2 times what presses them.
+/// The quickstart without load holds μF_N in both directions: 0.2 times the preload of three balls.
 #[test]
 fn one_contact_holds_its_friction() -> Checked {
     let holding = holding("quickstart.json", &[("loads", "[]")], None)?;
@@ -52,13 +52,13 @@ fn one_contact_holds_its_friction() -> Checked {
     Ok(())
 }
 
-/// Where a load pulls already, it takes that much less along it, and more against it.
+/// An existing load reduces the holding force in its direction and increases it in the other.
 #[test]
 fn a_load_that_is_there_counts() -> Checked {
     let holding = holding("quickstart.json", &[], Some("contacts.ball.friction"))?;
     let [some, less] = &ways(&holding, &[0.2, 0.01])?[..] else { panic!("two") };
     are(some.clone(), [0.2 * 0.9 + 0.02, 0.2 * 0.9 - 0.02])?;
-    // 9 mN do not hold 20.
+    // 9 mN of friction do not hold 20 mN.
     for way in less {
         let Err(Holdless::Without(lost)) = way else { panic!("{way:?}") };
         assert_eq!(lost.words(), "slider slides away");
@@ -66,7 +66,7 @@ fn a_load_that_is_there_counts() -> Checked {
     Ok(())
 }
 
-/// On a slide that climbs by α the weight pulls back: μF_N ± m g sin α.
+/// On an incline α the weight acts along -x: μF_N ± m g sin α.
 #[test]
 fn an_incline_takes_the_weight_from_one_way_and_gives_it_to_the_other() -> Checked {
     let gravity = r#"{"acceleration": 9.81, "incline": "20 deg"}"#;
@@ -78,7 +78,7 @@ fn an_incline_takes_the_weight_from_one_way_and_gives_it_to_the_other() -> Check
     Ok(())
 }
 
-/// Two contacts of other friction slip one after the other: the sum of both is held.
+/// Two contacts with different friction slip one after another; the sum of their limits is held.
 #[test]
 fn contacts_of_different_friction_hold_their_sum() -> Checked {
     let second = r#"{"between": ["ground", "slider"], "materials": ["ruby", "steel"],
@@ -91,9 +91,9 @@ fn contacts_of_different_friction_hold_their_sum() -> Checked {
     Ok(())
 }
 
-/// What rides on the slider, or is hung on it, slides with it: μF_N of the slider's own contact is held, and of both where the other one has a
-/// contact of its own. Sliding pairs were found in balance hundreds of metres away, where rounding of their places is as much between
-/// them as what pulls: 5.0023 mN were held of 5 mN, and the bracket told 1.5 nN.
+/// A body on top of the slider slides with it. The holding force is μF_N of the slider's own contact, or of both if the
+/// upper body has a contact of its own. Equilibria of sliding pairs that rounding simulates at distances of hundreds
+/// of metres must not count.
 #[test]
 fn what_slides_together_is_not_held_by_rounding() -> Checked {
     let body = ("bodies.rider", r#"{"mass": "10 g", "x": "free"}"#);
@@ -121,7 +121,7 @@ fn what_slides_together_is_not_held_by_rounding() -> Checked {
     Ok(())
 }
 
-/// The same of bodies whose weight presses them: μN less, or more, what pulls already. Rounding of places along x is none of what presses.
+/// Bodies pressed by their own weight: the holding force is μN minus or plus the existing load.
 #[test]
 fn what_slides_under_its_own_weight_is_not_held_by_rounding() -> Checked {
     let file = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/scenes/stacked.json");
@@ -135,7 +135,8 @@ fn what_slides_under_its_own_weight_is_not_held_by_rounding() -> Checked {
     Ok(())
 }
 
-/// A load on the stage of the data sheet goes through its balls, which hold 3·0.15·5 N, and the foot on its stack.
+/// The load on the driven stage is carried by its balls, with a friction limit of 3·0.15·5 N, and through the foot by
+/// the stack.
 #[test]
 fn a_stage_is_held_by_the_contacts_of_its_foot() -> Checked {
     let holding = holding("driven_stage.json", &[], Some("contacts.balls.friction"))?;
@@ -147,7 +148,8 @@ fn a_stage_is_held_by_the_contacts_of_its_foot() -> Checked {
     Ok(())
 }
 
-/// A sledge that its weight presses on three balls as deep as each other: of the two that rub μ 2mg/3, and without friction nothing.
+/// A sledge presses three equal balls by its weight: two balls with friction hold μ 2mg/3; without friction nothing is
+/// held.
 #[test]
 fn what_its_weight_presses_is_held_by_its_weight() -> Checked {
     let set = [
@@ -166,14 +168,14 @@ fn what_its_weight_presses_is_held_by_its_weight() -> Checked {
     Ok(())
 }
 
-/// A stage that may pitch: friction acts h = 6 mm below the load, so that F h/2a, a = 12 mm, goes from one end to the other. Balls of
-/// other friction then hold F = (μ₁N₁ + μ₂N₂)/(1 ± (μ₂ - μ₁) h/2a).
+/// A stage that may pitch: friction acts h = 6 mm below the load. A normal force of F h/2a moves from one end to the
+/// other, with a = 12 mm. Balls of different friction then hold F = (μ₁N₁ + μ₂N₂)/(1 ± (μ₂ - μ₁) h/2a).
 #[test]
 fn a_load_above_the_contacts_presses_one_end() -> Checked {
     let set = [("gravity", r#"{"acceleration": 9.81}"#)];
     let found = holding("three_ball_stage.json", &set, Some("contacts.rear.friction"))?;
     let weight = 50e-3 * 9.81 + 0.6;
-    // 0.3 N more pull 8 mm beside the middle, to the front.
+    // The additional 0.3 N act 8 mm in front of the middle.
     let (front, rear) = (0.5 * weight + 0.3 * 20.0 / 24.0, 0.5 * weight + 0.3 * 4.0 / 24.0);
     for (friction, ways) in [0.1, 0.4].into_iter().zip(ways(&found, &[0.1, 0.4])?) {
         let (sum, moved) = (0.2 * front + friction * rear, (friction - 0.2) * 6.0 / 24.0);
@@ -182,8 +184,8 @@ fn a_load_above_the_contacts_presses_one_end() -> Checked {
     Ok(())
 }
 
-/// A block on two feet, h below its middle, tips about the one in front at F = m g a/h, where friction holds as much: arms of small rotations
-/// stay what they are. Loads were found to be held up to 8.5e-5 beyond it, by rounding of places 15 000 rad away, where 4e-8 was told.
+/// A block on two feet, h below its centre, tips over the front foot at F = m g a/h. Lever arms do not change for small
+/// rotations; equilibria at large angles, which rounding simulates, must not count.
 #[test]
 fn a_block_holds_what_does_not_tip_it() -> Checked {
     let file = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/scenes/tipping_block.json");
@@ -223,8 +225,8 @@ fn a_spring_has_no_finite_holding_force() -> Checked {
     Ok(())
 }
 
-/// A run knows nothing of equilibria: the load rises in 0.2 s and stays for as long again. A little less than the holding force only
-/// creeps, a little more slides away.
+/// Comparison with runs: the load rises in 0.2 s and remains for 0.2 s. Slightly below the holding force the body only
+/// creeps; slightly above it slides away.
 #[test]
 fn runs_slide_away_beyond_it_and_creep_below() -> Checked {
     let drawn = |name: &str, set: &[(&str, &str)], body: &str| -> Checked {
@@ -262,7 +264,7 @@ fn runs_slide_away_beyond_it_and_creep_below() -> Checked {
     drawn("ruby_drive.json", &[], "slider")
 }
 
-/// Somebody who has seen enough after a number of points.
+/// Watcher that interrupts after a number of points.
 struct Patience(AtomicUsize);
 
 impl Watcher for Patience {
@@ -277,7 +279,7 @@ impl Watcher for Patience {
 #[test]
 fn any_number_of_cores_tells_the_same_and_an_interrupt_keeps_what_is_done() -> Checked {
     let holding = holding("quickstart.json", &[], Some("contacts.ball.friction"))?;
-    // Some are refused, some do not hold the load.
+    // Some values are invalid, some do not hold the load.
     let values: Vec<f64> = (0..12).map(|k| -0.1 + 0.05 * f64::from(k)).collect();
     let told = [1, 2, 3].map(|cores| holding.trace(&values, 1e-4, cores, &()));
     assert!(told[0] == told[1] && told[0] == told[2]);
@@ -300,8 +302,8 @@ fn scenes_that_hold_nothing_are_refused() {
         let refused = refused.unwrap_or_default();
         assert!(refused.contains(words), "{refused}");
     };
-    says(refused("worn_ball.json", &[], None), "no body is free along x, to be loaded");
-    says(refused("three_ball_stage.json", &[], None), "is pressed by a constant force");
+    says(refused("worn_ball.json", &[], None), "no body is free along x");
+    says(refused("three_ball_stage.json", &[], None), "has a constant normal force");
     let smooth = [("contacts.ball.friction", "0")];
     says(refused("ruby_drive.json", &smooth, None), "has friction");
     assert_eq!(refused("ruby_drive.json", &smooth, Some("contacts.ball.friction")), None);

@@ -1,4 +1,4 @@
-//! S₀ and stall closed in on, against the closed form of the quasi-static, damped drive.
+//! Zero-step stroke S₀ and stall force, compared with the closed form of the quasi-static, damped drive.
 
 use crate::prepared;
 use std::error::Error;
@@ -9,18 +9,18 @@ use stickslip_study::curve::{Curve, CurveError, Kind, Landmark, csv, json};
 
 type Checked = Result<(), Box<dyn Error>>;
 
-/// Of the quickstart: tangential stiffness in full stick 2G*a of three balls and m = 10 g have a resonance of 4.151 kHz; 2√(km)
-/// N s/m to ground damp it critically. A period is long against it, the flyback takes no time.
+/// Damping to ground, N s/m: critical for the quickstart, with a resonance of 4.151 kHz of m = 10 g on the tangential
+/// stiffness 2G*a of three balls. The period, s, is long in comparison, and the flyback instantaneous.
 const DAMPING: f64 = 2.0 * 10e-3 * std::f64::consts::TAU * 4151.0;
 const PERIOD: f64 = 0.1;
-/// μF_N of three balls, N.
+/// Friction limit μF_N of three balls, N.
 const LIMIT: f64 = 0.18;
 
 fn file(name: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenarios").join(name)
 }
 
-/// The quickstart without its load, critically damped, and u_c.
+/// Returns the curve of the quickstart without load and critically damped, and u_c.
 fn ideal(kind: Kind, stroke: f64) -> Result<(Curve, f64), CurveError> {
     let brake = format!(r#"{{"between": ["ground", "slider"], "damping": {DAMPING}}}"#);
     let set = [
@@ -36,13 +36,15 @@ fn ideal(kind: Kind, stroke: f64) -> Result<(Curve, f64), CurveError> {
     Ok((curve, natural))
 }
 
-/// S₀/u_c against a load of λμF_N on a paraboloid: the flyback slips as a whole, then u rises from F_x = -μF_N to λμF_N, by Masing's
-/// rule twice a first loading to half of the difference: 2[1 - ((1-λ)/2)^(2/3)]; 0.74008 without load.
+/// Returns S₀/u_c for a load of λμF_N on a paraboloid. After gross slip in the flyback, the force rises from F_x =
+/// -μF_N to λμF_N. By Masing's rule this takes twice the displacement of half the force: 2[1 - ((1-λ)/2)^(2/3)];
+/// 0.74008
+/// without load.
 fn zero_step(share: f64) -> f64 {
     2.0 * (1.0 - (0.5 * (1.0 - share)).powf(2.0 / 3.0))
 }
 
-/// Where the damper pulls: the slider rises with the foot, by the stroke in a period.
+/// Returns the mean force of the damper relative to μF_N, for a slider that follows the foot by one stroke per period.
 fn pull(stroke: f64) -> f64 {
     DAMPING * stroke / PERIOD / LIMIT
 }
@@ -59,14 +61,14 @@ fn the_zero_step_stroke_is_that_of_the_closed_form() -> Checked {
     let found = only(&traced.landmarks, "zero_step")?;
     let at = found.at.clone()? / natural;
     assert!((zero_step(0.0) - 0.74008).abs() < 5e-6);
-    // The pull depends on the stroke a little.
+    // The damper force depends slightly on the stroke.
     let wanted = (0..8).fold(0.74, |share, _| zero_step(pull(share * natural)));
     assert!((at / wanted - 1.0).abs() < 1e-4, "{at} {wanted}");
     assert!(found.half_width / natural <= 0.5e-4 * at && found.runs < 20, "{found:?}");
     Ok(())
 }
 
-/// Mirrored, steps go back: S₀ lies as far below 0, on a range by default, and on one across 0 where the far end is.
+/// For the mirrored drive S₀ is negative: with the default range, and with a range across 0 whose far end is negative.
 #[test]
 fn negative_strokes_have_the_mirrored_zero_step() -> Checked {
     let (curve, natural) = ideal(Kind::StepAmplitude, -40e-9)?;
@@ -86,7 +88,7 @@ fn negative_strokes_have_the_mirrored_zero_step() -> Checked {
 #[test]
 fn the_stall_is_that_of_the_closed_form() -> Checked {
     let (curve, natural) = ideal(Kind::ForceSpeed, 50e-9)?;
-    // S = S₀(λ): λ = 1 - 2(1 - S/2u_c)^(3/2), of which the damper takes its part.
+    // S = S₀(λ): λ = 1 - 2(1 - S/2u_c)^(3/2), minus the part of the damper.
     let share = 1.0 - 2.0 * (1.0 - 0.5 * 50e-9 / natural).powf(1.5);
     let wanted = LIMIT * (share - pull(50e-9));
     let [from, to] = curve.range(&()).ok_or("a range")?;
@@ -98,7 +100,7 @@ fn the_stall_is_that_of_the_closed_form() -> Checked {
     let at = stall.at.clone()?;
     assert!((at / wanted - 1.0).abs() < 1e-4, "{at} {wanted}");
     assert!(stall.runs < 20, "{stall:?}");
-    // Steps fall along a curve that is S - S₀(λ): the most power is where λ(S - S₀) is largest.
+    // The step length is S - S₀(λ): maximum power is at the maximum of λ(S - S₀).
     let power = |load: f64| load * (50e-9 / natural - zero_step(load / LIMIT + pull(50e-9)));
     let best = only(&traced.landmarks, "best_power")?;
     let at = best.at.clone()?;
@@ -107,7 +109,7 @@ fn the_stall_is_that_of_the_closed_form() -> Checked {
     Ok(())
 }
 
-/// What is told, and how much of the way is behind, which never falls.
+/// Watcher that records the progress, which must not decrease.
 #[derive(Default)]
 struct Told(Mutex<Vec<f64>>);
 
@@ -120,7 +122,7 @@ impl Watcher for Told {
     }
 }
 
-/// Stall and most power side by side, each on its share of the cores.
+/// Stall force and maximum power are computed in parallel, each with a part of the cores.
 #[test]
 fn any_number_of_cores_finds_the_same_places() -> Checked {
     let (curve, _) = ideal(Kind::ForceSpeed, 50e-9)?;
@@ -144,8 +146,8 @@ fn what_is_not_within_the_range_is_said() -> Checked {
     let mut traced = curve.trace(&[0.3, 0.5].map(|share| share * natural), 1, &());
     curve.mark(&mut traced, 1e-4, 2, &())?;
     let why = traced.landmarks[0].at.clone().err().map(|why| why.to_string()).unwrap_or_default();
-    assert!(why.contains("the drive steps at none"), "{why}");
-    // Where all points step it lies below them, and is found there.
+    assert!(why.contains("the drive makes no step at any point"), "{why}");
+    // If all points have steps, S₀ is below them and is found there.
     let mut traced = curve.trace(&[0.9, 1.1].map(|share| share * natural), 1, &());
     curve.mark(&mut traced, 1e-4, 2, &())?;
     let found = only(&traced.landmarks, "zero_step")?;

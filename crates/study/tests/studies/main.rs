@@ -1,12 +1,13 @@
-//! Studies of many runs: batches, curves, steady motions, branches and derivatives, against closed forms and plain runs.
+//! Tests of studies with many runs: sweeps, curves, periodic orbits, branches and sensitivities, compared with closed
+//! forms and simulations.
 //!
-//! One binary, linked once. `five_points` takes differences of runs; every other module is a subject. Allocations are counted by
-//! thread.
+//! All are in one binary. `five_points` computes differences of runs; every other module is one topic. Allocations are
+//! counted by thread.
 
 use std::path::Path;
 use stickslip_run::{Job, Refusal};
 
-/// A job of a file with overrides.
+/// Returns the job of a file with overrides.
 fn prepared(file: &Path, set: &[(String, String)]) -> Result<Job, Refusal> {
     Job::prepare(file, set, Path::new(""))
 }

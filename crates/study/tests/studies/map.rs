@@ -1,4 +1,5 @@
-//! Maps: borders between slip regimes against closed forms, prescribed and by runs; grids against studies.
+//! Maps: borders between slip regimes compared with closed forms, for prescribed motions and for runs; grids compared
+//! with studies.
 
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
@@ -8,10 +9,10 @@ use std::fs;
 use std::path::Path;
 use stickslip_study::map::{Asked, Field, Map, MapError, Overlay, Regime};
 
-/// κ = μE*/G* of the ball below: similar bodies with a Poisson's ratio of 0.3.
+/// κ = μE*/G* of the ball below: equal materials with a Poisson's ratio of 0.3.
 const KAPPA: f64 = 0.6 * (2.0 - 0.3) / (2.0 * (1.0 - 0.3));
 
-/// A ball shaken along x by one waveform and pressed by another.
+/// A ball moved along x by one waveform and pressed by another.
 fn ball(shake: &Value, normal: &Value, press: Option<Value>) -> Value {
     let mut waveforms = json!({ "shake": shake });
     if let Some(press) = press {
@@ -34,7 +35,7 @@ fn sine(amplitude: f64, phase: f64, offset: f64) -> Value {
     json!({ "sine": { "amplitude": amplitude, "phase": phase, "offset": offset, "period": 1.0 } })
 }
 
-/// A map of a scenario, kept in a file.
+/// Returns a map of a scenario in a temporary file.
 fn map(scenario: &Value, asked: &Asked) -> Result<Map, MapError> {
     let folder = tempfile::tempdir().unwrap();
     let file = folder.path().join("ball.json");
@@ -51,7 +52,7 @@ fn field(map: &Map) -> Field {
     map.compute(Path::new("unused"), 2, &()).unwrap()
 }
 
-/// The points between partial and gross slip.
+/// Returns the points of the border between partial and gross slip.
 fn gross(field: &Field) -> Vec<[f64; 2]> {
     let all = field.borders.iter().filter(|border| border.between == [Regime::Partial, Regime::Gross]);
     all.flat_map(|border| border.points.clone()).collect()
@@ -73,7 +74,7 @@ fn the_border_of_a_ball_goes_with_the_force_to_two_thirds() {
         let off = points.iter().map(|[force, amplitude]| (amplitude / (KAPPA * depth(*force)) - 1.0).abs());
         let off = off.fold(0.0, f64::max);
         if by_runs {
-            // In shares of the ranges.
+            // Accuracy relative to the ranges.
             let near = |[force, amplitude]: &[f64; 2]| {
                 let slope = 2.0 / 3.0 * KAPPA * depth(*force) / force * 19.5 / 1.5e-6;
                 (amplitude - KAPPA * depth(*force)).abs() / 1.5e-6 / (1.0 + slope * slope).sqrt() < 1e-4
@@ -81,7 +82,7 @@ fn the_border_of_a_ball_goes_with_the_force_to_two_thirds() {
             assert!(points.iter().all(near) && points.len() >= 12 && found.runs <= 109, "{}", found.runs);
         } else {
             assert!(off < 1e-9 && points.len() >= 40 && found.runs == 0);
-            // Without motion all sticks: no area of its own, and no border in the map.
+            // Without motion everything sticks; this adds neither an area nor a border.
             assert!(found.borders.len() == 1 && found.values[0] == f64::from(Regime::Stick as u8));
         }
     }
@@ -106,7 +107,7 @@ fn a_harmonic_press_and_shake_have_an_ellipse() {
             let found = field(&map(&scenario, &Asked { points: Some([9, 9]), ..asked }).unwrap());
             let points = gross(&found);
             assert!(points.len() >= 12 && found.runs == 0, "{phase}: {}", points.len());
-            // Columns of the grid are e = 0.1 … 0.9.
+            // Columns of the grid are at e = 0.1 … 0.9.
             let columns =
                 points.iter().filter(|[press, _]| ((press * 1e7).round() * 1e-7 - press).abs() < 1e-20);
             assert!(phase == 0.0 || phase == 0.5 * TAU || columns.count() >= 9);
@@ -132,7 +133,7 @@ fn in_phase_a_contact_sticks_as_a_whole_up_to_the_slope_of_the_limit() {
     let stick =
         found.borders.iter().find(|border| border.between == [Regime::Stick, Regime::Partial]).unwrap();
     assert!(stick.points.iter().all(|[press, amplitude]| (amplitude / (KAPPA * press) - 1.0).abs() < 1e-9));
-    // Beyond d₀ the contact opens, and what touches anew in too steep a path slides as a whole.
+    // Above d₀ the contact opens. After renewed contact on a steep path, it slips as a whole.
     let wide = Asked { x: (asked.x.0.clone(), "0.1um..1.5um".to_owned()), ..asked.clone() };
     let between: Vec<[Regime; 2]> =
         field(&map(&scenario, &wide).unwrap()).borders.iter().map(|one| one.between).collect();
@@ -141,7 +142,7 @@ fn in_phase_a_contact_sticks_as_a_whole_up_to_the_slope_of_the_limit() {
     {
         assert!(between.contains(&wanted), "{between:?}");
     }
-    // A little out of phase something slips.
+    // With a small phase shift, some springs slip.
     let scenario = ball(
         &sine(4e-7, 0.01, 0.0),
         &json!({ "indentation": { "follows": "press" } }),
@@ -151,7 +152,7 @@ fn in_phase_a_contact_sticks_as_a_whole_up_to_the_slope_of_the_limit() {
     assert!(found.borders.iter().all(|border| border.between == [Regime::Partial, Regime::Gross]));
 }
 
-/// A press and a shake by triangles of which two periods of one are three of the other.
+/// Triangle waveforms for normal and tangential motion; two periods of one are three of the other.
 fn triangles() -> Value {
     let shake = json!({ "triangle": { "stroke": 8e-7, "period": 3.0, "phase": 0.7 } });
     let mut scenario =
@@ -162,7 +163,7 @@ fn triangles() -> Value {
     scenario
 }
 
-/// The value of a triangle of this period at t: from 0 to the stroke and back.
+/// Returns the value of a triangle waveform at t, between 0 and 1.
 fn triangle(t: f64, period: f64, phase: f64) -> f64 {
     let part = (t / period + phase / TAU).rem_euclid(1.0);
     1.0 - (2.0 * part - 1.0).abs()
@@ -178,13 +179,13 @@ fn two_periods_of_a_press_on_three_of_a_shake_have_the_border_of_a_dense_evaluat
             by_runs,
         )
     };
-    // Corners of both are among these moments: multiples of a quarter, and those that the phase moves.
+    // These instants include the corners of both waveforms: multiples of a quarter, and those shifted by the phase.
     let moments: Vec<f64> = (0..24)
         .map(|k| 0.25 * f64::from(k))
         .chain((-2..6).map(|k| 1.5 * f64::from(k) - 3.0 * 0.7 / TAU))
         .collect();
     let border = |press: f64| {
-        // max(u-κd) = min(u+κd) is linear in the stroke U piece by piece: bisection to rounding.
+        // max(u-κd) = min(u+κd) is piecewise linear in the stroke: bisection to rounding.
         let reached = |stroke: f64| {
             let at =
                 |t: &f64| (stroke * triangle(*t, 3.0, 0.7), KAPPA * (1e-6 + press * triangle(*t, 2.0, 0.0)));
@@ -225,7 +226,7 @@ fn a_grid_is_that_of_a_study_and_its_parts_are_kept() {
     let found = map.compute(&parts, 2, &()).unwrap();
     assert_eq!((found.values.len(), found.words, found.xs[3]), (12, None, 100.0));
     assert!((found.xs[1] / 100.0_f64.cbrt() - 1.0).abs() < 1e-14);
-    // Column by column: a larger amplitude loses more.
+    // By columns: losses increase with the amplitude.
     assert!(found.values.chunks(3).all(|column| column[0] < column[1] && column[1] < column[2]));
     let parts_of_study = fs::read_dir(&parts).unwrap().next().unwrap().unwrap().path();
     assert_eq!(fs::read_dir(&parts_of_study).unwrap().count(), 4);
@@ -246,7 +247,7 @@ fn what_is_wrong_with_a_map_is_told() {
         told(asked(("contacts.ball.normal.force", "2N..1N"), (AMPLITUDE, "0..1um"), false))
             .contains("--x  expected a range")
     );
-    assert!(told(asked(force, force, false)).contains("another number"));
+    assert!(told(asked(force, force, false)).contains("another parameter"));
     let of = |of: &str| Asked { of: of.to_owned(), ..asked(force, (AMPLITUDE, "0..1um"), false) };
     assert!(told(of("contacts.bal.regime")).contains("ball"));
     assert!(told(of("contacts.ball.peak_fy_N")).contains("peak_fx_N"));

@@ -1,4 +1,4 @@
-//! A measured waveform: a point every few microseconds, each with noise, so that a contact turns hundreds of times in a period of its own.
+//! Measured waveform with noise, sampled every few microseconds: the contact has hundreds of reversals per period.
 
 use serde_json::{Value, json};
 use std::error::Error;
@@ -6,18 +6,18 @@ use std::path::Path;
 use stickslip_run::Job;
 use stickslip_study::steady::{self, Kind, Options};
 
-/// Period of the drive, s, and points in it.
+/// Period of the drive, s, and number of points.
 const PERIOD: f64 = 2e-3;
 const POINTS: u32 = 1000;
-/// What the slider weighs, kg, how a spring holds it down, N/m and N s/m, and what presses it, N.
+/// Mass of the slider, kg; stiffness, N/m, and damping, N s/m, of the spring that holds it down; and preload, N.
 const MASS: f64 = 0.05;
 const SPRING: (f64, f64) = (6e3, 40.0);
 const LOAD: f64 = 1.8;
-/// E\* of steel on steel, Pa, and the radius of the ball, m.
+/// E\* of steel on steel, Pa, and radius of the ball, m.
 const MODULUS: f64 = 210e9 / (2.0 * (1.0 - 0.3 * 0.3));
 const RADIUS: f64 = 0.4e-3;
 
-/// Slowly forth by half a micrometre and back in a fifth of the period, with five nanometres of noise.
+/// Slow forward motion by half a micrometre, return in a fifth of the period, with noise of five nanometres.
 fn table() -> Vec<[f64; 2]> {
     let mut draws = 1_u64;
     let mut noise = || {
@@ -55,9 +55,9 @@ fn scene() -> Value {
     })
 }
 
-/// Nothing couples z with x: λ = exp((-c/2m ± iω)T), ω² = k/m - (c/2m)², k the spring's and 2E*√(Rd) of the ball, d where all is in balance.
-/// Turns that corners make do not accumulate: with detours, which no variation saw, |λ| was 0.475 instead of 0.449 in a scene like this one, and 3.3
-/// instead of 0.64 in a machine of four balls.
+/// z and x are not coupled: λ = exp((-c/2m ± iω)T), ω² = k/m - (c/2m)². k is the sum of the spring stiffness and
+/// 2E*√(Rd) of the ball, with d at equilibrium. Reversals at the corners of the waveform must not accumulate errors of
+/// λ.
 #[test]
 fn turns_at_the_corners_of_noise_do_not_accumulate() -> Result<(), Box<dyn Error>> {
     let folder = tempfile::tempdir()?;

@@ -1,4 +1,4 @@
-//! Optima, against closed forms.
+//! Optima, compared with closed forms.
 
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
@@ -15,7 +15,7 @@ fn optimum(file: &Value) -> Optimum {
     made.unwrap_or_else(|error| panic!("{error}"))
 }
 
-/// What is wrong with a study.
+/// Returns the error message of a study.
 fn refused(file: &Value) -> String {
     Optimum::from_str(&file.to_string(), ("study.json", "study"), &folder()).err().unwrap().to_string()
 }
@@ -26,14 +26,16 @@ fn found(file: &Value) -> Value {
     serde_json::to_value(optimum.report(&best)).unwrap()
 }
 
-/// Half of the peak-to-peak value of sin θ + sin(2θ)/4: its extremes lie at cos θ = (√3 - 1)/2.
+/// Half of the peak-to-peak value of sin θ + sin(2θ)/4, with extremes at cos θ = (√3 - 1)/2.
 fn half_stroke() -> f64 {
     let y = (3.0_f64.sqrt() - 1.0) / 2.0;
     (1.0 - y * y).sqrt() * (1.0 + y / 2.0)
 }
 
-/// A heavy slider of a heavy.json whose contact slips grossly nearly always: friction forces balance at the median of the foot's
-/// speed, which is 2bAω of A(sin ωt - b sin 2ωt) up to b = 1/4, in units of half the stroke times ω at most 0.454167.
+/// A heavy slider whose contact is nearly always in gross slip. Its velocity is the median of the foot's velocity, so
+/// that friction forces balance. For A(sin ωt - b sin 2ωt) it is 2bAω up to b = 1/4; the maximum is 0.454167 in units
+/// of half the
+/// stroke times ω.
 fn heavy(keys: &Value) -> Value {
     let mut file = json!({
         "stickslip_study": 1, "scenario": "heavy.json", "maximise": "steady_motion.speed_m_s", "worst_of_period": false,
@@ -71,8 +73,8 @@ fn of_all_waveforms_of_two_harmonics_that_one_is_found() {
     assert!((terms[1]["phase"].as_f64().unwrap().abs() - std::f64::consts::PI).abs() < 0.05, "{form}");
 }
 
-/// P1 without inertia of note carries its slider by the stroke less what the contact loses; the largest stroke is the best, and a smaller
-/// friction is not. Minima are found as well, and what fails counts as the worst.
+/// P1 with negligible inertia moves its slider by the stroke minus a loss in the contact, so the largest stroke is the
+/// best. Minima are also found, and failed cases count as the worst.
 #[test]
 fn bounds_minima_and_failed_cases() {
     let p1 = |keys: Value| {
@@ -89,7 +91,7 @@ fn bounds_minima_and_failed_cases() {
     let smallest = p1(json!({ "minimise": "slider.x_m", "over": over }));
     assert_eq!(smallest["best"]["set"], json!(["waveforms.drive.sawtooth.stroke=3e-7"]));
     assert!(smallest["best"]["value"].as_f64() < largest["best"]["value"].as_f64());
-    // The worst of three periods, of the one and of the other.
+    // Worst result of the three periods, for maximum and minimum.
     let values = |found: &Value| {
         let values = found["periods"].as_array().unwrap().iter().map(|at| at["value"].as_f64().unwrap());
         values.collect::<Vec<_>>()
@@ -107,7 +109,8 @@ fn bounds_minima_and_failed_cases() {
     assert!(failing["best"]["value"].as_f64().unwrap() > 0.0);
 }
 
-/// The polygon of a driver of 2 A stays within window and rate, and beats the sawtooth that its corners are taken from.
+/// The polygon for a driver with 2 A stays within window and rate, and is better than the sawtooth from which it
+/// starts.
 #[test]
 fn corners_stay_within_window_and_current() {
     let file = json!({
@@ -127,7 +130,7 @@ fn corners_stay_within_window_and_current() {
     assert!(found["starts"][0]["to"].as_f64() >= found["starts"][0]["from"].as_f64());
 }
 
-/// Each of these keys, for the stage, makes a study that is refused with a message.
+/// Each set of keys gives a study that is rejected with a message.
 fn all_refused<const N: usize>(cases: [(Value, &str); N]) {
     for (keys, message) in cases {
         let mut file = json!({ "stickslip_study": 1, "scenario": "stage.json" });
@@ -142,8 +145,8 @@ fn what_is_no_optimum_is_refused_with_its_place() {
     let over = json!({ "contacts.balls.friction": [0.1, 0.2] });
     let speed = "steady_motion.speed_m_s";
     let cases = [
-        (json!({ "over": over }), "which result is optimised is missing"),
-        (json!({ "maximise": speed }), "nothing to optimise over"),
+        (json!({ "over": over }), "the result to optimise is missing"),
+        (json!({ "maximise": speed }), "no variable to optimise"),
         (json!({ "maximise": speed, "minimise": speed, "over": over }), "either"),
         (
             json!({ "maximise": "steady_motion.sped_m_s", "over": over }),
@@ -157,7 +160,7 @@ fn what_is_no_optimum_is_refused_with_its_place() {
             json!({ "maximise": speed, "over": { "contacts.balls.fricton": [0.1, 0.2] } }),
             "did you mean \"friction\"?",
         ),
-        (json!({ "maximise": speed, "over": { "contacts.balls.count": [1, 3] } }), "counts whole things"),
+        (json!({ "maximise": speed, "over": { "contacts.balls.count": [1, 3] } }), "is a count"),
         (json!({ "maximise": speed, "over": over, "starts": 0 }), "from 1 to 64"),
         (
             json!({ "maximise": speed, "waveform": { "path": "waveforms.driv", "corners": 8 } }),
@@ -174,7 +177,7 @@ fn what_is_no_optimum_is_refused_with_its_place() {
         ),
         (
             json!({ "maximise": speed, "over": { "waveforms.drive.sawtooth.flyback": [0, 1e-4] }, "waveform": { "path": "waveforms.drive", "corners": 8 } }),
-            "no such number any more",
+            "so it has no such number",
         ),
         (
             json!({ "vary": { "contacts.balls.friction": { "list": [0.1] } }, "results": [speed] }),

@@ -1,4 +1,4 @@
-//! What is looked for beside a run costs what it is worth, and nothing where nobody wants it.
+//! Cost limits of the search for the periodic orbit in the summary of a run.
 
 use std::error::Error;
 use std::path::Path;
@@ -14,14 +14,14 @@ fn p1(set: &[(&str, &str)]) -> Result<Job, Box<dyn Error>> {
     Ok(Job::prepare(&file, &set, Path::new(""))?)
 }
 
-/// Seconds went by beside a run of milliseconds, whatever its limits were.
+/// Expensive time steps reduce the number of steps allowed for the search.
 #[test]
 fn the_dearer_a_step_the_fewer_are_spent() -> Result<(), Box<dyn Error>> {
     let row = p1(&[("contacts.ball.engine", r#"{"springs":{"count":64000}}"#), ("plots", "[]")])?;
-    // 75 000 steps for 16 parts, of which this row counts for 1 001 and the slider for one.
+    // 75 000 steps for up to 16 parts; this model has 1001 for the row of springs and one for the slider.
     let told = outlook(&row, None, &|| true);
     assert!(
-        matches!(&told, Some(Outlook::NotFound { fault }) if fault.contains("within 1197 steps")),
+        matches!(&told, Some(Outlook::NotFound { fault }) if fault.contains("within 1197 time steps")),
         "{told:?}"
     );
     Ok(())
@@ -32,24 +32,24 @@ fn a_scenario_can_do_without() -> Result<(), Box<dyn Error>> {
     assert!(matches!(outlook(&p1(&[])?, None, &|| true), Some(Outlook::Found(_))));
     let without = p1(&[("figures.steady_motion", "false")])?;
     assert_eq!(outlook(&without, None, &|| true), None);
-    // What it says is kept, and costs those nothing who say nothing.
+    // The setting is part of the resolved scenario only if it is given.
     assert!(without.resolved.contains("\"steady_motion\": false"));
     assert!(!p1(&[])?.resolved.contains("steady_motion"));
     Ok(())
 }
 
-/// It took three times as many steps as the run beside it, and nobody had asked.
+/// The search uses at most a fifth of the time steps of the run, unless it is requested.
 #[test]
 fn beside_a_run_it_costs_a_fifth_of_its_steps_or_is_asked_for() -> Result<(), Box<dyn Error>> {
     let of = |steps: u64| Some(Counts { steps, rejected: 5, ..Counts::default() });
     let long = p1(&[("run.cycles", "100")])?;
-    // It takes some 90 steps in 12 periods, and none where these are too few from the beginning.
+    // The search needs about 90 steps in 12 periods. It is not started if the limit is obviously too small.
     let (short, scarce, enough) = (
         outlook(&p1(&[])?, of(140), &|| panic!("a period of a search for nothing")),
         outlook(&long, of(140), &|| true),
         outlook(&long, of(700), &|| true),
     );
-    let is_told = |told: &Option<Outlook>| matches!(told, Some(Outlook::NotFound { fault }) if fault.contains("its limit of 29 integration steps, a fifth of those of the run"));
+    let is_told = |told: &Option<Outlook>| matches!(told, Some(Outlook::NotFound { fault }) if fault.contains("its limit of 29 time steps, a fifth of those of the run"));
     assert!(is_told(&short) && is_told(&scarce), "{short:?} {scarce:?}");
     assert!(matches!(enough, Some(Outlook::Found(_))), "{enough:?}");
     let asked = p1(&[("figures.steady_motion", "true")])?;
@@ -58,7 +58,7 @@ fn beside_a_run_it_costs_a_fifth_of_its_steps_or_is_asked_for() -> Result<(), Bo
     Ok(())
 }
 
-/// Rows of springs told no gross slip, and so the drive was said to make no step.
+/// Gross slip of a row of springs must be detected, so that its drive makes steps.
 #[test]
 fn a_drive_on_a_row_of_springs_steps() -> Result<(), Box<dyn Error>> {
     let row = p1(&[("contacts.ball.engine", r#"{"springs":{"count":101}}"#), ("plots", "[]")])?;
@@ -68,7 +68,7 @@ fn a_drive_on_a_row_of_springs_steps() -> Result<(), Box<dyn Error>> {
         return Err("no motion".into());
     };
     assert!(row.steps() && row.shaken_down.is_empty(), "{row:?}");
-    // 101 springs are as exact as that.
+    // Accuracy of 101 springs.
     assert!((row.step.0 / curve.step.0 - 1.0).abs() < 0.01, "{} {}", row.step.0, curve.step.0);
     Ok(())
 }

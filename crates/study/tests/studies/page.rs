@@ -1,4 +1,4 @@
-//! The table of examples on the page of steady motion is what the search finds.
+//! The table of examples in the documentation of periodic orbits agrees with the search.
 
 use std::error::Error;
 use std::fmt::Write;
@@ -7,7 +7,7 @@ use std::path::Path;
 use stickslip_run::{Job, Real, quantity};
 use stickslip_study::steady::{self, Options};
 
-/// Examples with a steady motion.
+/// Examples with a periodic orbit.
 const EXAMPLES: [&str; 12] = [
     "p1",
     "quickstart",
@@ -44,7 +44,7 @@ fn table() -> Result<String, Box<dyn Error>> {
 
 #[test]
 fn the_page_has_the_table() -> Result<(), Box<dyn Error>> {
-    let path = root().join("docs/steady.md");
+    let path = root().join("docs/theory/periodic_orbits.md");
     let page = fs::read_to_string(&path)?;
     let (before, rest) = page.split_once("--test studies page -->\n").ok_or("a mark before the table")?;
     let (shown, after) = rest.split_once("<!-- end -->").ok_or("a mark behind it")?;

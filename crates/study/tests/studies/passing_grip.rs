@@ -1,5 +1,5 @@
-//! A drive that slips grossly on the way forth while it starts, and no more when it has settled: what its contact holds there is a number of
-//! the motion that the first periods know nothing of.
+//! A drive with gross slip in the forward stroke only during its start. On the periodic orbit its slip memory remains
+//! and becomes an unknown that the first periods do not have.
 
 use std::error::Error;
 use std::path::Path;
@@ -9,7 +9,7 @@ use stickslip_study::steady::{self, Options};
 
 const PERIOD: f64 = 167.2e-6;
 
-/// The steps of plain periods come nearer to the steady one by the largest multiplier from each to the next.
+/// Simulated step lengths approach the steady one with the ratio of the largest multiplier.
 #[test]
 fn what_a_contact_comes_to_hold_is_a_number_of_the_motion() -> Result<(), Box<dyn Error>> {
     let set = [

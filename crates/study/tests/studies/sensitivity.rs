@@ -1,4 +1,4 @@
-//! Derivatives against closed forms, and what is refused.
+//! Sensitivities, compared with closed forms; and errors.
 
 use crate::prepared;
 use std::error::Error;
@@ -10,11 +10,11 @@ use stickslip_study::sensitivity::{
 
 type Checked = Result<(), Box<dyn Error>>;
 
-/// Steel on steel.
+/// Young's modulus, Pa, and Poisson's ratio of steel.
 const MODULUS: f64 = 210e9;
 const POISSON: f64 = 0.3;
 
-/// Relative error that a slope reaches.
+/// Relative accuracy of a slope.
 const WITHIN: f64 = 1e-4;
 
 fn example(name: &str) -> PathBuf {
@@ -31,7 +31,7 @@ fn of(figures: &[&str], paths: &[&str]) -> Asked {
     Asked { of: names(figures), to: names(paths), ..Asked::default() }
 }
 
-/// The derivatives of a scenario, figure by figure.
+/// Returns the derivatives of a scenario.
 fn taken(file: &Path, set: &[(&str, &str)], asked: &Asked) -> Result<(Sensitivity, Taken), SensitivityError> {
     let asked = ask(file, set, asked)?;
     let taken = asked.take(2, &());
@@ -45,7 +45,7 @@ fn known(derivative: &Derivative) -> Result<Slope, String> {
     }
 }
 
-/// A slope is what it should be, within its own error and within a share.
+/// Checks a slope, within its own error and within a relative tolerance.
 fn is(derivative: &Derivative, wanted: f64, within: f64) -> Checked {
     let slope = known(derivative)?;
     let off = (slope.value - wanted).abs();
@@ -59,7 +59,7 @@ fn is(derivative: &Derivative, wanted: f64, within: f64) -> Checked {
     Ok(())
 }
 
-/// A scenario of its own, in a folder of its own.
+/// Writes a scenario to a temporary folder.
 fn scene(text: &str) -> Result<(tempfile::TempDir, PathBuf), Box<dyn Error>> {
     let folder = tempfile::tempdir()?;
     let file = folder.path().join("scene.json");
@@ -67,7 +67,7 @@ fn scene(text: &str) -> Result<(tempfile::TempDir, PathBuf), Box<dyn Error>> {
     Ok((folder, file))
 }
 
-/// m ẍ = F - kx from rest: x = (F/k)(1 - cos ωt), ω² = k/m, with its derivatives by hand.
+/// m ẍ = F - kx from rest: x = (F/k)(1 - cos ωt), ω² = k/m, with analytical derivatives.
 #[test]
 fn a_linear_oscillator_has_the_derivatives_of_its_closed_form() -> Checked {
     let (m, k, force, t) = (0.02, 3e5_f64, 0.5, 4e-3);
@@ -85,7 +85,7 @@ fn a_linear_oscillator_has_the_derivatives_of_its_closed_form() -> Checked {
     assert!(
         (asked.figures[0].value / x - 1.0).abs() < 1e-9 && (asked.figures[1].value / v - 1.0).abs() < 1e-9
     );
-    // By ω, x at F/k.
+    // Derivatives with respect to ω at constant F/k.
     let (x_omega, v_omega) =
         (force / k * t * (omega * t).sin(), force / k * ((omega * t).sin() + omega * t * (omega * t).cos()));
     let (by_m, by_k) = (-omega / (2.0 * m), omega / (2.0 * k));
@@ -101,7 +101,7 @@ fn a_linear_oscillator_has_the_derivatives_of_its_closed_form() -> Checked {
     Ok(())
 }
 
-/// Hertz and Cattaneo–Mindlin by hand: a ball of 1 mm pressed by 1 N, u led out by 0.7 u_c and back by 0.5 u_c.
+/// Hertz and Cattaneo–Mindlin in closed form: a ball of 1 mm pressed by 1 N, u forward by 0.7 u_c and back by 0.5 u_c.
 /// F_x = μF_N[φ(U₁) - 2φ(W/2)], φ(U) = 1 - (1-U)^(3/2), U = u/u_c, u_c = μ(E*/G*)d, d = (3F_N/4E*√R)^(2/3).
 #[test]
 fn a_contact_led_through_a_history_has_the_derivatives_of_its_closed_form() -> Checked {
@@ -131,7 +131,7 @@ fn a_contact_led_through_a_history_has_the_derivatives_of_its_closed_form() -> C
     let found = asked.figures[0].value;
     assert!((found.abs() / force.abs() - 1.0).abs() < 1e-9, "{found:e} {force:e}");
     let sense = found.signum() * force.signum();
-    // Of μF_N φ(U) by p, where μF_N is as p^a and u_c as p^b: (μF_N/p)[aφ - bUφ'].
+    // Derivative of μF_N φ(U) with respect to p, where μF_N ~ p^a and u_c ~ p^b: (μF_N/p)[aφ - bUφ'].
     let by = |value: f64, a: f64, b: f64| -> f64 {
         sense
             * parts
@@ -145,8 +145,8 @@ fn a_contact_led_through_a_history_has_the_derivatives_of_its_closed_form() -> C
     is(&found[2], by(radius, 0.0, -1.0 / 3.0), WITHIN)
 }
 
-/// The quickstart without its load, critically damped, slow and with a sudden flyback: step = S - S₀ with S₀ = 2u_c[1 - ((1-λ)/2)^(2/3)],
-/// λ the damper's pull as a share of μF_N, u_c as μ: the law of the contact alone, which a slider comes to within about 1e-3 u_c.
+/// The quickstart without load, critically damped, slow and with instantaneous flyback: step = S - S₀ with S₀ = 2u_c[1
+/// - ((1-λ)/2)^(2/3)]. λ is the damper force relative to μF_N. The slider approaches this law within about 1e-3 u_c.
 #[test]
 fn the_step_of_the_ideal_drive_and_its_zero_step_have_the_derivatives_of_their_closed_form() -> Checked {
     let (mu, limit, period, stroke) = (0.2, 0.18, 0.3, 100e-9);
@@ -186,8 +186,8 @@ fn the_step_of_the_ideal_drive_and_its_zero_step_have_the_derivatives_of_their_c
     Ok(())
 }
 
-/// A longer period takes the end of a run to before an event of its last period. That is none of the steady motion beside it, whose step
-/// has one slope, the same as on either side of the run's last step, which is as good as settled.
+/// With a longer period, an event of the last period is after the end of the run. The periodic orbit is not affected:
+/// its step length has one slope, equal to that on both sides of the run's last step.
 #[test]
 fn events_at_the_end_of_a_run_are_none_of_its_steady_motion() -> Checked {
     let asked = of(&["steady.step_m", "steps.last_m"], &["waveforms.drive.sawtooth.period"]);
@@ -204,8 +204,8 @@ fn events_at_the_end_of_a_run_are_none_of_its_steady_motion() -> Checked {
     Ok(())
 }
 
-/// Units are nobody's choice: in others of mass, length and time the same drive makes the same step. So elasticities of a length, each
-/// times the power in which its quantity has the unit, sum up to 0 of masses, 1 of lengths, 0 of times.
+/// The step length does not depend on the choice of units (dimensional analysis). The sum of elasticities, each times
+/// the power of a base unit in its parameter, is 0 for mass, 1 for length and 0 for time.
 #[test]
 fn elasticities_of_a_step_sum_up_as_their_units_do() -> Checked {
     let (asked, taken) = taken(&example("p1.json"), &[], &of(&["steps.last_m"], &[]))?;
@@ -232,7 +232,7 @@ fn elasticities_of_a_step_sum_up_as_their_units_do() -> Checked {
     Ok(())
 }
 
-/// A ball that comes fast enough slips all the time: ψ₂ = ψ₁ - 4χ, so that ∂ψ₂/∂ψ₁ = 1. Friction takes as much of its way whatever that is.
+/// A fast ball slips during the whole impact: ψ₂ = ψ₁ - 4χ, so that ∂ψ₂/∂ψ₁ = 1.
 #[test]
 fn an_oblique_impact_in_full_slip_gives_back_what_it_got() -> Checked {
     let set = [("bodies.ball.start.vx", "60 mm/s")];
@@ -244,22 +244,23 @@ fn an_oblique_impact_in_full_slip_gives_back_what_it_got() -> Checked {
     is(&taken.derivatives[0][0], 1.0, WITHIN)?;
     for f in [1, 2] {
         let slope = known(&taken.derivatives[f][0])?;
-        // The figure over the speed is what slopes are measured by.
+        // Slopes are relative to the ratio of result and velocity.
         let large = (asked.figures[f].value / asked.quantities[0].value).abs();
         assert!(
             slope.value.abs() <= slope.error && slope.error < WITHIN * large.max(1.0),
             "{slope:?} {large}"
         );
     }
-    // m Δv_x = ∓ μ m Δv_z, and v_z turns round without loss: dv_x/dμ = -2·50 mm/s.
+    // m Δv_x = ∓ μ m Δv_z, and v_z is reversed without loss: dv_x/dμ = -2·50 mm/s.
     assert!((asked.figures[2].value - 0.05).abs() < 1e-8);
     is(&taken.derivatives[0][1], -0.1, WITHIN)
 }
 
-/// Where a whole period more fits into the run, or a value is the largest that is allowed, what is below is not what is above.
+/// The two sides differ if one more period fits into the run, or if a parameter has its largest allowed value.
 #[test]
 fn where_the_sides_differ_both_are_told() -> Checked {
-    // 100 ms are ten periods of 10 ms, and nine of any longer: the mean of ten steps becomes that of nine, the first of which is longer.
+    // 100 ms contain ten periods of 10 ms, but nine of any longer period: the mean of ten steps becomes that of nine,
+    // and the first step is longer.
     let asked = of(&["steps.mean_speed_m_s"], &["waveforms.drive.sawtooth.period"]);
     let (asked, found) = taken(&example("quickstart.json"), &[], &asked)?;
     let Derivative::Split { above, below, why: Split::Jump([by_below, by_above]) } = &found.derivatives[0][0]
@@ -267,7 +268,7 @@ fn where_the_sides_differ_both_are_told() -> Checked {
         return Err(format!("{:?}", found.derivatives[0][0]).into());
     };
     assert!(below.is_ok() && above.is_ok(), "{below:?} {above:?}");
-    // The last step by itself, from a run of the example.
+    // The last step alone, from a run of the example.
     let ten = asked.figures[0].value * 100e-3;
     let (last, _) = taken(&example("quickstart.json"), &[], &of(&["steps.last_m"], &["bodies.slider.mass"]))?;
     let wanted = (ten - last.figures[0].value) / 90e-3 - ten / 100e-3;
@@ -275,7 +276,7 @@ fn where_the_sides_differ_both_are_told() -> Checked {
         *by_below == 0.0 && (by_above / wanted - 1.0).abs() < 1e-6,
         "{by_below:e} {by_above:e} {wanted:e}"
     );
-    // Nothing is less compressible than this.
+    // Poisson's ratio cannot be larger.
     let asked = of(&["steps.last_m"], &["materials.hardened steel.poisson_ratio"]);
     let (_, found) =
         taken(&example("quickstart.json"), &[("materials.hardened steel.poisson_ratio", "0.5")], &asked)?;
@@ -288,7 +289,7 @@ fn where_the_sides_differ_both_are_told() -> Checked {
     Ok(())
 }
 
-/// u comes to u_c and no farther: with a little less friction the contact slips as a whole, with a little more it does not.
+/// u just reaches u_c: with slightly less friction the contact slips as a whole, with slightly more it does not.
 #[test]
 fn an_event_at_the_very_edge_is_told_from_both_sides() -> Checked {
     let (mu, normal, radius) = (0.15, 1.0, 1e-3);
@@ -317,7 +318,7 @@ fn an_event_at_the_very_edge_is_told_from_both_sides() -> Checked {
     Ok(())
 }
 
-/// Where contacts lie, and anything of a scenario in which a body rests that nothing moves.
+/// Positions of contacts have derivatives, and so have parameters of parts that do not affect the result.
 #[test]
 fn levers_and_what_rests_have_slopes() -> Checked {
     let levers = of(&["stage.x_m"], &["contacts.front.at.stage.x", "contacts.rear.at.stage.z"]);
@@ -344,7 +345,7 @@ fn any_number_of_cores_tells_the_same() -> Checked {
     });
     assert_eq!(told[0], told[1]);
     assert_eq!(told[0], told[2]);
-    // What is 0 has a scale that was looked for, a derivative, and no elasticity.
+    // A parameter that is 0 has an estimated scale, a derivative and no elasticity.
     let row = told[0].0.lines().find(|row| row.contains("gravity.incline")).ok_or("a row")?;
     let cells: Vec<&str> = row.split(',').collect();
     assert!(
@@ -387,22 +388,27 @@ fn what_cannot_be_answered_is_refused_with_its_reason() -> Checked {
     let step = &["steps.last_m"];
     let friction = &["contacts.ball.friction"];
     refused("p1.json", &[], of(&["steps.lst_m"], friction), "did you mean \"steps.last_m\"?")?;
-    refused("p1.json", &[], of(&["contacts.ball.fretting.dissipated_J"], friction), "have no such figure")?;
-    refused("p1.json", &[], of(&["drivers.stack.peak_current_A"], friction), "have no such figure")?;
-    refused("p1.json", &[], of(&["steps.periods"], friction), "counts whole things")?;
-    refused("p1.json", &[], of(&["counts.steps"], friction), "says how the run was run")?;
-    refused("p1.json", &[], of(&["timing.wall_s"], friction), "says how the run was run")?;
+    refused("p1.json", &[], of(&["contacts.ball.fretting.dissipated_J"], friction), "have no such result")?;
+    refused("p1.json", &[], of(&["drivers.stack.peak_current_A"], friction), "have no such result")?;
+    refused("p1.json", &[], of(&["steps.periods"], friction), "is a count")?;
+    refused("p1.json", &[], of(&["counts.steps"], friction), "describes the execution of the run")?;
+    refused("p1.json", &[], of(&["timing.wall_s"], friction), "describes the execution of the run")?;
     refused("p1.json", &[], of(step, &["contacts.bal.friction"]), "did you mean \"ball\"?")?;
-    refused("p1.json", &[], of(step, &["contacts.ball.count"]), "counts whole things")?;
-    refused("p1.json", &[], of(step, &["run.cycles"]), "changes no motion")?;
-    refused("p1.json", &[], of(step, &["contacts.ball.between[0]"]), "here stands a text")?;
-    refused("p1.json", &[], of(step, &["contacts.ball.damping"]), "is not in the file")?;
-    refused("p1.json", &[], of(step, &["bodies.slider.mass", "bodies.slider.mass"]), "asked for twice")?;
-    refused("p1.json", &[], of(&["steps.last_m", "steps.last_m"], friction), "asked for twice")?;
+    refused("p1.json", &[], of(step, &["contacts.ball.count"]), "is a count")?;
+    refused("p1.json", &[], of(step, &["run.cycles"]), "has no effect on the motion")?;
+    refused("p1.json", &[], of(step, &["contacts.ball.between[0]"]), "got a text")?;
+    refused("p1.json", &[], of(step, &["contacts.ball.damping"]), "has no value in the file")?;
+    refused("p1.json", &[], of(step, &["bodies.slider.mass", "bodies.slider.mass"]), "named twice")?;
+    refused("p1.json", &[], of(&["steps.last_m", "steps.last_m"], friction), "named twice")?;
     refused("p1.json", &[("contacts.ball.friction", "-1")], of(step, friction), "expected a number between")?;
     refused("p1.json", &[], Asked { tolerance: 1e-3, ..of(step, friction) }, "expected a tolerance")?;
-    refused("p1.json", &[("run.limits.steps", "100")], of(step, friction), "its own run stopped")?;
-    refused("bouncing_ball.json", &[], of(&["steady.step_m"], &[]), "nothing to be steady with")?;
+    refused(
+        "p1.json",
+        &[("run.limits.steps", "100")],
+        of(step, friction),
+        "the run of the scenario stopped early",
+    )?;
+    refused("bouncing_ball.json", &[], of(&["steady.step_m"], &[]), "there is no periodic orbit")?;
     Ok(())
 }
 
@@ -417,14 +423,14 @@ fn materials_that_nothing_names_are_no_quantities_by_themselves() -> Checked {
             && paths.contains(&"materials.hardened steel.poisson_ratio")
     );
     assert!(!paths.iter().any(|path| path.starts_with("materials.glass")), "{paths:?}");
-    // Named, they are taken.
+    // Parameters named explicitly are used.
     let named = of(&["steps.last_m"], &["materials.glass.poisson_ratio"]);
     assert_eq!(ask(&example("ruby_drive.json"), &set, &named)?.quantities.len(), 1);
     Ok(())
 }
 
-/// What slopes by loose tolerances are told to be off by holds against the tightest, for a slope by differences of steady steps and one
-/// by a variation: both had hung on runs of the same tolerance or of one a decade away, and were off by up to 400 000 and 200 times as much.
+/// Errors of slopes at loose tolerances must cover the deviation from the tightest tolerance: for a slope from periodic
+/// orbits and one from runs.
 #[test]
 fn slopes_by_loose_tolerances_tell_what_these_miss() -> Checked {
     let cases = [
@@ -441,7 +447,7 @@ fn slopes_by_loose_tolerances_tell_what_these_miss() -> Checked {
             let found = slope(tolerance)?;
             let off = (found.value - finest.value).abs();
             assert!(off <= found.error + finest.error, "{file} {tolerance:e}: {off:e} in {:e}", found.error);
-            // And no more than is worth telling.
+            // The error must not be too large, either.
             assert!(found.error <= 1e-3 * found.value.abs(), "{file} {tolerance:e}: {found:?}");
         }
     }

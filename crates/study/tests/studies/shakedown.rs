@@ -1,4 +1,4 @@
-//! Multipliers of a motion some of whose numbers come back as they are, and of one whose memories come back with other knots when it is disturbed.
+//! Multipliers of orbits with neutral unknowns, and of orbits whose number of memory corners changes when disturbed.
 
 use std::error::Error;
 use std::path::Path;
@@ -9,7 +9,7 @@ fn found(tolerance: f64) -> Result<Steady, Box<dyn Error>> {
     found_with(tolerance, 1.0)
 }
 
-/// With masses that are so many times as large.
+/// All masses are multiplied by `factor`.
 fn found_with(tolerance: f64, factor: f64) -> Result<Steady, Box<dyn Error>> {
     let file = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/scenes/riding_on_springs.json");
     let masses =
@@ -19,8 +19,10 @@ fn found_with(tolerance: f64, factor: f64) -> Result<Steady, Box<dyn Error>> {
     Ok(steady::find(&job, &Options { tolerance, ..Options::default() })?)
 }
 
-/// The slider bounces on two worn caps for ever, e^{±iωT}, ω² = k/m: of a cap worn to the radius b F = 2E*/3R (2a² + b²) √(a² - b²)
-/// and k = 2E*a (Popov, Heß, Willert, *Handbook of Contact Mechanics*, sec. 2.5.9). What rides on it holds what it does for ever.
+/// The slider bounces undamped on two worn spherical caps: λ = e^{±iωT}, ω² = k/m. For a cap worn to the radius b, F =
+/// 2E*/3R (2a² + b²) √(a² - b²) and k = 2E*a (Popov, Heß, Willert, *Handbook of Contact Mechanics*, sec. 2.5.9). The
+/// bodies on it keep
+/// their memory for ever.
 #[test]
 fn an_undamped_bounce_beside_what_is_held_for_ever_keeps_its_modulus() -> Result<(), Box<dyn Error>> {
     let (modulus, flat, radius) = (210e9 / (2.0 * (1.0 - 0.3_f64.powi(2))), 1.3885066760561482e-5_f64, 1e-3);
@@ -34,7 +36,7 @@ fn an_undamped_bounce_beside_what_is_held_for_ever_keeps_its_modulus() -> Result
     }
     let turn = (2.0 * 2.0 * modulus * ends[0] / mass).sqrt() * period;
     let found = found(1e-12)?;
-    // Of moduli that are all 1 rounding says which is the largest.
+    // All moduli are 1, so rounding decides which is the largest.
     let is_bounce =
         |one: &&Multiplier| (one.re - turn.cos()).abs() < 1e-6 && (one.im - turn.sin().abs()).abs() < 1e-6;
     let bounce = found.multipliers.iter().find(is_bounce).ok_or("no multiplier of the bounce")?;
@@ -44,11 +46,12 @@ fn an_undamped_bounce_beside_what_is_held_for_ever_keeps_its_modulus() -> Result
     Ok(())
 }
 
-/// The third body, which nothing of the others moves, fades by itself, by a loose tolerance as by a tight one, within what is told to be off.
+/// The third body is not influenced by the others. Its multiplier agrees for loose and tight tolerances within the
+/// error.
 #[test]
 fn multipliers_by_loose_tolerances_hold_within_their_errors() -> Result<(), Box<dyn Error>> {
     let [loose, tight] = [found(1e-8)?, found(1e-12)?];
-    // What differences miss they estimate themselves, and that by rounding falls short in one of eight: the middle one of five counts.
+    // Errors due to rounding are estimated and may be too small in one of eight cases, so the median of five is used.
     let mut shares = Vec::new();
     for k in 0..5 {
         let loose = found_with(1e-8, 1.0 + 2e-15 * f64::from(k))?;

@@ -1,4 +1,4 @@
-//! Steady motion found directly, against plain runs that wait for it.
+//! Periodic orbits by shooting, compared with simulations.
 
 use std::error::Error;
 use std::path::Path;
@@ -9,7 +9,7 @@ use stickslip_study::steady::{self, Ending, Kind, Options, Steady, SteadyError, 
 
 type Checked = Result<(), Box<dyn Error>>;
 
-/// Of plain runs, and the default of the search.
+/// Tolerance of simulations, and default of the search.
 const TOLERANCE: f64 = 1e-12;
 
 fn job(name: &str, set: &[(&str, &str)]) -> Result<Job, Box<dyn Error>> {
@@ -32,7 +32,8 @@ fn x(model: &Model, state: &State, body: usize) -> Result<f64, Box<dyn Error>> {
     Ok(state.body(model, body).ok_or("a body")?.0)
 }
 
-/// The mean of the last tenth of so many plain steps from a state on, m: one alone of the walking drive is off by 10⁻⁹ u_c.
+/// Returns the mean of the last tenth of `periods` simulated step lengths, m. A single step of the walking drive has an
+/// error of 10⁻⁹ u_c.
 fn last_steps(
     job: &Job,
     (plan, from): (&Plan, State),
@@ -51,7 +52,7 @@ fn last_steps(
     Ok((x(model, run.state(), body)? - before) / f64::from(last))
 }
 
-/// The plain runs start at t = 0 and know nothing of the search.
+/// Compares the orbit with a simulation from t = 0.
 fn settles_on(name: &str, periods: u32) -> Checked {
     settles_on_with((name, &[]), periods, TOLERANCE)
 }
@@ -59,7 +60,7 @@ fn settles_on(name: &str, periods: u32) -> Checked {
 fn settles_on_with((name, set): (&str, &[(&str, &str)]), periods: u32, tolerance: f64) -> Checked {
     let job = job(name, set)?;
     let found = steady::find(&job, &Options { tolerance, ..Options::default() })?;
-    // The drive as its scenario has it: what the search makes of it knows nothing of this run.
+    // The simulation uses the model of the scenario, not that of the search.
     let plan = plan_at(&job, tolerance);
     let waited = last_steps(&job, (&plan, job.model.start(&plan)?), found.period, periods)?;
     let off = (found.step.ok_or("a step")? - waited).abs() / job.contact_scale(0).0;
@@ -77,14 +78,14 @@ fn the_piezo_stack_settles_on_the_step() -> Checked {
     settles_on("piezo_stack.json", 1_000)
 }
 
-/// It goes on through its damper to ground: that holds nothing in its place.
+/// The slider moves along a damper to ground, which does not hold it at a position.
 #[test]
 fn a_slider_that_a_damper_brakes_settles_on_the_step() -> Checked {
     let brake = r#"{"between": ["ground", "slider"], "damping": "500 N s/m"}"#;
     settles_on_with(("quickstart.json", &[("loads", "[]"), ("springs.brake", brake)]), 100, TOLERANCE)
 }
 
-/// A pattern keeps its rests and its runs when it is taken to have no end.
+/// Bursts and sequences keep their pauses and runs when they are continued without end.
 #[test]
 fn bursts_and_sequences_settle_on_the_step() -> Checked {
     for (key, value) in [
@@ -99,8 +100,8 @@ fn bursts_and_sequences_settle_on_the_step() -> Checked {
     Ok(())
 }
 
-/// Just above the largest stroke without a step gross slip is short, and knots are left at every moment of the period: the branch that
-/// was made of them drifts along with the slider as they do.
+/// Slightly above the zero-step stroke gross slip is short, and memory remains at every instant of the period. The
+/// memory must drift with the slider.
 #[test]
 fn a_drive_whose_contact_never_forgets_settles_on_the_step() -> Checked {
     for stroke in ["49 nm", "49.5 nm", "50 nm"] {
@@ -112,7 +113,7 @@ fn a_drive_whose_contact_never_forgets_settles_on_the_step() -> Checked {
     Ok(())
 }
 
-/// What its driver's source gives and what is lost goes on from period to period, and is no part of the motion.
+/// Energies increase from period to period and are not part of the state.
 #[test]
 fn the_driven_stage_settles_on_the_step() -> Checked {
     settles_on("driven_stage.json", 200)
@@ -123,13 +124,14 @@ fn other_drives_settle_on_the_step() -> Checked {
     for (name, periods) in [("quickstart.json", 60), ("ruby_drive.json", 60), ("sine_drive.json", 500)] {
         settles_on(name, periods)?;
     }
-    // A plain run is still 4e-9 u_c off after 100 periods, and 7e-10 after 400; at 1e-12 its mean of 500 steps stays 4e-10 off that at 1e-13.
+    // The simulation converges slowly, and a tolerance of 1e-12 is not sufficient.
     settles_on_with(("walking_drive.json", &[]), 1_000, 1e-13)?;
-    // The slowest disturbance has become 0.717³⁰⁰ = 5e-44 times as large.
+    // The slowest disturbance has decayed by 0.717³⁰⁰ = 5e-44.
     settles_on("three_ball_stage.json", 300)
 }
 
-/// Sum of |x - x of the fixed point| over a window of plain periods, m: what beats averages out over whole beats.
+/// Returns the sum of |x - x of the fixed point| over a window of simulated periods, m. Oscillations average out over
+/// whole periods of the oscillation.
 fn strayed(job: &Job, found: &Steady, z: usize, (first, count): (u32, u32)) -> Result<f64, Box<dyn Error>> {
     let section = stickslip_drive::section::Section::new(&found.model, found.state.clone());
     let numbers = section.unknowns().len();
@@ -151,7 +153,8 @@ fn strayed(job: &Job, found: &Steady, z: usize, (first, count): (u32, u32)) -> R
     Ok(sum.sqrt())
 }
 
-/// Over `beats` whole beats a plain run that starts 1e-6 off fades or grows as the largest multiplier says, to 1 %.
+/// Over `beats` oscillations, a simulation that starts 1e-6 off grows or decays as the largest multiplier predicts,
+/// within 1 %.
 fn turns_as_told(name: &str, stable: bool, beats: f64) -> Checked {
     turns_as_told_with((name, &[]), stable, beats)
 }
@@ -162,7 +165,7 @@ fn turns_as_told_with((name, set): (&str, &[(&str, &str)]), stable: bool, beats:
     let largest = found.multipliers.first().ok_or("a multiplier")?;
     assert_eq!((found.is_stable(), largest.kind() == Kind::Grows), (stable, !stable), "{name}");
     let window = (beats * largest.beat().ok_or("a beat")?).round() as u32;
-    // The others are gone by then.
+    // The other disturbances have vanished by then.
     let (early, late) =
         (strayed(&job, &found, 0, (60, window))?, strayed(&job, &found, 0, (60 + window, window))?);
     let (measured, told) = ((late / early).ln() / f64::from(window), largest.modulus().ln());
@@ -181,8 +184,8 @@ fn the_climber_grows_as_its_multiplier_says() -> Checked {
     turns_as_told("vertical_climber.json", false, 40.0)
 }
 
-/// A clamp that is damped makes an end of the beat that grows: where the branch says, and plain runs on either side of it grow and
-/// fade.
+/// With more damping of the clamp, the growing oscillation becomes stable at the parameter that the branch gives.
+/// Simulations on both sides grow and decay.
 #[test]
 fn the_climber_stops_growing_where_its_branch_says() -> Checked {
     let damping = "springs.clamp.damping";
@@ -201,8 +204,7 @@ fn the_climber_stops_growing_where_its_branch_says() -> Checked {
     Ok(())
 }
 
-/// Each step by a gradient of differences, mended by Broyden's rule, leaves a tenth of the defect before at most, below 10⁻⁴ and until
-/// the tolerance of the runs is met.
+/// Each Newton step leaves at most a tenth of the defect, below 10⁻⁴ and until the tolerance of the runs is reached.
 fn falls_fast(name: &str) -> Checked {
     let job = job(name, &[])?;
     let options = Options { settling: 2, ..Options::default() };
@@ -236,7 +238,7 @@ fn what_has_no_period_or_is_commanded_is_refused() -> Checked {
     Ok(())
 }
 
-/// A second waveform pulls at the slider of P1, whose period is 1 ms.
+/// A second waveform acts on the slider of P1, whose period is 1 ms.
 fn pulled(period: &str) -> Result<Result<Steady, SteadyError>, Box<dyn Error>> {
     let hum = format!(r#"{{"sine":{{"amplitude":"1 mN","period":"{period}"}}}}"#);
     let set = [
@@ -256,7 +258,7 @@ fn two_waveforms_have_a_period_in_common_or_are_refused() -> Checked {
     Ok(())
 }
 
-/// Both bodies of a pair fall, and nothing holds them but each other.
+/// Two bodies are connected to each other only, and both fall.
 #[test]
 fn what_nothing_holds_is_refused_by_its_name() -> Checked {
     let set = [
@@ -270,7 +272,7 @@ fn what_nothing_holds_is_refused_by_its_name() -> Checked {
     Ok(())
 }
 
-/// A load lifts the slider, which then rises for ever: z is no drift, for the contact could press again.
+/// A load lifts the slider, which rises without end. z is not a drift, because the contact could close again.
 #[test]
 fn a_slider_that_lifts_for_ever_has_no_steady_motion() -> Checked {
     let set = [
@@ -284,7 +286,7 @@ fn a_slider_that_lifts_for_ever_has_no_steady_motion() -> Checked {
     Ok(())
 }
 
-/// Every period adds as much to the slider: it is said soon, and not after all periods that are allowed.
+/// Every period adds the same amount to the slider; the search must end early.
 fn gains(job: &Job) -> Checked {
     let told = std::cell::Cell::new(0);
     let count = |periods| told.set(periods);
@@ -294,13 +296,14 @@ fn gains(job: &Job) -> Checked {
     Ok(())
 }
 
-/// More than μF_N = 0.15 N pulls: from period to period it is faster by the same, the load less friction over the mass.
+/// The load exceeds μF_N = 0.15 N: the velocity increases by the same amount in every period.
 #[test]
 fn a_slider_that_is_pulled_away_has_no_steady_motion() -> Checked {
     gains(&job("p1.json", &[("loads[+]", r#"{"on":"slider","x":"-0.2 N"}"#)])?)
 }
 
-/// x = (a/2)(sin ωt - ωt cos ωt) on a foot a sin ωt, ω = √(k/m): the swing grows by the same in every period.
+/// Resonance of an undamped oscillator: x = (a/2)(sin ωt - ωt cos ωt) on a foot a sin ωt, ω = √(k/m). The amplitude
+/// increases by the same amount in every period.
 #[test]
 fn a_swing_at_its_own_frequency_has_no_steady_motion() -> Checked {
     let frequency = format!("{:e}", (2e6_f64 / 0.02).sqrt() / std::f64::consts::TAU);
@@ -312,12 +315,12 @@ fn a_swing_at_its_own_frequency_has_no_steady_motion() -> Checked {
     )?)
 }
 
-/// What never slips grossly is named: in the vibrated slider beside a motion that was found, in a drive that only ever sticks as
-/// the reason why there is none.
+/// Contacts without gross slip are named: with the orbit of the vibrated slider, and in the error for a drive that only
+/// sticks.
 #[test]
 fn a_shakedown_is_named() -> Checked {
     let found = steady::find(&job("vibrated_slider.json", &[])?, &Options::default())?;
-    // Whether the memory is a number of the map or led along hangs on whether its rest balances to the last bit: stable is said of neither.
+    // Rounding decides whether the memory is an unknown of the map. Stability is unknown in both cases.
     assert_eq!((found.shaken_down.len(), found.comes_back()), (1, None));
     let stuck = job("p1.json", &[("waveforms.drive", r#"{"triangle":{"stroke":"20 nm","period":"1 ms"}}"#)])?;
     let refused = steady::find(&stuck, &Options { periods: 60, ..Options::default() }).err();
@@ -328,9 +331,8 @@ fn a_shakedown_is_named() -> Checked {
     Ok(())
 }
 
-/// What bounces by itself on what nothing damps takes back in z what it brings: its two multipliers have the product 1 (Liouville), and
-/// where a whole number of bounces lasts a period both are 1, but for the root of what gradients are off. Some runs tell a gradient, some
-/// differences.
+/// An undamped bounce preserves volume in the phase space of z (Liouville): its two multipliers have the product 1. If
+/// a whole number of bounces takes one period, both are 1 within the square root of the error of the Jacobian.
 #[test]
 #[ignore = "takes long: .ci/full"]
 fn a_body_that_bounces_by_itself_is_neither_stable_nor_not() -> Checked {
@@ -360,9 +362,10 @@ fn a_body_that_bounces_by_itself_is_neither_stable_nor_not() -> Checked {
     Ok(())
 }
 
-/// A contact is damped along x, and nothing along z, where two balls of Hertz bear a constant load: λ = exp(±iωT) with mω² = 2 · 2E*√(Rd).
-/// Its differences are to one side alone, since a body that is let go above its place grows into the contact first; without a second one
-/// |λ| was 1.8e-6 above 1 at any tolerance, and the motion called unstable.
+/// A contact is damped along x but not along z, where two Hertzian contacts bear a constant load: λ = exp(±iωT) with
+/// mω² = 2 · 2E*√(Rd). Differences are one-sided, because a lifted body reaches another contact first. Second-order
+/// differences are
+/// necessary to obtain |λ| = 1.
 #[test]
 fn what_nothing_damps_stays_by_differences_to_one_side() -> Checked {
     let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/scenes/damped_along_x.json");
@@ -381,8 +384,7 @@ fn what_nothing_damps_stays_by_differences_to_one_side() -> Checked {
     Ok(())
 }
 
-/// Some of its differences are to one side alone, which tells of no bend: a multiplier of five is not called neutral for want of the other
-/// side, as it was.
+/// Some differences are one-sided and do not show curvature. A multiplier of five must still be classified as growing.
 #[test]
 fn a_slider_that_is_thrown_up_leaves_its_motion() -> Checked {
     let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/scenes/thrown_slider.json");
@@ -411,9 +413,9 @@ fn a_search_can_be_interrupted() -> Checked {
     Ok(())
 }
 
-/// Contacts that never slip grossly, their memories led along: a flat end holds its slider as a spring does, an undamped swing with
-/// |λ| = 1, of which the map knows a number of two. Nothing is claimed of how a disturbance fades. A plain run of the other, pressed by
-/// a wave, ends with no step at all; what is told of one is within its bound.
+/// Contacts without gross slip whose memory is not an unknown of the map: a flat end with an undamped oscillation, |λ|
+/// = 1, and a contact with oscillating normal force. Stability is reported as unknown, and the step length is within
+/// its error.
 #[test]
 fn of_what_holds_and_is_led_along_nothing_is_claimed() -> Checked {
     for name in ["flat_end", "pressed_glass"] {
@@ -435,9 +437,10 @@ fn of_what_holds_and_is_led_along_nothing_is_claimed() -> Checked {
     Ok(())
 }
 
-/// There are two ends, and last digits say which. Plain runs of 5000 periods at 2e-9 and 5e-9 end on steps of -16.827 and 203.098 nm by
-/// turns; on the way there a beat fades, and passes near itself every few dozen periods. At 1e-8 and 1e-10 they end on five steps, of
-/// 408.302, -171.837, 275.318, 168.479 and 83.333 nm.
+/// There are two final motions, and rounding decides between them. Simulations end on steps of -16.827 and 203.098 nm
+/// alternately, or on five steps of 408.302, -171.837, 275.318, 168.479 and 83.333 nm. During the approach an
+/// oscillation decays,
+/// which nearly repeats every few dozen periods.
 #[test]
 #[ignore = "takes long: .ci/full"]
 fn the_climber_ends_where_plain_runs_do() -> Checked {

@@ -1,4 +1,4 @@
-//! Studies: every case is what `stickslip run` makes of its numbers, and parts depend on the study alone.
+//! Studies: every case equals a run of `stickslip run` with its parameters, and parts depend on the study only.
 
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
@@ -18,7 +18,7 @@ fn study(file: &Value) -> Study {
     made.unwrap_or_else(|error| panic!("{error}"))
 }
 
-/// What is wrong with a study.
+/// Returns the error message of a study.
 fn refused(file: &Value) -> String {
     Study::from_str(&file.to_string(), ("study.json", "study"), &scenarios()).err().unwrap().to_string()
 }
@@ -28,7 +28,7 @@ fn with(mut file: Value, key: &str, value: Value) -> Value {
     file
 }
 
-/// P1 at a tolerance of 1e-6, cheap enough for thousands.
+/// P1 at a tolerance of 1e-6, cheap enough for thousands of runs.
 fn p1(cases: u64, chunk: u64) -> Value {
     json!({
         "stickslip_study": 1, "scenario": "p1.json", "cases": cases, "chunk": chunk,
@@ -45,7 +45,7 @@ fn run(study: &Study, out: &Path, threads: usize) {
     assert!(!study.run(out, (Shard::WHOLE, threads), &()).unwrap().interrupted);
 }
 
-/// Names and bytes of all files of a folder, as a digest.
+/// Returns a digest of the names and contents of all files in a folder.
 fn digest(folder: &Path) -> String {
     let mut files: Vec<PathBuf> = fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path()).collect();
     files.sort();
@@ -57,7 +57,7 @@ fn digest(folder: &Path) -> String {
     digest.finalize().iter().map(|byte| format!("{byte:02x}")).collect()
 }
 
-/// The table of a study's results: head and rows.
+/// Returns header and rows of a study's table.
 fn table(study: &Study, out: &Path) -> (Vec<String>, Vec<Vec<String>>) {
     let file = out.join("../table.csv");
     study.write_csv(out, &file).unwrap();
@@ -67,7 +67,7 @@ fn table(study: &Study, out: &Path) -> (Vec<String>, Vec<Vec<String>>) {
     (head, rows.collect())
 }
 
-/// What is under a path in JSON, as a table has it.
+/// Formats the value at a path in JSON as in a table.
 fn told(summary: &Value, path: &str) -> String {
     match path.split('.').try_fold(summary, |here, key| here.get(key)) {
         Some(Value::Number(number)) => format!("{:?}", number.as_f64().unwrap()),
@@ -77,10 +77,10 @@ fn told(summary: &Value, path: &str) -> String {
     }
 }
 
-/// Scenario, path and values of the number that varies, results.
+/// Scenario, path and values of the varied parameter, results.
 type Example = (&'static str, &'static str, Value, &'static [&'static str]);
 
-/// Scenarios of every kind, numbers that are set without reading the file and others, results of both sorts.
+/// Scenarios of every kind; parameters with and without fast setting; results from the last row and the summary.
 fn examples() -> [Example; 8] {
     [
         (
@@ -134,7 +134,7 @@ fn examples() -> [Example; 8] {
     ]
 }
 
-/// Results of a run with a case's numbers, as a table has them: the last row of its trace, or its summary.
+/// Returns the results of a run with the parameters of a case, formatted as in a table.
 fn by_hand(study: &Study, name: &str, case: usize, results: &[&str]) -> Vec<String> {
     let set = study.overrides(case as u64);
     let job = Job::prepare(&scenarios().join(format!("{name}.json")), &set, Path::new("")).unwrap();
@@ -153,7 +153,7 @@ fn by_hand(study: &Study, name: &str, case: usize, results: &[&str]) -> Vec<Stri
     results.iter().map(of).collect()
 }
 
-/// Each case against a run of the file with its numbers, as `stickslip run --set` makes it: rows, summary and last row of the trace.
+/// Each case is compared with a run by `stickslip run --set`.
 #[test]
 fn a_case_is_what_a_run_with_its_numbers_comes_to() {
     let folder = tempfile::tempdir().unwrap();
@@ -177,7 +177,7 @@ fn results_of(study: &Study) -> Vec<&str> {
     study.results().collect()
 }
 
-/// Numbers that `check` refuses make failed cases with its words, whichever way a case is run, and nothing is left of them for the next.
+/// Invalid values give failed cases with the message of `check`, and do not affect later cases.
 #[test]
 fn what_check_refuses_is_a_failed_case() {
     let masses = json!([0.02, -0.01, 0.0, 1e-45, 0.02, 1e35, 0.021]);
@@ -209,7 +209,8 @@ fn what_check_refuses_is_a_failed_case() {
     assert!(quick.iter().all(|row| row[2].is_empty() != row[3].is_empty()));
 }
 
-/// The same bytes on one thread and on two, as shards in any order, after an end in the middle, and as a larger study begins.
+/// The content is the same for one and two threads, for shards in any order, after an interruption, and for a larger
+/// study.
 #[test]
 fn parts_depend_on_the_study_alone() {
     let folder = tempfile::tempdir().unwrap();
@@ -231,7 +232,7 @@ fn parts_depend_on_the_study_alone() {
     assert!(status.parts > 0 && status.parts < 16, "{status:?}");
     assert_eq!(whole.run(&place("stopped"), (Shard::WHOLE, 1), &()).unwrap().there, status.parts);
     assert_eq!(one, digest(&place("stopped")));
-    // A larger study takes over what is whole: of the last part there were 40 cases.
+    // A larger study reuses complete parts; the last part had 40 cases.
     run(&study(&p1(960, 64)), &place("grown"), 2);
     let grown = whole.run(&place("grown"), (Shard::WHOLE, 2), &()).unwrap();
     assert_eq!((grown.there, grown.computed), (15, 1));
@@ -240,7 +241,7 @@ fn parts_depend_on_the_study_alone() {
     assert!(smaller.contains("\"cases\" was larger"), "{smaller}");
 }
 
-/// Ends a study after some blocks.
+/// Watcher that interrupts after some blocks.
 struct After(std::sync::atomic::AtomicUsize);
 
 impl Watcher for After {
@@ -290,7 +291,7 @@ fn a_damaged_part_is_computed_again_and_a_foreign_one_is_not_touched() {
     assert_eq!(own.status(folder.path()).unwrap().damaged, [1]);
 }
 
-/// Grids, lists and samples: case i has sample ⌊i/G⌋ at point i mod G, the last of the file fastest.
+/// Grids, lists and samples: case i has sample ⌊i/G⌋ at point i mod G; the last axis of the file changes fastest.
 #[test]
 fn cases_are_samples_at_each_point_of_the_product() {
     let file = json!({
@@ -310,7 +311,7 @@ fn cases_are_samples_at_each_point_of_the_product() {
         assert_eq!(own[1], values[case / 6 * 6][1]);
         assert_eq!(own[2], [0.4e-6, 0.5e-6][case % 2]);
     }
-    // Each sampling fills the range, and says the same for a case whatever was asked before.
+    // Each sampling fills the range, and cases can be requested in any order.
     for sampling in ["sobol", "random", "latin-hypercube"] {
         let study = self::study(&with(with(p1(512, 100), "sampling", json!(sampling)), "seed", json!(3)));
         let mut friction: Vec<f64> = (0..512).map(|case| study.values(case)[0]).collect();
@@ -318,7 +319,7 @@ fn cases_are_samples_at_each_point_of_the_product() {
         friction.sort_by(f64::total_cmp);
         let off = |(k, value): (usize, &f64)| (value - 0.1 - 0.1 * (k as f64 + 0.5) / 512.0).abs();
         let worst = friction.iter().enumerate().map(off).fold(0.0, f64::max);
-        // Kolmogorov's distance: 1.95/sqrt(n) is passed by random numbers once in a thousand.
+        // Kolmogorov–Smirnov distance: random numbers exceed 1.95/sqrt(n) once in a thousand cases.
         assert!(
             worst < if sampling == "random" { 0.1 * 1.95 / 512f64.sqrt() } else { 0.1 / 512.0 },
             "{sampling}: {worst}"
@@ -326,8 +327,10 @@ fn cases_are_samples_at_each_point_of_the_product() {
     }
 }
 
-/// The friction force at gross slip is μ (4/3) E* √R d^(3/2), a product: its indices have a closed form. With independent factors x_i of
-/// mean m_i and variance v_i, and q_i = v_i / m_i², the variance is Π m² (Π(1 + q) - 1); first order q_i, total q_i Π over the others (1 + q).
+/// The friction force at gross slip is μ (4/3) E* √R d^(3/2), a product with closed-form indices. For independent
+/// factors with means m_i, variances v_i and q_i = v_i / m_i², the variance is Π m² (Π(1 + q) - 1). The first-order
+/// index is q_i, the total index q_i Π (1 + q_j) over j
+/// other than i, both relative to Π(1 + q) - 1.
 #[test]
 fn indices_of_a_product_are_those_of_its_factors() {
     let file = json!({
@@ -374,7 +377,7 @@ fn what_is_wrong_with_a_study_is_said_with_its_place() {
     let uniform = json!({ "uniform": [0.1, 0.2] });
     for (said, expected) in [
         (vary("contacts.bal.friction", uniform.clone()), "did you mean \"ball\"?"),
-        (vary("contacts.ball.materials[0]", uniform.clone()), "here stands a text"),
+        (vary("contacts.ball.materials[0]", uniform.clone()), "got a text"),
         (vary("contacts.ball.friction", json!({ "uniform": [0.2, 0.1] })), "below"),
         (vary("contacts.ball.friction", json!({ "uniform": [0.1] })), "uniform"),
         (
@@ -394,8 +397,8 @@ fn what_is_wrong_with_a_study_is_said_with_its_place() {
             vary("contacts.ball.friction", json!({ "uniform": ["1 N", "2 N"] })),
             "expected a number, got \"1 N\"",
         ),
-        (vary("bodies.slider.mass", json!({ "uniform": ["1 N", "2 N"] })), "N is the unit of a force"),
-        (vary("contacts.ball.count", uniform.clone()), "counts whole things"),
+        (vary("bodies.slider.mass", json!({ "uniform": ["1 N", "2 N"] })), "N is a unit of a force"),
+        (vary("contacts.ball.count", uniform.clone()), "is a count"),
         (
             vary("contacts.ball.friction", json!({ "uniform": [0.1, 0.2, 0.3] })),
             "expected 2 entries, got 3 entries",
@@ -409,8 +412,8 @@ fn what_is_wrong_with_a_study_is_said_with_its_place() {
         (wrong("results", json!(["title"])), "a text"),
         (wrong("results", json!(["steps"])), "several results"),
         (wrong("chunk", json!(0)), "chunk"),
-        (wrong("cases", json!(4_000_000_000_u64)), "raise \"chunk\""),
-        (wrong("cases", json!(0)), "from 1"),
+        (wrong("cases", json!(4_000_000_000_u64)), "increase \"chunk\""),
+        (wrong("cases", json!(0)), "at least 1 sample"),
         (wrong("scenario", json!("p2.json")), "there is no file"),
         (wrong("scenario", json!(3)), "path of a scenario file"),
         (wrong("sampling", json!("product")), "no distributions"),
@@ -425,5 +428,5 @@ fn what_is_wrong_with_a_study_is_said_with_its_place() {
     without.as_object_mut().unwrap().remove("cases");
     assert!(refused(&without).contains("distributions need \"cases\""));
     let grid = with(p1(10, 10), "vary", json!({ "contacts.ball.friction": { "list": [0.1] } }));
-    assert!(refused(&grid).contains("leave it out"));
+    assert!(refused(&grid).contains("leave this key out"));
 }

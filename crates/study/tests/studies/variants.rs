@@ -1,11 +1,11 @@
-//! Runs in the room of earlier ones: every variant is what its scene comes to alone, without an allocation.
+//! Runs that reuse the memory of earlier runs: the results are those of single runs, without allocations.
 
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
 use stickslip_drive::{Model, Plan, Scene, Variants, run};
 use stickslip_scenario::Scenario;
 
-/// A scenario of the gallery, with keys set.
+/// Returns an example scenario with overrides.
 fn scenario(name: &str, set: &[(&str, &str)]) -> Scenario {
     let file = format!("{}/../../scenarios/{name}.json", env!("CARGO_MANIFEST_DIR"));
     let mut scenario = Scenario::load_with(file, set).unwrap();
@@ -13,12 +13,12 @@ fn scenario(name: &str, set: &[(&str, &str)]) -> Scenario {
     scenario
 }
 
-/// A part between -1 and 1 that belongs to a variant.
+/// Returns a number between -1 and 1 that depends on the variant.
 fn spread(variant: usize, number: u32) -> f64 {
     2.0 * (variant as f64 * f64::from(number).sqrt()).fract() - 1.0
 }
 
-/// Model, start, workspace and run of one variant after another, in a room that others of every kind of method have had before.
+/// Different scenarios and methods reuse the same memory one after another.
 #[test]
 fn a_room_knows_nothing_of_who_had_it_before() {
     let names = [
@@ -48,7 +48,7 @@ fn a_room_knows_nothing_of_who_had_it_before() {
     }
 }
 
-/// Allocations of so many variants, by masses, loads, friction and places at the start.
+/// Returns the number of allocations of some variants with different masses, friction and initial positions.
 fn allocations(scene: &mut Scene, plan: &Plan, variants: &mut Variants, count: usize) -> u64 {
     let mut each = |i: usize| {
         let mass = scene.bodies.iter_mut().filter_map(|body| body.part.mass.as_mut());

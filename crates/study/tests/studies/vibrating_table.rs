@@ -1,8 +1,9 @@
-//! A ball with a flat end, which is a spring that only pushes, on a vibrating table, damped against the ground: its motion of one
-//! bounce a period and where that doubles its period, against equations of its own.
+//! A ball with a flat end on a vibrating table, damped against the ground. The flat end is a spring that only pushes.
+//! Bounces once per period and their period doubling are compared with separate equations.
 //!
-//! In the air m z̈ = -m g - c ż, on the table m z̈ = -m g - c ż + k (A sin ωt - z), k = 2 E* a (4.13 and the flat punch of the
-//! Handbook of Contact Mechanics). Both have closed forms; touch and lift-off are roots of these, found here.
+//! In the air m z̈ = -m g - c ż. On the table m z̈ = -m g - c ż + k (A sin ωt - z). The stiffness is k = 2 E* a (4.13
+//! and the flat punch of the Handbook of Contact Mechanics). Both have closed-form solutions; touch and lift-off are
+//! their roots.
 
 use std::error::Error;
 use std::f64::consts::TAU;
@@ -18,16 +19,16 @@ const MASS: f64 = 4e-3;
 const DAMPING: f64 = 0.8;
 const GRAVITY: f64 = 9.81;
 const PERIOD: f64 = 5e-3;
-/// Of a punch of 1 µm, steel on steel.
+/// Contact stiffness of a punch with a radius of 1 µm, steel on steel, N/m.
 const STIFFNESS: f64 = 2.0 * 210e9 / (2.0 * (1.0 - 0.3 * 0.3)) * 1e-6;
 
-/// The table's amplitude, m.
+/// Amplitude of the table, m.
 #[derive(Clone, Copy)]
 struct Table {
     amplitude: f64,
 }
 
-/// Time, place and velocity of the ball.
+/// Time, position and velocity of the ball.
 #[derive(Clone, Copy)]
 struct Place {
     t: f64,
@@ -40,7 +41,7 @@ impl Table {
         self.amplitude * (TAU * t / PERIOD).sin()
     }
 
-    /// In the air, `s` after a place.
+    /// Returns the state after a time `s` in the air.
     fn flown(from: Place, s: f64) -> Place {
         let tau = MASS / DAMPING;
         let (falls, left) = (-GRAVITY * tau, (-s / tau).exp());
@@ -49,7 +50,7 @@ impl Table {
         Place { t: from.t + s, z, v: falls + beyond * left }
     }
 
-    /// On the table.
+    /// Returns the state after a time `s` on the table.
     fn pressed(self, from: Place, s: f64) -> Place {
         let omega = TAU / PERIOD;
         let (stiff, damped) = (STIFFNESS - MASS * omega * omega, DAMPING * omega);
@@ -72,7 +73,7 @@ impl Table {
         Place { t: from.t + s, z: z1 + swings, v: v1 + rate }
     }
 
-    /// The first moment after a meeting at which ball and table meet again.
+    /// Returns the next time at which ball and table meet.
     fn meets(self, way: impl Fn(f64) -> Place) -> Option<Place> {
         let apart = |s: f64| {
             let place = way(s);
@@ -93,7 +94,7 @@ impl Table {
         Some(way(0.5 * (low + high)))
     }
 
-    /// From touch to touch: time, less a period, and velocity.
+    /// Map from touch to touch: time minus a period, and velocity.
     fn map(self, [t, v]: [f64; 2]) -> Option<[f64; 2]> {
         let touch = Place { t, z: self.height(t), v };
         let lifts = self.meets(|s| self.pressed(touch, s))?;
@@ -102,7 +103,7 @@ impl Table {
         Some([again.t - PERIOD, again.v])
     }
 
-    /// The gradient of that, by differences to both sides.
+    /// Jacobian of the map by central differences.
     fn gradient(self, at: [f64; 2]) -> Option<[[f64; 2]; 2]> {
         let steps = [1e-5 * PERIOD, 1e-5 * at[1].abs()];
         let mut gradient = [[0.0; 2]; 2];
@@ -112,7 +113,7 @@ impl Table {
                 moved[j] += by;
                 self.map(moved)
             };
-            // Of fourth order: the error is that of rounding.
+            // Fourth order: only rounding errors remain.
             let [a, b, c, d] = [moved(step)?, moved(-step)?, moved(2.0 * step)?, moved(-2.0 * step)?];
             for i in 0..2 {
                 gradient[i][j] = (8.0 * (a[i] - b[i]) - (c[i] - d[i])) / (12.0 * step);
@@ -121,7 +122,7 @@ impl Table {
         Some(gradient)
     }
 
-    /// The bounce that repeats itself, near a guess.
+    /// Returns the periodic bounce near a guess.
     fn fixed(self, mut at: [f64; 2]) -> Option<[f64; 2]> {
         for _ in 0..30 {
             let (image, [[a, b], [c, d]]) = (self.map(at)?, self.gradient(at)?);
@@ -137,7 +138,7 @@ impl Table {
         Some(at)
     }
 
-    /// Velocity and amplitude with which a bounce that touches at a time repeats itself, near a guess.
+    /// Returns velocity and amplitude of the periodic bounce that touches at a given time, near a guess.
     fn at_time(t: f64, [mut v, mut amplitude]: [f64; 2]) -> Option<[f64; 2]> {
         let missed = |v: f64, amplitude: f64| {
             let [again, speed] = Self { amplitude }.map([t, v])?;
@@ -163,7 +164,7 @@ impl Table {
         Some([v, amplitude])
     }
 
-    /// det(A + 1), which is 0 where a multiplier is -1.
+    /// det(A + 1), which is 0 if a multiplier is -1.
     fn doubles(self, at: [f64; 2]) -> Option<f64> {
         let [[a, b], [c, d]] = self.gradient(at)?;
         Some((a + 1.0) * (d + 1.0) - b * c)
@@ -174,7 +175,7 @@ fn job(table: Table) -> Result<Job, Box<dyn Error>> {
     job_from(table, [1e-6, 0.0])
 }
 
-/// The same with the ball's place and velocity at the start.
+/// With initial position and velocity of the ball.
 fn job_from(table: Table, [z, v]: [f64; 2]) -> Result<Job, Box<dyn Error>> {
     let text = format!(
         r#"{{ "stickslip": 1,
@@ -192,7 +193,7 @@ fn job_from(table: Table, [z, v]: [f64; 2]) -> Result<Job, Box<dyn Error>> {
     Ok(Job::new(Scenario::from_str_alone(&text, "table")?, "table".to_owned(), PathBuf::new())?)
 }
 
-/// When contacts touch and lift off.
+/// Recorder of touch and lift-off times.
 #[derive(Default)]
 struct Meetings {
     touch: Vec<f64>,
@@ -210,7 +211,7 @@ impl Record for Meetings {
     }
 }
 
-/// Touch of the motion that was found, as time in the period and velocity; one bounce a period.
+/// Returns the touch of a periodic orbit with one bounce per period: time in the period and velocity.
 fn touch(job: &Job, found: &Steady) -> Result<[f64; 2], Box<dyn Error>> {
     let stepper = Stepper::Event { tolerance: 1e-13 };
     let plan = Plan { duration: f64::MAX, stepper, every: None, ..job.scenario.plan };
@@ -225,13 +226,13 @@ fn touch(job: &Job, found: &Steady) -> Result<[f64; 2], Box<dyn Error>> {
     Ok([t % PERIOD, v])
 }
 
-/// The branch of a table's amplitude through the motion at one.
+/// Returns the branch over the amplitude of the table.
 fn branch(at: Table, range: [f64; 2]) -> Result<Branch, Box<dyn Error>> {
     let of = Continuation::new(job(at)?, "waveforms.shake.sine.amplitude", range)?;
     Ok(of.follow(&Course::default())?)
 }
 
-/// Where the only place of a kind lies on a branch.
+/// Returns the parameter value of the only special point of a kind.
 fn only(branch: &Branch, kind: &Bifurcation) -> Result<f64, Box<dyn Error>> {
     let mut found = branch.marks.iter().filter(|mark| mark.kind == *kind);
     match (found.next(), found.next()) {
@@ -240,10 +241,10 @@ fn only(branch: &Branch, kind: &Bifurcation) -> Result<f64, Box<dyn Error>> {
     }
 }
 
-/// Once a period, and back to it when disturbed.
+/// Stable, with one bounce per period.
 const QUIET: Table = Table { amplitude: 7e-6 };
 
-/// (1 + λ₁)(1 + λ₂) of a motion that was found.
+/// Returns (1 + λ₁)(1 + λ₂) of a periodic orbit.
 fn doubles(found: &Steady) -> f64 {
     let of = |multiplier: &Multiplier| match multiplier.im {
         0.0 => 1.0 + multiplier.re,
@@ -252,7 +253,7 @@ fn doubles(found: &Steady) -> f64 {
     found.multipliers.iter().map(of).product()
 }
 
-/// A ball that stays on the table swings on its spring: both multipliers are those of that swing.
+/// A ball that stays on the table oscillates on its spring; the multipliers are those of this oscillation.
 #[test]
 fn a_ball_that_never_lifts_has_the_multipliers_of_its_spring() -> Result<(), Box<dyn Error>> {
     let found = steady::find(&job(Table { amplitude: 3e-6 })?, &Options::default())?;
@@ -265,7 +266,7 @@ fn a_ball_that_never_lifts_has_the_multipliers_of_its_spring() -> Result<(), Box
     Ok(())
 }
 
-/// Where the bounce doubles its period, by bisection of the equations above.
+/// Returns the amplitude of period doubling by bisection of the equations above.
 fn own_doubling() -> Result<f64, Box<dyn Error>> {
     let first = touch(&job(QUIET)?, &steady::find(&job(QUIET)?, &Options::default())?)?;
     let (mut low, mut high, mut at) = (7.25e-6, 7.5e-6, first);
@@ -281,11 +282,11 @@ fn own_doubling() -> Result<f64, Box<dyn Error>> {
     Ok(0.5 * (low + high))
 }
 
-/// By a parabola through what the search says of three amplitudes about there.
+/// Quadratic interpolation between orbits at three amplitudes.
 #[test]
 fn the_bounce_doubles_its_period_where_its_own_equations_say() -> Result<(), Box<dyn Error>> {
     let own = own_doubling()?;
-    // Newton's form through three points, solved for its root from the middle one.
+    // Newton's interpolation through three points, solved for its root.
     let apart = 1e-3;
     let at = |share: f64| -> Result<f64, Box<dyn Error>> {
         Ok(doubles(&steady::find(&job(Table { amplitude: own * (1.0 + share) })?, &Options::default())?))
@@ -297,7 +298,7 @@ fn the_bounce_doubles_its_period_where_its_own_equations_say() -> Result<(), Box
     Ok(())
 }
 
-/// Beyond that the bounces of its own equations, one after another, come to two that take turns; and so does a run.
+/// Beyond period doubling, the equations converge to two alternating bounces, and so does a run.
 #[test]
 fn beyond_it_a_run_ends_on_two_bounces() -> Result<(), Box<dyn Error>> {
     let table = Table { amplitude: 7.6e-6 };
@@ -325,7 +326,7 @@ fn a_ball_bounces_once_a_period_as_its_own_equations_say() -> Result<(), Box<dyn
     let own = QUIET.fixed(told).ok_or("a bounce")?;
     let off = [(told[0] - own[0]) / PERIOD, (told[1] - own[1]) / own[1]];
     assert!(off.iter().all(|off| off.abs() < 1e-8), "{off:?}");
-    // Trace and determinant of the gradient are those of any section.
+    // Trace and determinant of the Jacobian do not depend on the section.
     let [[a, b], [c, d]] = QUIET.gradient(own).ok_or("a gradient")?;
     let (mut trace, mut product) = (0.0, 1.0);
     for multiplier in &found.multipliers {
@@ -338,13 +339,13 @@ fn a_ball_bounces_once_a_period_as_its_own_equations_say() -> Result<(), Box<dyn
     Ok(())
 }
 
-/// The time of touch at which a bounce once a period takes the least amplitude, and velocity and amplitude there: by golden section
-/// of the equations above, from the bounce at one amplitude on.
+/// Returns the touch time of the periodic bounce with the smallest amplitude, with velocity and amplitude, by golden
+/// section search.
 fn own_fold() -> Result<(f64, [f64; 2]), Box<dyn Error>> {
     let told = touch(&job(QUIET)?, &steady::find(&job(QUIET)?, &Options::default())?)?;
     let [t, v] = QUIET.fixed(told).ok_or("a bounce")?;
     let at = |t: f64, near: [f64; 2]| Table::at_time(t, near).ok_or(format!("a bounce at {t:e} s"));
-    // To the side to which the amplitude falls, until it rises again.
+    // In the direction of decreasing amplitude, until it increases again.
     let step = 2e-3 * PERIOD;
     let first = [v, QUIET.amplitude];
     let by = if at(t + step, first)?[1] < first[1] { step } else { -step };
@@ -368,8 +369,8 @@ fn own_fold() -> Result<(f64, [f64; 2]), Box<dyn Error>> {
     Ok((t, at(t, near)?))
 }
 
-/// The bounce once a period begins in a fold, by its own equations the least amplitude over all times of touch, and doubles its period
-/// at a larger one: where no run would have followed it.
+/// The branch of the periodic bounce starts in a fold, at the smallest amplitude, and has a period doubling at a larger
+/// one.
 #[test]
 fn a_branch_of_the_bounce_folds_and_doubles_where_its_own_equations_say() -> Result<(), Box<dyn Error>> {
     let branch = branch(QUIET, [1e-6, 8e-6])?;
@@ -378,15 +379,15 @@ fn a_branch_of_the_bounce_folds_and_doubles_where_its_own_equations_say() -> Res
     let own = own_fold()?.1[1];
     let off = only(&branch, &Bifurcation::Fold)? / own - 1.0;
     assert!(off.abs() < 1e-8, "{off:e} of {own:e} m");
-    // Above the fold there are two bounces, one stable and one not.
+    // Above the fold there are two bounces, one stable and one unstable.
     let above = branch.points.iter().filter(|point| (own * 1.001..own * 1.5).contains(&point.value));
     let stable: Vec<bool> = above.map(|point| point.is_stable()).collect();
     assert!(stable.contains(&true) && stable.contains(&false));
     Ok(())
 }
 
-/// Both motions that meet in the fold are found from starts of their own, where the equations above have the ball at the beginning
-/// of a period: one is stable, the other is not, and branches from both come to the same fold.
+/// Both orbits that meet in the fold are found from initial states by the equations above. One is stable, the other is
+/// not, and their branches end in the same fold.
 #[test]
 fn both_sides_of_the_fold_are_found_from_their_own_starts() -> Result<(), Box<dyn Error>> {
     let (fold, at) = own_fold()?;
@@ -418,8 +419,8 @@ fn both_sides_of_the_fold_are_found_from_their_own_starts() -> Result<(), Box<dy
     Ok(())
 }
 
-/// A ball that stays on the table begins to lift off where the amplitude of its force is its weight: z = H A e^{iωt} - mg/k with
-/// H = k/(k - mω² + icω) makes that mg/(k|1 - H|).
+/// A ball on the table begins to lift off when the amplitude of its force equals its weight. With z = H A e^{iωt} -
+/// mg/k and H = k/(k - mω² + icω), the amplitude is mg/(k|1 - H|).
 #[test]
 fn a_ball_begins_to_lift_off_where_its_force_vanishes() -> Result<(), Box<dyn Error>> {
     let omega = TAU / PERIOD;

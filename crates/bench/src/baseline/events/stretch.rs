@@ -1,4 +1,4 @@
-//! Between two events: laws that do not change, and when they end.
+//! Right-hand side and event functions between two events.
 
 use crate::baseline::{Free, Tie, Track};
 use nalgebra::SVector;
@@ -8,38 +8,38 @@ use std::cell::Cell;
 use stickslip_contact::{Branch, Curve};
 use stickslip_drive::Piece;
 
-/// Iterations that find a moment on dense output.
+/// Maximum number of iterations of event location.
 const ITERATIONS: usize = 60;
 
-/// A contact on its way.
+/// Contact on a branch.
 pub(super) struct Held<'a> {
     pub(super) tie: &'a Tie,
     pub(super) curve: Curve,
     pub(super) branch: Branch,
     pub(super) d: f64,
-    /// M(d), m².
+    /// Reduced normal force M(d), m².
     pub(super) area: f64,
-    /// u of the contact's own count less the form's.
+    /// Displacement u of the contact memory minus that of the bodies, m.
     pub(super) origin: f64,
-    /// Velocity below which nothing has turned round, m/s.
+    /// Velocity below which no reversal is detected, m/s.
     pub(super) rest: f64,
 }
 
-/// Between two events: laws that do not change, as the solver wants them.
+/// System of equations between two events, with the interface of the solver.
 pub(super) struct Stretch<'s, const D: usize> {
     pub(super) free: &'s [Free],
     pub(super) scales: &'s [(f64, f64)],
     pub(super) held: &'s [Held<'s>],
     pub(super) tracks: &'s [Track],
     pub(super) pieces: &'s [Piece],
-    /// The last two accepted moments, s.
+    /// Times of the last two accepted steps, s.
     pub(super) times: &'s Cell<(f64, f64)>,
     /// Whether an event lies between them.
     pub(super) fired: &'s Cell<bool>,
 }
 
 impl<const D: usize> Stretch<'_, D> {
-    /// u (m, the contact's own count) and u̇ (m/s) of a contact.
+    /// Returns u (m, in the memory's frame) and u̇ (m/s) of a contact.
     pub(super) fn motion(&self, held: &Held<'_>, t: f64, y: &SVector<f64, D>) -> (f64, f64) {
         let form = &held.tie.slide;
         let (mut u, mut du) = (form.constant + held.origin, 0.0);
@@ -55,14 +55,13 @@ impl<const D: usize> Stretch<'_, D> {
         (u, du)
     }
 
-    /// Below zero when the contact has turned round; below zero when its piece of memory is used up, parts of the natural
-    /// lengths.
+    /// Returns two event functions: negative after a reversal, and negative beyond the end of the piece of memory.
     fn guards(&self, held: &Held<'_>, t: f64, y: &SVector<f64, D>) -> [f64; 2] {
         let (u, du) = self.motion(held, t, y);
         [held.branch.sense() * du + held.rest, held.branch.margin(held.d, u)]
     }
 
-    /// The first moment in (from, to] at which a guard falls, with its contact and guard.
+    /// Returns the time of the first event in (from, to], with its contact and event function.
     pub(super) fn first(
         &self,
         (from, to): (f64, f64),
@@ -85,8 +84,8 @@ impl<const D: usize> Stretch<'_, D> {
     }
 }
 
-/// Where a function that is below zero at the end of a span falls through zero: regula falsi, Illinois variant. The start
-/// where it is below zero there, too.
+/// Returns the zero of a function that is negative at the end of an interval (regula falsi, Illinois variant). Returns the start if the
+/// function is negative there.
 fn root(value: &impl Fn(f64) -> f64, (from, to): (f64, f64), at_end: f64) -> f64 {
     let (mut a, mut fa, mut b, mut fb) = (from, value(from), to, at_end);
     if fa <= 0.0 {
@@ -97,7 +96,7 @@ fn root(value: &impl Fn(f64) -> f64, (from, to): (f64, f64), at_end: f64) -> f64
         if b - a <= 2.0 * least {
             break;
         }
-        // Off both ends: one of them may be the root, and the other far away.
+        // Stays away from both ends: one of them may be the root, and the other far away.
         let t = ((a * fb - b * fa) / (fb - fa)).clamp(a + least, b - least);
         let f = value(t);
         if f < 0.0 {

@@ -1,4 +1,4 @@
-//! A run from event to event.
+//! Integration from event to event.
 
 use super::stretch::{Held, Stretch};
 use super::{Output, Outside};
@@ -12,12 +12,12 @@ use std::time::Instant;
 use stickslip_contact::{Apex, Segment};
 use stickslip_drive::{Counts, Piece};
 
-/// A velocity below this part of the natural one is rounding, no reversal.
+/// Velocity relative to the natural velocity below which a change of sign is rounding, not a reversal.
 const REST: f64 = 1e-12;
-/// Steps of one stretch at most.
+/// Maximum number of steps between two events.
 const STEPS: u32 = 10_000_000;
 
-/// A run: places in natural lengths and velocities, D = twice the free coordinates.
+/// Run in natural lengths and velocities. D is twice the number of free coordinates.
 pub(super) struct Trip<'a, const D: usize> {
     outside: &'a Outside,
     held: Vec<Held<'a>>,
@@ -66,13 +66,13 @@ impl<'a, const D: usize> Trip<'a, D> {
         }
     }
 
-    /// u (m) and u̇ (m/s) of a contact as it stands.
+    /// Returns the current u (m) and u̇ (m/s) of a contact.
     fn motion(&self, c: usize) -> (f64, f64) {
         let (times, fired) = (Cell::new((self.t, self.t)), Cell::new(false));
         self.stretch(&times, &fired).motion(&self.held[c], self.t, &self.y)
     }
 
-    /// Chooses the branches after a corner by the sense of sliding, or of what pulls where nothing slides.
+    /// Selects the branches after a corner by the direction of sliding; for contacts at rest, by the direction of the acceleration.
     fn set_out(&mut self) {
         let (times, fired) = (Cell::new((self.t, self.t)), Cell::new(false));
         let stretch = self.stretch(&times, &fired);
@@ -119,7 +119,7 @@ impl<'a, const D: usize> Trip<'a, D> {
         Ok(self.counts)
     }
 
-    /// One stretch: to the first event or to the corner. Gives the step to go on with, s.
+    /// Integrates to the first event or to the corner. Returns the next step size, s.
     fn cross(
         &mut self,
         corner: f64,
@@ -128,7 +128,7 @@ impl<'a, const D: usize> Trip<'a, D> {
         output: &mut Output<'_>,
     ) -> Result<f64, Stop> {
         let begin = self.t;
-        // In gross slip nothing holds the step back: it must not leap over waves.
+        // In gross slip nothing limits the step, so it is limited by the resolution of the waveforms.
         let tracks = &self.outside.mechanism.tracks;
         let waves = tracks.iter().map(|track| track.waveform.resolution());
         let longest = waves.fold(corner - begin, f64::min);
@@ -174,11 +174,11 @@ impl<'a, const D: usize> Trip<'a, D> {
         self.counts.rejected += u64::from(stats.rejected_steps);
         self.counts.evaluations += u64::from(stats.num_eval);
         self.remember(event.map(|(_, c, g)| (c, g)))?;
-        // The last step may have been cut by the corner, and one before it may have been longer.
+        // The last step may have been shortened by the corner, and the step before it may have been longer.
         Ok(if event.is_none() && from > begin { step.max(to - from) } else { to - from })
     }
 
-    /// All contacts remember where they are; the one whose guard fell gets its next branch.
+    /// Updates the memories of all contacts. The contact with the event gets its next branch.
     fn remember(&mut self, event: Option<(usize, usize)>) -> Result<(), Stop> {
         for c in 0..self.held.len() {
             let (u, _) = self.motion(c);
@@ -189,7 +189,7 @@ impl<'a, const D: usize> Trip<'a, D> {
                 let (sense, left) = (held.branch.sense(), held.branch.margin(held.d, u));
                 held.branch = match guard {
                     0 => held.curve.branch(&held.tie.law, -sense, 0.0),
-                    // What the search has left of the piece counts as used.
+                    // The remainder of the piece after event location counts as used.
                     _ => held.curve.branch(&held.tie.law, sense, 2.0 * left.abs() + f64::EPSILON * held.d),
                 };
                 self.counts.events += 1;
@@ -198,7 +198,7 @@ impl<'a, const D: usize> Trip<'a, D> {
         Ok(())
     }
 
-    /// Keeps the samples due up to time t, s, of a stretch whose state `at` a time is known.
+    /// Records the samples up to time t, s. `at` returns the state at a time.
     fn sample(&self, samples: &mut Samples, t: f64, at: impl FnMut(f64) -> SVector<f64, D>) {
         let (mut at, interval) = (at, Samples::interval(self.outside.duration));
         while samples.len() + 1 < Samples::complete() && samples.len() as f64 * interval <= t {

@@ -1,15 +1,15 @@
-//! What is driven, half a step after half a step.
+//! Prescribed quantities, tabulated at half steps.
 
 use crate::baseline::Track;
 use crate::contestant::Stop;
 
-/// Longest table of driven places.
+/// Maximum length of a table.
 const TABLE: usize = 1 << 23;
 
-/// Places of a track every half step, over a period or the whole run.
+/// Values of a prescribed quantity at half steps, over a period or the whole run.
 pub(super) struct Table(Vec<f64>);
 
-/// Where what is driven stands.
+/// Current values of the prescribed quantities.
 pub(super) struct Driven<'t> {
     pub(super) values: Vec<f64>,
     tables: Vec<(&'t [f64], usize)>,
@@ -21,7 +21,7 @@ impl<'t> Driven<'t> {
         Self { values, tables: tables.iter().map(|table| (table.0.as_slice(), 0)).collect() }
     }
 
-    /// By one or two half steps.
+    /// Advances by one or two half steps.
     #[inline(always)]
     pub(super) fn advance(&mut self, halves: usize) {
         for k in 0..self.tables.len() {
@@ -36,7 +36,7 @@ impl<'t> Driven<'t> {
 }
 
 impl Table {
-    /// A period where the steps divide it, otherwise the whole run.
+    /// Tabulates one period if it is a multiple of the step, otherwise the whole run.
     pub(super) fn new(track: &Track, step: f64, duration: f64) -> Result<Self, Stop> {
         let timing = track.waveform.timing();
         let endless = timing.delay == 0.0 && timing.cycles.is_none();

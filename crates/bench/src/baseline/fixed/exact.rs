@@ -1,28 +1,28 @@
-//! The exact contact under a constant load, as anyone would write it for such a scene.
+//! Exact contact law under constant load, for a fixed-step loop.
 
 use super::walk::Contact;
 use crate::baseline::Tie;
 use crate::masing::Masing;
 use pulp::Simd;
 
-/// A contact of the profile |x|ⁿ.
+/// Contact of the profile |x|ⁿ.
 #[derive(Debug, Clone)]
 pub(crate) struct Exact {
     memory: Masing,
-    /// u at the start, m; 1/u_c, 1/m; μF_N, N.
+    /// Initial u, m; 1/u_c, 1/m; μF_N, N.
     origin: f64,
     scale: f64,
     limit: f64,
 }
 
 impl Exact {
-    /// A contact at its start; or what is not known of it.
+    /// Returns the contact in its initial state. The error names an unsupported feature.
     pub(in crate::baseline) fn new(tie: &Tie) -> Result<Self, String> {
         let (law, apex) = (&tie.law, tie.start.apex());
         if tie.press.is_some() {
             return Err("loads that vary".to_owned());
         }
-        let exponent = law.profile().exponent().ok_or("profiles that are no power")?;
+        let exponent = law.profile().exponent().ok_or("profiles other than power laws")?;
         if tie.start.knots().any(|(_, anchor)| anchor != apex.u) {
             return Err("contacts that have slid before".to_owned());
         }

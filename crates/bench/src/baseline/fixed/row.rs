@@ -1,21 +1,21 @@
-//! Half a row of springs: the handbook's algorithm (chapter 11) as a loop would have it, tuned.
+//! Optimised half row of springs: the algorithm of chapter 11 of the handbook.
 
 use super::walk::Contact;
 use crate::baseline::Tie;
 use pulp::Simd;
 
-/// Vectors that are summed apart, so that no sum waits for another.
+/// Number of independent sums, so that additions do not wait for each other.
 const WAYS: usize = 4;
 
-/// The springs on one side of the middle; the other side is their mirror image.
+/// Springs on one side of the centre; the other side is their mirror image.
 #[derive(Debug, Clone)]
 pub(crate) struct Half {
-    /// Stretches, m.
+    /// Stretches of the springs, m.
     stretch: Vec<f64>,
-    /// Heights, m; where the load is constant the limits of the stretches, m.
+    /// Heights, m; under constant load the limits of the stretches, m.
     height: Vec<f64>,
     is_pressed: bool,
-    /// Tangential and normal stiffness of a spring and its image, N/m.
+    /// Tangential and normal stiffness of a spring and its image together, N/m.
     stiffness: [f64; 2],
     /// κ.
     slope: f64,
@@ -24,13 +24,13 @@ pub(crate) struct Half {
 }
 
 impl Half {
-    /// A row of `springs` (two halves of whole sets of vectors: a multiple of 64) over `span` m as it stands at the start of a contact.
+    /// Returns a row over `span`, m, in the initial state of a contact. The number of springs is a multiple of 64.
     pub(in crate::baseline) fn new(tie: &Tie, springs: usize, span: f64) -> Self {
         let (count, law) = (springs / 2, &tie.law);
         let width = span / springs as f64;
         let heights: Vec<f64> = (0..count).map(|i| law.profile().depth((i as f64 + 0.5) * width)).collect();
         let pair = 2.0 * width;
-        // The springs carry the load among them: as deep as they go, not as the profile would.
+        // The indentation is that at which the springs carry the load, not that of the continuous profile.
         let held = law.normal_force(tie.start.apex().d) / (pair * law.normal_modulus());
         let (slope, d) = (law.stick_slope(), depth(&heights, held));
         let stretch = heights.iter().map(|h| tie.start.stretch(*h)).collect();
@@ -41,7 +41,8 @@ impl Half {
         Self { stretch, height, is_pressed, stiffness, slope, at: tie.start.apex().u }
     }
 
-    /// Sums of stretches and depths `du` m further on, at the indentation d: a spring that does not touch has no room to stretch.
+    /// Returns the sums of stretches and depths after a displacement `du`, m, at the indentation d. Springs out of contact have no
+    /// stretch.
     #[inline(always)]
     fn sums<S: Simd, const KEEP: bool, const PRESSED: bool>(
         &mut self,
@@ -74,7 +75,7 @@ impl Half {
     }
 }
 
-/// Sum of all lanes.
+/// Returns the sum of all lanes.
 #[inline(always)]
 fn total<S: Simd>(simd: S, [a, b, c, d]: [S::f64s; WAYS]) -> f64 {
     simd.reduce_sum_f64s(simd.add_f64s(simd.add_f64s(a, b), simd.add_f64s(c, d)))
@@ -98,7 +99,7 @@ impl Contact for Half {
     }
 }
 
-/// Where Σ(d-h) over the springs that touch reaches a value, m; heights ascend.
+/// Returns the indentation at which Σ(d-h) over the springs in contact equals a value, m. Heights ascend.
 fn depth(heights: &[f64], held: f64) -> f64 {
     let mut below = 0.0;
     for (k, height) in heights.iter().enumerate() {

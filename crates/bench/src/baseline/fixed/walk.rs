@@ -1,62 +1,61 @@
-//! A loop with a fixed step over whatever contacts: velocity Verlet, or Runge and Kutta's method of order 4.
+//! Fixed-step loop for any type of contact: velocity Verlet, or Runge–Kutta of order 4.
 
 use super::driven::Driven;
 use crate::baseline::form::Form;
 use crate::baseline::{Free, Mechanism, Tie};
 use pulp::{Arch, Scalar, Simd, WithSimd};
 
-/// A contact that a loop moves.
+/// Contact in a fixed-step loop.
 pub(crate) trait Contact: Clone {
-    /// Whether the widest instructions of the machine are worth asking for.
+    /// Whether vector instructions are used.
     const WIDE: bool;
 
-    /// Tangential and normal force at the displacement u and the indentation d, m; N. `KEEP`: it goes there, and remembers; otherwise
-    /// it looks.
+    /// Returns tangential and normal force, N, at displacement u and indentation d, m. With `KEEP` the memory is updated.
     fn force<S: Simd, const KEEP: bool>(&mut self, simd: S, u: f64, d: f64) -> (f64, f64);
 }
 
-/// A loop, after some steps.
+/// Fixed-step loop after some steps.
 pub(super) trait Walker {
-    /// Goes on by so many steps.
+    /// Advances by a number of steps.
     fn advance(&mut self, steps: usize);
 
-    /// Places and velocities of the free coordinates.
+    /// Returns positions and velocities of the free coordinates.
     fn places(&self) -> (&[f64], &[f64]);
 }
 
-/// The loop of so many free coordinates.
+/// Loop with F free coordinates.
 pub(super) struct Walk<'t, C, const F: usize> {
     arch: Arch,
     step: f64,
-    /// Whether four stages make a step, instead of one.
+    /// Whether the method is Runge–Kutta of order 4; otherwise velocity Verlet.
     staged: bool,
     x: [f64; F],
     v: [f64; F],
     a: [f64; F],
-    /// Acceleration by what is constant.
+    /// Acceleration by constant forces.
     rest: [f64; F],
     links: Vec<Link<C, F>>,
     driven: Driven<'t>,
 }
 
-/// A contact in the loop.
+/// Contact with its displacements.
 struct Link<C, const F: usize> {
     contact: C,
     slide: Row<F>,
     press: Option<Row<F>>,
 }
 
-/// A linear form, and what a force along it does.
+/// Linear form of the coordinates, and the effect of a force along it.
 struct Row<const F: usize> {
     constant: f64,
     driven: Vec<(usize, f64)>,
     free: [f64; F],
-    /// Acceleration of the coordinates by a unit of the force.
+    /// Acceleration of the coordinates per unit of force.
     push: [f64; F],
 }
 
 impl<'t, C: Contact, const F: usize> Walk<'t, C, F> {
-    /// The loop at the start of a mechanism, whose contacts are these.
+    /// Returns the loop in the initial state of a mechanism with these contacts.
     pub(super) fn new(
         (mechanism, contacts): (&Mechanism, &[C]),
         (step, staged): (f64, bool),
@@ -87,7 +86,7 @@ impl<'t, C: Contact, const F: usize> Walk<'t, C, F> {
     #[inline(always)]
     fn verlet<S: Simd>(&mut self, simd: S, steps: usize) {
         let (h, mut x, mut v, mut a) = (self.step, self.x, self.v, self.a);
-        // Between two places, where the halves of two kicks are one.
+        // Velocities at half steps: the half kicks of neighbouring steps are joined.
         for i in 0..F {
             v[i] += 0.5 * h * a[i];
         }
@@ -129,7 +128,7 @@ impl<'t, C: Contact, const F: usize> Walk<'t, C, F> {
         (self.x, self.v, self.a) = (x, v, a);
     }
 
-    /// Accelerations in some places. Counted loops: iterators are not always built in where instructions are chosen at run time.
+    /// Returns the accelerations at positions x. Counted loops are used, because iterators may not be inlined in dispatched code.
     #[inline(always)]
     fn accelerations<S: Simd, const KEEP: bool>(&mut self, simd: S, x: &[f64; F]) -> [f64; F] {
         let mut a = self.rest;
@@ -158,7 +157,7 @@ impl<C: Contact, const F: usize> Walker for Walk<'_, C, F> {
     }
 }
 
-/// So many steps of a loop.
+/// A number of steps of a loop.
 struct Go<'w, 't, C, const F: usize>(&'w mut Walk<'t, C, F>, usize);
 
 impl<C: Contact, const F: usize> WithSimd for Go<'_, '_, C, F> {

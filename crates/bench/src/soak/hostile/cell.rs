@@ -1,4 +1,4 @@
-//! A cell of the matrix: a scene of a family, and the stepper that runs it.
+//! Cell of the matrix: a scenario of a family with a stepper.
 
 use super::family::{self, Family};
 use crate::soak::trial::Trial;
@@ -6,30 +6,30 @@ use serde_json::{Value, json};
 use std::f64::consts::TAU;
 use stickslip_scenario::Scenario;
 
-/// Most steps and events of a cell: what would take longer ends at these limits, on every machine alike. A slider that rings
-/// undamped fills the memory of its contact, after which every event looks through all of it.
+/// Limits of steps and events of a cell, which are equal on all machines. The limit of events is lower, because an undamped oscillation
+/// fills the contact memory and makes events expensive.
 const STEPS: u64 = 1_000_000;
 const EVENTS: u64 = 60_000;
-/// The same where the number of periods is what is asked.
+/// Limits if the number of periods is varied.
 const MANY: u64 = 100_000_000;
-/// Rows of a run.
+/// Number of rows of a run.
 const ROWS: f64 = 40.0;
-/// Fixed steps in a period of the drive, or a run that nothing drives, at the least: all corners fall on steps, between which
-/// they would cost fixed steps their order …
+/// Minimum number of fixed steps per drive period, or per run without a drive. All corners of the drive lie on steps; otherwise the order
+/// of convergence would be lower.
 const LEAST: f64 = 1000.0;
-/// … and in a period of the fastest swing, by halving.
+/// Minimum number of fixed steps per period of the fastest oscillation, reached by halving.
 const FINE: f64 = 60.0;
 
-/// Who runs a cell.
+/// Stepper of a cell.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Column {
-    /// The event stepper at a tolerance.
+    /// Event stepper at a tolerance.
     Event(f64),
-    /// Fixed steps or the plain reference, whose own error is seen by halving or tightening.
+    /// Second method: fixed steps or `dopri5`, whose error is estimated by refinement.
     Plain(&'static str),
 }
 
-/// In the order of the picture, upwards: its places are those of [`Column::place`].
+/// All steppers in the order of the plot, upwards; their positions are [`Column::place`].
 pub(super) const COLUMNS: [Column; 10] = [
     Column::Plain("verlet"),
     Column::Plain("rk4"),
@@ -44,7 +44,7 @@ pub(super) const COLUMNS: [Column; 10] = [
 ];
 
 impl Column {
-    /// Where it stands in the picture.
+    /// Returns the position in the plot.
     pub(super) fn place(self) -> f64 {
         match self {
             Self::Event(tolerance) => -math::log10(tolerance).round(),
@@ -62,16 +62,16 @@ impl Column {
     }
 }
 
-/// A scene with its stepper.
+/// Scenario with its stepper.
 pub(super) struct Cell<'a> {
     pub(super) family: &'a Family,
     pub(super) value: f64,
     pub(super) column: Column,
-    /// Place of the scene among all.
+    /// Index of the scenario.
     pub(super) row: usize,
 }
 
-/// All of them.
+/// All cells.
 pub(super) struct Cells(Vec<Family>);
 
 impl Cells {
@@ -87,7 +87,7 @@ impl Cells {
         COLUMNS.len() * self.0.iter().map(|family| family.values.len()).sum::<usize>()
     }
 
-    /// The cell of a number.
+    /// Returns the cell of a number.
     pub(super) fn get(&self, number: u64) -> Option<Cell<'_>> {
         let number = usize::try_from(number).ok()?;
         let (row, column) = (number / COLUMNS.len(), COLUMNS[number % COLUMNS.len()]);
@@ -103,7 +103,7 @@ impl Cells {
 }
 
 impl Cell<'_> {
-    /// Its scene by the event stepper at a tolerance.
+    /// Returns the scenario with the event stepper at a tolerance.
     pub(super) fn by_events(&self, tolerance: f64) -> Value {
         let mut scene = (self.family.scene)(self.value);
         let duration = scene["run"]["duration"].as_f64().unwrap_or(1.0);
@@ -116,7 +116,7 @@ impl Cell<'_> {
         scene
     }
 
-    /// Its scenario, as the text of its file.
+    /// Returns the scenario as the text of a file.
     pub(super) fn text(&self) -> String {
         let scene = match self.column {
             Column::Event(tolerance) => self.by_events(tolerance),
@@ -132,7 +132,7 @@ impl Cell<'_> {
         format!("{scene:#}\n")
     }
 
-    /// A step for those that take fixed ones, s.
+    /// Returns the step of fixed-step methods, s.
     fn step(&self, scene: &Value) -> f64 {
         let Ok(scenario) = Scenario::from_str_alone(&scene.to_string(), "hostile") else { return 1.0 };
         let drive = scenario.scene.waveforms.first().and_then(|drive| drive.part.period());

@@ -1,43 +1,43 @@
-//! Families of hostile scenes: one thing of a plain drive at its extremes.
+//! Families of extreme scenarios: one parameter of a simple drive with extreme values.
 
 use serde_json::{Value, json};
 use std::f64::consts::{PI, TAU};
 
-/// A family of scenes and the values it goes through.
+/// Family of scenarios with the values of its parameter.
 pub(super) struct Family {
-    /// In tables and pictures.
+    /// Name in tables and plots.
     pub(super) name: &'static str,
-    /// What the values are, with their unit.
+    /// Name of the parameter with its unit.
     pub(super) axis: &'static str,
-    /// Ascending.
+    /// Values in ascending order.
     pub(super) values: Vec<f64>,
-    /// The scene of a value, without stepper and limits.
+    /// Returns the scenario of a value, without stepper and limits.
     pub(super) scene: fn(f64) -> Value,
 }
 
 impl Family {
-    /// Whether its values are hairs around 1.
+    /// Returns whether the values lie closely around 1.
     fn is_fine(&self) -> bool {
         self.values.contains(&1.0) && self.values.iter().all(|value| (value - 1.0).abs() <= 0.1 + 1e-12)
     }
 
-    /// Where a value stands in a picture: at its power of ten, hairs at the power of their distance from 1.
+    /// Returns the position of a value in a plot: its power of ten, or for values around 1 that of the distance from 1.
     pub(super) fn place(&self, value: f64) -> f64 {
         if self.is_fine() {
             let distance = math::log10((value - 1.0).abs()).max(-10.0);
             return (10.0 + distance).round() * (value - 1.0).signum();
         }
-        // Nothing at all stands beside the smallest.
+        // Zero has the position before the smallest value.
         if value > 0.0 { math::log10(value) } else { math::log10(self.values[1]) - 1.0 }
     }
 
-    /// What its places n are.
+    /// Returns the axis label of the positions n.
     pub(super) fn label(&self) -> &'static str {
         if self.is_fine() { "n of 1 ± 10^(|n|−10)" } else { "power of ten" }
     }
 }
 
-/// The plain drive: a slider of 20 g on a steel ball of 1 mm that a foot drags to and fro.
+/// Simple drive: a slider of 20 g on a steel ball of 1 mm radius and an oscillating foot.
 struct Plain {
     mass: f64,
     radius: f64,
@@ -51,7 +51,7 @@ struct Plain {
     cycles: f64,
 }
 
-/// Effective moduli over E of two equal bodies with ν = 0.3: E\* = E/(2(1-ν²)), G\* = 4G/(2(2-ν)) = E/((1+ν)(2-ν)).
+/// Effective moduli divided by E for equal bodies with ν = 0.3: E\* = E/(2(1-ν²)), G\* = 4G/(2(2-ν)) = E/((1+ν)(2-ν)).
 const NORMAL: f64 = 1.0 / (2.0 * (1.0 - 0.09));
 const TANGENTIAL: f64 = 1.0 / (1.3 * 1.7);
 
@@ -68,17 +68,17 @@ const PLAIN: Plain = Plain {
 };
 
 impl Plain {
-    /// Indentation of Hertz, F = (4/3)E\*√R d^{3/2}, m.
+    /// Returns the Hertzian indentation from F = (4/3)E\*√R d^{3/2}, m.
     fn depth(&self) -> f64 {
         math::powf(0.75 * self.force / (NORMAL * self.modulus * self.radius.sqrt()), 2.0 / 3.0)
     }
 
-    /// u_c = μ(E\*/G\*)d, m.
+    /// Returns u_c = μ(E\*/G\*)d, m.
     fn slip(&self) -> f64 {
         self.friction * NORMAL / TANGENTIAL * self.depth()
     }
 
-    /// 2G\*a, N/m.
+    /// Returns the tangential stiffness 2G\*a, N/m.
     fn stiffness(&self) -> f64 {
         2.0 * TANGENTIAL * self.modulus * (self.radius * self.depth()).sqrt()
     }
@@ -101,7 +101,7 @@ impl Plain {
         scene
     }
 
-    /// The same on a waveform that is curved.
+    /// Returns the drive with a sine instead of the sawtooth.
     fn smooth(&self) -> Value {
         let mut scene = self.scene();
         let sine = json!({ "amplitude": 0.5 * self.stroke, "period": self.period, "phase": 1.0 });
@@ -110,22 +110,22 @@ impl Plain {
     }
 }
 
-/// Evenly in the logarithm, from one power of ten to another.
+/// Returns values with equal ratios between two powers of ten.
 fn decades(from: i32, to: i32, count: usize) -> Vec<f64> {
     let step = f64::from(to - from) / (count - 1) as f64;
     (0..count).map(|i| math::powf(10.0, f64::from(from) + step * i as f64)).collect()
 }
 
-/// 1 ± 10^-k, ascending.
+/// Returns 1 ± 10^-k in ascending order.
 fn hairs() -> Vec<f64> {
     let below = (1..=9).map(|k| 1.0 - 10_f64.powi(-k));
     let above = (1..=9).rev().map(|k| 1.0 + 10_f64.powi(-k));
     below.chain([1.0]).chain(above).collect()
 }
 
-/// A ball of 4 g above a plate, dropped from a height.
+/// Returns a ball of 4 g that falls onto a plate from a height.
 fn dropped(height: f64, damping: f64) -> Value {
-    // Fall, contact and two bounces: √(8h/g) is one flight, 50 µs about the longest contact.
+    // Fall, contact and two bounces: √(8h/g) is one flight; 50 µs is about the longest contact.
     let duration = 2.5 * (8.0 * height / 9.81).sqrt() + 1e-4;
     let mut scene = json!({
         "stickslip": 1,
@@ -144,7 +144,7 @@ fn dropped(height: f64, damping: f64) -> Value {
     scene
 }
 
-/// A slider on two equal contacts of a foot that shakes along both axes, symmetric in all.
+/// Returns a symmetric slider on two equal contacts of a foot that oscillates along x and z.
 fn twins(lift: f64) -> Value {
     let sine = |amplitude: f64| json!({ "sine": { "amplitude": amplitude, "period": 1e-3 } });
     let contact = |x: f64| {
@@ -164,7 +164,7 @@ fn twins(lift: f64) -> Value {
     })
 }
 
-/// The plain drive pressed by a force that comes from nothing and goes.
+/// Returns the simple drive with a normal force that starts at 0 and returns to 0.
 fn breathing(force: f64) -> Value {
     let mut scene = Plain { force, ..PLAIN }.scene();
     scene["waveforms"]["press"] = json!({ "triangle": { "stroke": force, "period": 0.7e-3 } });
@@ -172,7 +172,7 @@ fn breathing(force: f64) -> Value {
     scene
 }
 
-/// All of them.
+/// Returns all families.
 pub(super) fn all() -> Vec<Family> {
     let family = |name, axis, values, scene| Family { name, axis, values, scene };
     let plain: [Family; 8] = [
@@ -198,7 +198,7 @@ pub(super) fn all() -> Vec<Family> {
     ];
     let others: [Family; 9] = [
         family("grazing", "amplitude over slip", hairs(), |part| {
-            // Heavy: the contact is swung by its foot, to the edge of gross slip and back.
+            // The heavy mass stands still, so the foot moves the contact to the edge of gross slip and back.
             Plain { mass: 1e3, stroke: part * PLAIN.slip(), ..PLAIN }.scene()
         }),
         family("symmetry", "lift, m", decades(-12, -6, 13), twins),

@@ -1,4 +1,4 @@
-//! The matrix in a picture: a panel for each family, a cell for each scene and stepper.
+//! Plot of the matrix: a panel for each family, a cell for each scenario and stepper.
 
 use super::cell::{COLUMNS, Cells};
 use crate::soak::finding::{Finding, Verdict};
@@ -9,24 +9,23 @@ use stickslip_plot::{
 use stickslip_run::program::this_program;
 use stickslip_run::provenance;
 
-/// Name of the picture's files, without ending.
+/// Name of the plot files without extension.
 pub(super) const NAME: &str = "matrix";
-/// Panels side by side.
+/// Number of panels per row.
 const PANELS: usize = 4;
-/// Height of a row of panels, px, and that of title and legend.
+/// Height of a row of panels, and of title and legend, px.
 const HEIGHT: (u32, u32) = (500, 240);
 
-/// What is told apart, with its colour: from the pale of what is as it should be to the dark of what is not. Told apart by the
-/// colour-blind and, by their lightness, in a grey print.
+/// Groups of verdicts with their colours, from pale for right to dark for faults. The colours suit colour-blind readers and grey prints.
 const GROUPS: [(&str, Colour); 5] = [
     ("right", Colour(0xBF, 0xDD, 0xEE)),
     ("warned", Colour(0x56, 0xB4, 0xE9)),
     ("refused, limited, stopped: a typed error", Colour(0xE6, 0x9F, 0x00)),
     ("undecided or grazing", Colour(0x99, 0x99, 0x99)),
-    ("wrong, books open, hung, panicked", Colour(0x8B, 0x00, 0x00)),
+    ("wrong, unbalanced, hung, panicked", Colour(0x8B, 0x00, 0x00)),
 ];
 
-/// The place of a verdict among them.
+/// Returns the index of the group of a verdict.
 pub(super) fn group(verdict: Verdict) -> u8 {
     match verdict {
         Verdict::Right => 0,
@@ -37,7 +36,7 @@ pub(super) fn group(verdict: Verdict) -> u8 {
     }
 }
 
-/// Light, dark and as SVG; findings of all cells.
+/// Draws the plot as light and dark PNG and as SVG, from the findings of all cells.
 pub(super) fn draw(findings: &[Finding]) -> Result<Vec<(String, Vec<u8>)>, PlotError> {
     let cells = Cells::new();
     let verdicts: HashMap<u64, Verdict> = findings.iter().map(|found| (found.seed, found.verdict)).collect();

@@ -1,5 +1,5 @@
-//! A cell judged: by its energy books and against the event stepper at another tolerance, or, where no events are located, by
-//! its own error.
+//! Judges a cell: by its energy balance and a comparison with the event stepper at another tolerance, or for other methods by their own
+//! error.
 
 use super::cell::{Cell, Cells, Column};
 use crate::soak::finding::{Finding, Verdict};
@@ -10,20 +10,20 @@ use std::sync::{Arc, Mutex, PoisonError};
 use stickslip_drive::{RunError, Stepper};
 use stickslip_scenario::Scenario;
 
-/// Tolerance of the reference, and the least that errors are measured by.
+/// Tolerance of the reference, and the smallest tolerance to which errors are relative.
 const REFERENCE: f64 = 1e-10;
-/// The least tolerance by which energy books are measured: below it they are rounding.
+/// Smallest tolerance to which errors of the energy balance are relative; smaller errors are rounding.
 const ROUNDING: f64 = 1e-12;
-/// Most error, in tolerances.
+/// Largest allowed error, in tolerances.
 const MOST: f64 = 100.0;
-/// Change of the start whose growth is S, in natural lengths.
+/// Perturbation of the start whose growth factor is S, in natural lengths.
 const NUDGE: f64 = 1e-9;
-/// Own error beyond which fixed steps say nothing of a scene, in natural lengths.
+/// Own error above which a fixed-step method cannot judge, in natural lengths.
 const BLURRED: f64 = 0.1;
-/// Error that is always allowed to fixed steps, in natural lengths.
+/// Error that is always allowed to fixed-step methods, in natural lengths.
 const FREE: f64 = 1e-6;
 
-/// Judges cells; keeps the references of the scenes, which the cells of a scene share.
+/// Judge of cells. It stores the reference runs, which the cells of a scenario share.
 pub(super) struct Judge {
     cells: Cells,
     references: Mutex<HashMap<usize, Arc<Option<Ran>>>>,
@@ -72,7 +72,7 @@ impl Judge {
         }
     }
 
-    /// A run; none where it did not come to its end.
+    /// Runs a scenario. Returns `None` if the run did not finish.
     fn run(&self, finding: &mut Finding, cell: &Cell<'_>, trial: &Trial, stepper: Stepper) -> Option<Ran> {
         match trial.run(stepper) {
             Ok(ran) => {
@@ -88,7 +88,7 @@ impl Judge {
         }
     }
 
-    /// The scene by the event stepper, once for all its cells.
+    /// Returns the reference run of a scenario, computed once for all its cells.
     fn reference(&self, finding: &mut Finding, cell: &Cell<'_>, trial: &Trial) -> Arc<Option<Ran>> {
         let known = self.references.lock().unwrap_or_else(PoisonError::into_inner).get(&cell.row).cloned();
         if let Some(known) = known {
@@ -104,8 +104,8 @@ impl Judge {
         ran
     }
 
-    /// Runs again at half and a quarter of the step, or a tenth and a hundredth of the tolerance: what is left of their
-    /// differences is the stepper's own error, and the event stepper must lie within twice that.
+    /// Runs again at half and a quarter of the step, or a tenth and a hundredth of the tolerance. The differences give the own error of
+    /// the method. The event stepper must lie within twice this error.
     fn halved(
         &self,
         finding: &mut Finding,
@@ -115,10 +115,10 @@ impl Judge {
     ) {
         let Some(half) = self.run(finding, cell, trial, finer(stepper)) else { return };
         let Some(fine) = self.run(finding, cell, trial, finer(finer(stepper))) else { return };
-        // The larger of both: by chance one of them may be small.
+        // The larger of both, because one of them may be small by chance.
         let own = trial.apart(&half, &fine).by.max(0.5 * trial.apart(ran, &half).by);
         let Some(reference) = reference else {
-            return finding.turns(Verdict::Undecided, || "the event stepper has no end here".to_owned());
+            return finding.turns(Verdict::Undecided, || "the event stepper does not finish".to_owned());
         };
         let apart = trial.apart(&fine, reference);
         finding.row = [apart.by, own];
@@ -143,7 +143,7 @@ impl Judge {
     }
 }
 
-/// Half the step, or a tenth of the tolerance.
+/// Returns the stepper with half the step, or a tenth of the tolerance.
 fn finer(stepper: Stepper) -> Stepper {
     match stepper {
         Stepper::Verlet { step } => Stepper::Verlet { step: 0.5 * step },
@@ -154,7 +154,7 @@ fn finer(stepper: Stepper) -> Stepper {
     }
 }
 
-/// A refusal that says what to try, in itself or in a help.
+/// Judges a refusal, which must contain the allowed range or advice.
 fn refused(finding: &mut Finding, help: Option<&str>, message: &str) {
     let says = help.is_some() || message.starts_with("expected");
     let verdict = if says { Verdict::Refused } else { Verdict::Wrong };
@@ -163,7 +163,7 @@ fn refused(finding: &mut Finding, help: Option<&str>, message: &str) {
     });
 }
 
-/// What an ending means. Scenes that ask for much work by their size may end at the clock.
+/// Returns the verdict of an error. Only large scenarios may reach the time limit.
 fn ending(cell: &Cell<'_>, error: &RunError) -> Verdict {
     let large = matches!(cell.family.name, "springs" | "periods");
     match error {
@@ -175,7 +175,7 @@ fn ending(cell: &Cell<'_>, error: &RunError) -> Verdict {
     }
 }
 
-/// A run of the event stepper against the reference.
+/// Compares a run of the event stepper with the reference.
 fn compared(finding: &mut Finding, trial: &Trial, (ran, tolerance): (&Ran, f64), reference: Option<&Ran>) {
     let Some(reference) = reference else { return };
     let apart = trial.apart(ran, reference);

@@ -1,22 +1,22 @@
-//! Scenes along the slide: what presses their contacts is prescribed.
+//! Scenarios along the slide with prescribed normal loads.
 
 use crate::soak::basis::Basis;
 use crate::soak::course::Course;
 use crate::soak::sketch::{GRAVITY, Sketch};
 use serde_json::{Map, Value, json};
 
-/// What presses a contact of the sketch: constants, and waveforms of every kind.
+/// Draws a normal load: constant or any waveform.
 fn normal(sketch: &mut Sketch, name: &str) -> Value {
     let (force, depth) = (sketch.basis.force, sketch.basis.depth);
     let period = sketch.period * sketch.draw.spread(0.3, 3.0);
-    // A flat punch and a list of heights have no radius that says how deep they are.
+    // For a flat punch and a list of heights, a radius does not determine the indentation.
     let round = !matches!(sketch.basis.name, "flat" | "heights");
     match sketch.draw.below(20) {
         0..=8 => json!({ "force": force }),
         9 | 10 => json!({ "indentation": depth }),
         11 if round => json!({ "radius": sketch.basis.interface.profile().radius(depth) }),
         12..=15 => {
-            // Now and then the load goes down to nothing and comes again.
+            // Sometimes the load falls to 0 and returns.
             let stroke = if sketch.draw.chance(0.15) { 2.0 } else { sketch.draw.between(0.1, 1.9) };
             json!({ "force": sketch.follows_above(name, stroke * force, period, force) })
         }
@@ -35,12 +35,12 @@ fn normal(sketch: &mut Sketch, name: &str) -> Value {
 }
 
 impl Sketch {
-    /// Share of a mean by which something swings, peak to peak.
+    /// Draws a peak-to-peak value relative to the mean.
     fn share(&mut self) -> f64 {
         self.draw.between(0.1, 1.8)
     }
 
-    /// A contact pressed by prescription, perhaps loaded along the slide at the start.
+    /// Adds a contact with a prescribed normal load, sometimes with an initial tangential load. Returns the number of identical contacts.
     fn pressed(&mut self, between: [&str; 2], name: &str) -> u64 {
         let count = 1 + self.draw.below(3);
         let normal = normal(self, &format!("{name} press"));
@@ -57,7 +57,7 @@ impl Sketch {
         count
     }
 
-    /// A body that is free along the slide.
+    /// Adds a body that is free along the slide.
     fn free(&mut self, name: &str, mass: f64) {
         let mut start = Map::new();
         self.start_along(&mut start);
@@ -68,7 +68,7 @@ impl Sketch {
         Self::add(&mut self.bodies, name, body);
     }
 
-    /// By turns: a spring and damper to the ground, a load, one that varies, a slope, a second contact with the ground.
+    /// Sometimes adds a spring and damper to the ground, a constant or varying load, an incline, or a second contact with the ground.
     fn surroundings(&mut self, name: &str, mass: f64, stuck: f64, hold: f64) {
         if self.draw.chance(0.3) {
             let stiffness = if self.draw.chance(0.2) { 0.0 } else { stuck * self.draw.spread(0.01, 1.0) };
@@ -94,7 +94,7 @@ impl Sketch {
             self.loads.push(json!({ "on": name, "x": wind }));
         }
         if self.gravity.is_none() && hold > 0.0 && self.draw.chance(0.2) {
-            // Up to a wall that it cannot climb.
+            // At most an incline on which friction holds the body.
             let most = math::asin((0.7 * hold / (mass * GRAVITY)).min(1.0));
             self.gravity = Some(json!({ "incline": self.draw.between(-1.0, 1.0) * most }));
         }
@@ -103,7 +103,7 @@ impl Sketch {
         }
     }
 
-    /// A second contact, between a body and the ground, of another profile and pair.
+    /// Adds a second contact between a body and the ground, with another profile and pair.
     fn guide(&mut self, name: &str, hold: f64) {
         let Some(other) = Basis::draw(&mut self.draw) else { return };
         let force = if other.friction > 0.0 && hold > 0.0 {
@@ -118,7 +118,7 @@ impl Sketch {
     }
 }
 
-/// A slider on one or two contacts of a foot that follows a waveform.
+/// Draws a slider on one or two contacts of a foot that follows a waveform.
 pub(super) fn slider(sketch: &mut Sketch) {
     let drive = sketch.follows("drive", sketch.stroke, sketch.period);
     Sketch::add(&mut sketch.bodies, "foot", json!({ "x": drive }));
@@ -133,7 +133,7 @@ pub(super) fn slider(sketch: &mut Sketch) {
     sketch.surroundings("slider", mass, stuck, hold);
 }
 
-/// The foot has a mass of its own and hangs on a stack whose free stroke follows a waveform.
+/// Draws a slider on a foot with mass, on a stack whose free stroke follows a waveform.
 pub(super) fn stack(sketch: &mut Sketch) {
     let damped = sketch.draw.chance(0.6);
     if damped {
@@ -153,13 +153,13 @@ pub(super) fn stack(sketch: &mut Sketch) {
     Sketch::add(&mut sketch.actuators, "stack", stack);
     sketch.free("foot", foot);
     sketch.free("slider", mass);
-    // The stack rings faster than the contact: the run is shorter.
+    // The stack has a higher natural frequency than the contact, which shortens the run.
     sketch.frequency *= (stiffness / stuck * mass / foot).sqrt().max(1.0);
     let hold = count * sketch.basis.hold();
     sketch.surroundings("slider", mass, stuck, hold);
 }
 
-/// A foot and one to three sliders, each on the one before or beside it on a spring.
+/// Draws a foot and one to three sliders, each on the one before, or beside it and connected by a spring.
 pub(super) fn chain(sketch: &mut Sketch) {
     let drive = sketch.follows("drive", sketch.stroke, sketch.period);
     Sketch::add(&mut sketch.bodies, "foot", json!({ "x": drive }));
@@ -189,7 +189,7 @@ pub(super) fn chain(sketch: &mut Sketch) {
     }
 }
 
-/// Two bodies that follow waveforms, and one or two contacts between them: nothing obeys Newton.
+/// Draws two bodies that follow waveforms, with one or two contacts between them.
 pub(super) fn walk(sketch: &mut Sketch) {
     sketch.settled = false;
     let drive = sketch.follows("drive", sketch.stroke, sketch.period);

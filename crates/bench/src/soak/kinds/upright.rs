@@ -1,19 +1,19 @@
-//! Scenes in the plane: the bodies' own heights press their contacts.
+//! Scenarios in the plane with coupled normal motion.
 
 use crate::soak::sketch::{GRAVITY, Sketch};
 use serde_json::{Map, Value, json};
 use std::f64::consts::TAU;
 
-/// What presses a body, and where it begins.
+/// Body with the load on its contacts.
 struct Pressed {
-    /// kg.
+    /// Mass, kg.
     mass: f64,
-    /// Number of identical contacts that carry it.
+    /// Number of identical contacts that carry the body.
     count: u64,
 }
 
 impl Sketch {
-    /// Weight, a load, a spring or several of them that press a body of so many contacts with the sketch's force on each.
+    /// Adds weight, a load or a spring that press a body with the basis force on each contact.
     fn press(&mut self, name: &str, contacts: f64) -> Pressed {
         let count = 1 + self.draw.below(2);
         let carried = contacts * count as f64;
@@ -55,7 +55,7 @@ impl Sketch {
         Pressed { mass, count }
     }
 
-    /// Where a body begins along the normal: in touch, a little above, pressed as deep as it will be, or thrown.
+    /// Draws the initial state along the normal: in touch, slightly above, pressed to a depth, or thrown.
     fn start_upright(&mut self, start: &mut Map<String, Value>) {
         if self.settled {
             return;
@@ -77,7 +77,7 @@ impl Sketch {
         }
     }
 
-    /// A body that is free in the plane.
+    /// Adds a body that is free in the plane.
     fn upright(&mut self, name: &str, mass: f64, inertia: Option<f64>) {
         let mut start = Map::new();
         self.start_along(&mut start);
@@ -93,7 +93,7 @@ impl Sketch {
         Self::add(&mut self.bodies, name, body);
     }
 
-    /// A spring or damper along the slide, a load, a slope.
+    /// Sometimes adds a spring or damper along the slide, a load, or an incline.
     fn pushed(&mut self, name: &str, mass: f64, hold: f64) {
         let stuck = self.basis.stick;
         if self.draw.chance(0.25) {
@@ -120,7 +120,7 @@ impl Sketch {
         }
     }
 
-    /// A foot that moves along the slide, or up and down as well.
+    /// Adds a foot that moves along the slide, sometimes also vertically.
     fn foot(&mut self) {
         let mut foot = Map::new();
         let drive = self.follows("drive", self.stroke, self.period);
@@ -135,7 +135,7 @@ impl Sketch {
     }
 }
 
-/// A slider on a foot that moves, pressed by weight, load or spring.
+/// Draws a slider on a moving foot, pressed by weight, load or spring.
 pub(super) fn planar(sketch: &mut Sketch) {
     let Pressed { mass, count } = sketch.press("slider", 1.0);
     sketch.foot();
@@ -146,7 +146,7 @@ pub(super) fn planar(sketch: &mut Sketch) {
     sketch.pushed("slider", mass, hold);
 }
 
-/// A slider on two contacts apart, free to rock.
+/// Draws a slider on two separate contacts, free to rock.
 pub(super) fn rocking(sketch: &mut Sketch) {
     let Pressed { mass, count } = sketch.press("slider", 2.0);
     let grounded = sketch.draw.chance(0.3);
@@ -158,7 +158,7 @@ pub(super) fn rocking(sketch: &mut Sketch) {
     let first = if grounded { "ground" } else { "foot" };
     for (name, side) in [("left", -1.0), ("right", 1.0)] {
         let mut contact = sketch.contact([first, "slider"], &json!("coupled"), count);
-        // Not quite alike, or their events would coincide for ever; in some scenes they shall.
+        // The arms differ in most scenarios, because events of symmetric contacts always coincide.
         let reach = if sketch.draw.chance(0.5) { arm } else { arm * sketch.draw.between(0.7, 1.3) };
         contact["at"] = json!({ "slider": { "x": side * reach, "z": below } });
         Sketch::add(&mut sketch.contacts, name, contact);
@@ -169,7 +169,7 @@ pub(super) fn rocking(sketch: &mut Sketch) {
     sketch.pushed("slider", mass, hold);
 }
 
-/// A body let go above the ground, on it or in it: bouncing, rolling, set down.
+/// Draws a body released above, on or in the ground, which bounces, rolls or comes to rest.
 pub(super) fn ball(sketch: &mut Sketch) {
     let Pressed { mass, count } = sketch.press("ball", 1.0);
     let mut contact = sketch.contact(["ground", "ball"], &json!("coupled"), count);
@@ -184,7 +184,7 @@ pub(super) fn ball(sketch: &mut Sketch) {
     sketch.pushed("ball", mass, hold);
 }
 
-/// Two or three bodies on top of each other on a foot that moves.
+/// Draws two bodies on top of each other on a moving foot.
 pub(super) fn pile(sketch: &mut Sketch) {
     let Pressed { mass, count } = sketch.press("upper", 1.0);
     sketch.foot();

@@ -1,13 +1,13 @@
-//! What a comparison tells people.
+//! Formats a comparison as text.
 
 use serde_json::Value;
 use stickslip_compare::{ChannelDifference, Comparison, FigureDifference, Lone, time};
 use stickslip_console::table;
 
-/// Events and figures shown of each sort; `--json` has all.
+/// Number of events and summary values shown of each kind; `--json` has all.
 const SHOWN: usize = 5;
 
-/// A table of channels, then events, figures and the first difference.
+/// Returns a table of channels, then events, summary values and the first difference.
 pub(crate) fn text(comparison: &Comparison) -> String {
     let mut lines = vec![heading(comparison)];
     lines.extend(channels(comparison));
@@ -39,7 +39,7 @@ fn heading(comparison: &Comparison) -> String {
     )
 }
 
-/// In per cent; what is not all does not look like it.
+/// Formats a fraction in per cent. Incomplete fractions are never shown as 100 %.
 fn share(share: f64) -> String {
     let percent = 100.0 * share;
     if percent < 100.0 { format!("{:.1} %", percent.min(99.9)) } else { "all".to_owned() }
@@ -105,13 +105,14 @@ fn events(comparison: &Comparison) -> Vec<String> {
 fn figures(comparison: &Comparison) -> Vec<String> {
     let figures = &comparison.figures;
     if figures.compared == 0 && figures.missing.is_empty() {
-        return vec!["  figures: none in common, none compared".to_owned()];
+        return vec!["  summary values: none in common, none compared".to_owned()];
     }
     if figures.differ.is_empty() && figures.missing.is_empty() {
-        return vec![format!("  figures: all {} agree", figures.compared)];
+        return vec![format!("  summary values: all {} agree", figures.compared)];
     }
     let agree = figures.compared - figures.differ.len();
-    let mut lines = vec![format!("  figures: {agree} agree, {} do not; DIFFERS", figures.differ.len())];
+    let mut lines =
+        vec![format!("  summary values: {agree} agree, {} differ; DIFFERS", figures.differ.len())];
     lines.extend(figures.differ.iter().take(SHOWN).map(figure));
     if figures.differ.len() > SHOWN {
         lines.push(format!("    {} more", figures.differ.len() - SHOWN));
@@ -125,7 +126,7 @@ fn figure(figure: &FigureDifference) -> String {
     let space = if unit.is_empty() { "" } else { " " };
     let words = match (a.as_f64(), b.as_f64(), figure.allowed) {
         (Some(x), Some(y), Some(allowed)) => {
-            format!("apart by {}, allowed {}", amount((x - y).abs(), unit), amount(allowed.0, unit))
+            format!("difference {}, allowed {}", amount((x - y).abs(), unit), amount(allowed.0, unit))
         }
         _ => String::new(),
     };
@@ -138,7 +139,7 @@ fn figure(figure: &FigureDifference) -> String {
     )
 }
 
-/// Two digits tell how far.
+/// Formats a value with two digits.
 fn amount(value: f64, unit: &str) -> String {
     let digits = if value == 0.0 { "0".to_owned() } else { format!("{value:.1e}") };
     format!("{digits} {unit}").trim_end().to_owned()

@@ -1,4 +1,4 @@
-//! What is known of a contact as tables for people.
+//! Formats the solution of a contact as tables.
 
 use crate::commands::info::columns::broken;
 use crate::commands::info::digits::digits;
@@ -6,12 +6,12 @@ use crate::commands::info::tables::grid;
 use stickslip_run::theory::{Loading, Sheet, Stop, Walk, contact_word};
 use stickslip_run::{Real, quantity};
 
-/// What is said of a contact that nothing presses.
+/// Message for a contact without normal load.
 const OPEN: &str = "\
-nothing touches: there is no force, no stress and no slip
+the contact is open: there is no force, no stress and no slip
 give --indentation, --radius or --force to press it";
 
-/// All tables.
+/// Returns all tables.
 pub(super) fn text(sheet: &Sheet) -> String {
     let mut sections = vec![constants(sheet)];
     match &sheet.loading {
@@ -32,7 +32,7 @@ pub(super) fn text(sheet: &Sheet) -> String {
 
 fn constants(sheet: &Sheet) -> String {
     let (constants, pressed) = (&sheet.constants, &sheet.pressed);
-    let formula = |formula: Option<&'static str>| formula.unwrap_or("by numbers").to_owned();
+    let formula = |formula: Option<&'static str>| formula.unwrap_or("numerical").to_owned();
     let mut rows = vec![
         ("materials", constants.materials.join(", ")),
         ("profile", constants.profile.clone()),
@@ -51,7 +51,10 @@ fn constants(sheet: &Sheet) -> String {
             ("F_N, normal force (4.26)", quantity(pressed.normal_force, "N")),
             ("μF_N, maximum tangential force", quantity(pressed.limit_force, "N")),
             ("u_c = κd, gross slip begins (4.28)", quantity(pressed.gross_slip, "m")),
-            ("p_max, largest pressure", pressed.peak_pressure.map_or("none: no shape".to_owned(), bounded)),
+            (
+                "p_max, maximum pressure",
+                pressed.peak_pressure.map_or("none: no 3D shape".to_owned(), bounded),
+            ),
             ("2G*a, tangential stiffness, stuck", quantity(pressed.tangential_stiffness, "N/m")),
             ("2E*a, normal stiffness", quantity(pressed.normal_stiffness, "N/m")),
             ("normal elastic energy", quantity(pressed.normal_energy, "J")),
@@ -116,7 +119,7 @@ fn universal(sheet: &Sheet) -> String {
     grid(head, sheet.universal.iter().map(row))
 }
 
-/// The corners of a history.
+/// Returns the table of the corners of a history.
 pub(super) fn corners(walk: &Walk) -> String {
     let row = |moment: &stickslip_run::theory::Moment| {
         let stop = &moment.stop;

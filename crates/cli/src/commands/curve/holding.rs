@@ -1,4 +1,4 @@
-//! `stickslip curve --curve holding-force`: what the drive holds at rest.
+//! `stickslip curve --curve holding-force`: holding force of the drive at rest.
 
 use super::{CurveFailure, complain_of_warnings, ends, of, place, prepared, said, shown, shows_rows};
 use crate::arguments::CurveArguments;
@@ -12,7 +12,7 @@ use stickslip_figures::curve::{self as pictures, holding as picture};
 use stickslip_study::curve::all_files;
 use stickslip_study::curve::holding::{self, Held, Holding, NAME, Point};
 
-/// Traces holding forces and writes them.
+/// Computes holding forces and writes the results.
 pub(super) fn trace(arguments: &CurveArguments) -> Result<Verdict, CurveFailure> {
     let over = arguments.vary.as_ref().map(|(path, _)| path.as_str());
     let holding = Holding::new(prepared(arguments)?, over)?;
@@ -50,7 +50,7 @@ pub(super) fn trace(arguments: &CurveArguments) -> Result<Verdict, CurveFailure>
         say(format_args!("\n{}: {}", out.display(), names.join(", ")));
     }
     let stopped = points.iter().all(|point| point.ways.iter().all(Result::is_err));
-    // Why there is nothing at all is no note.
+    // If there is no result at all, the reason is an error and not a note.
     if stopped && (arguments.quiet || arguments.json) {
         complain_of_faults(&holding, &points);
     }
@@ -61,9 +61,9 @@ pub(super) fn trace(arguments: &CurveArguments) -> Result<Verdict, CurveFailure>
     })
 }
 
-/// The points as a table where that is wanted, else the range of what is held, and what is wrong with some of them.
+/// Prints the table of points or the range of holding forces, and notes on points without results.
 fn tell(holding: &Holding, points: &[Point], rows: bool) {
-    say(format_args!("load on {} that is held at rest", holding.on()));
+    say(format_args!("holding force of {}", holding.on()));
     if rows {
         tell_rows(holding, points);
     } else {
@@ -74,7 +74,7 @@ fn tell(holding: &Holding, points: &[Point], rows: bool) {
     complain_of_warnings(&holding.job, points.iter().map(|point| point.warnings.as_slice()));
 }
 
-/// Least and largest load that is held, each way.
+/// Prints the smallest and largest holding force in each direction.
 fn tell_extremes(points: &[Point]) {
     for (way, sense) in ["+x", "\u{2212}x"].into_iter().enumerate() {
         let forces = points.iter().filter_map(|point| Some(point.ways[way].as_ref().ok()?.force));
@@ -87,7 +87,7 @@ fn tell_extremes(points: &[Point]) {
     }
 }
 
-/// The points as a table.
+/// Prints the points as a table.
 fn tell_rows(holding: &Holding, points: &[Point]) {
     let heads = ["load along +x", "\u{b1}", "beyond", "load along \u{2212}x", "\u{b1}", "beyond"];
     let mut table = table::plain([holding.variation.name.as_str()].into_iter().chain(heads));
@@ -104,7 +104,7 @@ fn tell_rows(holding: &Holding, points: &[Point]) {
     say(format_args!("{table}"));
 }
 
-/// That loads are not found, and why the first of them is not.
+/// Prints the number of missing holding forces and the first reason.
 fn complain_of_faults(holding: &Holding, points: &[Point]) {
     let faults = points
         .iter()
@@ -113,6 +113,9 @@ fn complain_of_faults(holding: &Holding, points: &[Point]) {
     if let Some((value, fault)) = faults.first() {
         let at = shown(*value, holding.variation.unit);
         let all = 2 * points.len();
-        complain(format_args!("note: {} of {all} loads are not found; at {at}: {fault}", faults.len()));
+        complain(format_args!(
+            "note: {} of {all} holding forces were not found; at {at}: {fault}",
+            faults.len()
+        ));
     }
 }

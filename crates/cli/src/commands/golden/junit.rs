@@ -1,8 +1,8 @@
-//! What CI services read: one test case a scenario.
+//! Report for CI services in JUnit format, with one test case per scenario.
 
 use std::fmt::Write;
 
-/// JUnit XML of names and, where something is wrong, what.
+/// Returns JUnit XML for names with optional failure messages.
 pub(super) fn suite(cases: &[(&str, Option<String>)]) -> String {
     let failures = cases.iter().filter(|(_, failure)| failure.is_some()).count();
     let mut text = format!(
@@ -26,7 +26,7 @@ pub(super) fn suite(cases: &[(&str, Option<String>)]) -> String {
     text + "</testsuite>\n</testsuites>\n"
 }
 
-/// What XML reserves, and what it does not allow at all.
+/// Escapes characters that XML reserves and replaces those that it does not allow.
 fn escaped(text: &str) -> String {
     text.chars().fold(String::new(), |mut text, c| {
         match c {

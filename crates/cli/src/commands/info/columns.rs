@@ -1,4 +1,4 @@
-//! Contacts as columns side by side.
+//! Formats contacts as columns of a table.
 
 use super::digits::digits;
 use super::tables::{WIDTH, grid, unbroken};
@@ -6,17 +6,17 @@ use stickslip_run::Real;
 use stickslip_run::info::{ContactInfo, Loaded, Pressed};
 use stickslip_run::quantity;
 
-/// Space that a column takes beside its text.
+/// Padding of a column.
 const PADDING: usize = 2;
-/// Contacts of one pair that a warning names.
+/// Maximum number of contacts named in a warning.
 const NAMED: usize = 4;
 
 const ABOUT_STROKE: &str = "\
-S₀ is that of the quasi-static, damped limit: flyback in no time, slow return, load against the
-steps. Strokes below it make no step there. A real slider rings after the flyback, and its steps
-near S₀ depend on the ringing.";
+S₀ is the value of the quasi-static, damped limit: instant flyback, slow stroke, load against the
+steps. In this limit, smaller strokes make no step. A real slider rings after the flyback, and its
+steps near S₀ depend on the ringing.";
 
-/// The contacts side by side, as many as fit, and what to know of them.
+/// Returns the contacts as columns, as many per block as fit, with notes and warnings.
 pub(super) fn contacts(contacts: &[(String, ContactInfo)]) -> String {
     let labels = cells_of(None);
     let label_width = labels.iter().map(|label| width(label)).max().unwrap_or(0) + PADDING;
@@ -50,7 +50,7 @@ pub(super) fn contacts(contacts: &[(String, ContactInfo)]) -> String {
     sections.join("\n\n")
 }
 
-/// The cells of a contact's column, its name first; the labels without one.
+/// Returns the cells of a contact's column, starting with its name. Without a contact it returns the row labels.
 fn cells_of(contact: Option<&(String, ContactInfo)>) -> Vec<String> {
     let word = |label: &str, cell: &dyn Fn(&ContactInfo) -> String| match contact {
         None => label.to_owned(),
@@ -73,25 +73,25 @@ fn cells_of(contact: Option<&(String, ContactInfo)>) -> Vec<String> {
         }),
         word("μ, coefficient of friction", &|c| c.friction.0.to_string()),
         word("κ = μE*/G*", &|c| digits(c.stick_slope.0)),
-        pressed("F_N, normal force of one", "N", &|p| Some(p.normal_force)),
+        pressed("F_N, normal force per contact", "N", &|p| Some(p.normal_force)),
         pressed("d, indentation", "m", &|p| Some(p.indentation)),
         pressed("a, contact radius", "m", &|p| Some(p.radius)),
-        pressed("p_max, largest pressure", "Pa", &|p| p.peak_pressure),
+        pressed("p_max, maximum pressure", "Pa", &|p| p.peak_pressure),
         pressed("u_c = κd, gross slip begins", "m", &|p| Some(p.gross_slip)),
         pressed("S₀, zero-step stroke", "m", &|p| Some(p.zero_step_stroke)),
-        word("constant load, share of μF_N", &|c| {
+        word("constant load, relative to μF_N", &|c| {
             let share = |load: Loaded| format!("{}, {}", quantity(load.force, "N"), digits(load.share.0));
             c.start.loaded.map_or(String::new(), share)
         }),
         pressed("S₀ against this load", "m", &|p| p.loaded?.zero_step_stroke),
-        pressed("μF_N of all, maximum force", "N", &|p| Some(p.limit_force)),
+        pressed("μF_N, friction limit of all", "N", &|p| Some(p.limit_force)),
         pressed("tangential stiffness of all, stuck", "N/m", &|p| Some(p.tangential_stiffness)),
         pressed("normal stiffness of all", "N/m", &|p| Some(p.normal_stiffness)),
         pressed("contact resonance", "Hz", &|p| p.resonance),
     ]
 }
 
-/// A value at the start, and from least to most where the load varies.
+/// Formats a value at the start, with its range if the load varies.
 fn ranged(contact: &ContactInfo, unit: &str, value: &dyn Fn(&Pressed) -> Option<Real>) -> String {
     let Some(start) = value(&contact.start) else { return String::new() };
     let ends = (contact.least.as_ref().and_then(value), contact.most.as_ref().and_then(value));
@@ -110,7 +110,7 @@ fn bounded(value: Real, unit: &str) -> String {
     if value.0.is_infinite() { "unbounded".to_owned() } else { quantity(value, unit) }
 }
 
-/// A sentence in lines that fit.
+/// Breaks a sentence into lines of the maximum width.
 pub(crate) fn broken(text: &str) -> String {
     let (mut lines, mut room) = (String::new(), usize::from(WIDTH));
     for word in text.split(' ') {
@@ -129,7 +129,7 @@ pub(crate) fn broken(text: &str) -> String {
     lines
 }
 
-/// What to know of pairs for which the theory is not exact, once for each pair.
+/// Returns warnings for material pairs for which the theory is not exact, one per pair.
 fn warnings(contacts: &[(String, ContactInfo)]) -> Vec<String> {
     let mut pairs: Vec<(String, Vec<&str>)> = Vec::new();
     for (name, contact) in contacts.iter().filter(|(_, contact)| !contact.elastically_similar) {

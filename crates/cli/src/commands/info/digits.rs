@@ -1,24 +1,24 @@
-//! Numbers as they stand in the tables.
+//! Number formats of the tables.
 
 use stickslip_quantity::Prefix;
 use stickslip_run::Real;
 use stickslip_run::quantity;
 
-/// From here on a count is written with its power of ten.
+/// Integers from this value on are written with an exponent.
 const MOST: f64 = 1e12;
 
-/// A mass in grams: kg takes no prefix.
+/// Formats a mass in grams, because kg takes no prefix.
 pub(super) fn mass(mass: Real) -> String {
     quantity(Real(1e3 * mass.0), "g")
 }
 
-/// Decimal prefixes, two digits: an estimate.
+/// Formats a number of bytes with a decimal prefix and two digits.
 pub(super) fn bytes(size: Real) -> String {
     let prefix = Prefix::of_magnitude(size.0);
     format!("{} {}B", two_digits(prefix.apply(size.0)), prefix.symbol)
 }
 
-/// A number of at least 0 to two digits.
+/// Formats a non-negative number with two digits.
 pub(super) fn two_digits(value: f64) -> String {
     if value < 10.0 {
         return format!("{value:.1}").trim_end_matches(".0").to_owned();
@@ -27,7 +27,7 @@ pub(super) fn two_digits(value: f64) -> String {
     whole((value / unit).round() * unit)
 }
 
-/// Three digits of a number without unit.
+/// Formats a number without unit with three digits.
 pub(crate) fn digits(value: f64) -> String {
     let places =
         if value == 0.0 { 0 } else { (2.0 - math::log10(value.abs()).floor()).clamp(0.0, 9.0) as usize };
@@ -35,7 +35,7 @@ pub(crate) fn digits(value: f64) -> String {
     if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_owned() } else { text }
 }
 
-/// A whole number with a space between thousands.
+/// Formats an integer with spaces between thousands.
 pub(super) fn whole(value: f64) -> String {
     if value >= MOST {
         return format!("{value:.1e}");

@@ -1,4 +1,4 @@
-//! The derived numbers as tables for people, the same on a terminal and into a pipe.
+//! Formats the properties of a scenario as tables. The width does not depend on the terminal.
 
 use super::columns::{self, span};
 use super::digits::{bytes, digits, mass, two_digits, whole};
@@ -10,16 +10,16 @@ use stickslip_run::outlook::Outlook;
 use stickslip_run::quantity;
 use stickslip_study::Info;
 
-/// Widest line.
+/// Maximum line width.
 pub(super) const WIDTH: u16 = 100;
-/// A line under the heads, nothing else.
+/// Table style with a line below the header only.
 const STYLE: TableStyle = TableStyle::new().header_separator(LineStyle::none().fill('─').junction('─'));
-/// A space at which lines are not broken; printed as any other.
+/// Non-breaking space, printed as an ordinary space.
 const KEPT_SPACE: char = '\u{a0}';
-/// Displacement in a mode, as a share of the largest, that shows in three digits.
+/// Smallest displacement in a vibration mode, relative to the largest, that is shown.
 const SHOWN: f64 = 5e-4;
 
-/// All tables.
+/// Returns all tables.
 pub(super) fn text(info: &Info) -> String {
     let head = if info.title.is_empty() {
         info.scenario.clone()
@@ -73,7 +73,7 @@ fn modes(info: &Info) -> String {
         let moves = mode.shape.0.iter().filter(|(_, x)| x.0.abs() >= SHOWN);
         let shape: Vec<String> = moves.map(|(name, x)| format!("{name} {}", digits(x.0))).collect();
         if mode.frequency.0 == 0.0 && mode.range.is_none_or(|[_, high]| high.0 == 0.0) {
-            return vec!["nothing holds it".to_owned(), String::new(), String::new(), unbroken(&shape)];
+            return vec!["not held".to_owned(), String::new(), String::new(), unbroken(&shape)];
         }
         vec![
             format!("{}{range}", quantity(mode.frequency, "Hz")),
@@ -91,21 +91,23 @@ fn actuators(info: &Info) -> String {
             format!("k {}", quantity(piezo.stiffness, "N/m")),
             format!("c {}", quantity(piezo.damping, "N s/m")),
         ];
-        numbers.extend(piezo.quality.map(|quality| format!("(Q {} of a soft ceramic)", digits(quality.0))));
+        numbers.extend(
+            piezo.quality.map(|quality| format!("(Q {}, typical of a soft ceramic)", digits(quality.0))),
+        );
         numbers.extend(piezo.mass.map(|own| format!("own mass {}", mass(own))));
         numbers.extend(piezo.stroke_per_volt.map(|gain| quantity(gain, "m/V")));
         numbers.extend(piezo.capacitance.map(|farads| quantity(farads, "F")));
-        numbers.extend(piezo.resolution.map(|step| format!("{} a count", quantity(step, "m"))));
+        numbers.extend(piezo.resolution.map(|step| format!("{} per count", quantity(step, "m"))));
         numbers.extend(piezo.coupling.map(|part| format!("kα²/C {}", digits(part.0))));
         let force = piezo.command.blocking_force;
         let [low, high] = piezo.command.stroke.map(|end| quantity(end, "m"));
-        let command = format!("{low} … {high}, {} blocked", quantity(force, "N"));
+        let command = format!("{low} … {high}, blocking force {}", quantity(force, "N"));
         vec![name.clone(), command, unbroken(&numbers)]
     };
     if info.actuators.0.is_empty() {
         return String::new();
     }
-    let table = grid(["ACTUATORS", "command, as a stroke", "stack"], info.actuators.0.iter().map(row));
+    let table = grid(["ACTUATORS", "commanded stroke", "stack"], info.actuators.0.iter().map(row));
     let said = info.actuators.0.iter().flat_map(|(_, piezo)| &piezo.words);
     std::iter::once(table).chain(said.map(|words| paragraph(words))).collect::<Vec<_>>().join("\n\n")
 }
@@ -120,12 +122,12 @@ fn lasting(info: &Info) -> String {
             };
             vec![
                 ["step", &format!("{}{speed}", motion.step_words())].map(str::to_owned),
-                ["a disturbance", &motion.words].map(str::to_owned),
+                ["disturbance", &motion.words].map(str::to_owned),
             ]
         }
         Outlook::NotFound { fault } => vec![["none", fault.as_str()].map(str::to_owned)],
     };
-    grid(["STEADY MOTION", ""], rows.into_iter().map(Vec::from))
+    grid(["PERIODIC ORBIT", ""], rows.into_iter().map(Vec::from))
 }
 
 fn run(info: &Info) -> String {
@@ -145,7 +147,7 @@ fn run(info: &Info) -> String {
     let time = match stepping.until_steady {
         Some(change) => {
             format!(
-                "at most {}, until steps change by {:e} of themselves",
+                "at most {}, or until the relative change of steps is {:e}",
                 quantity(stepping.duration, "s"),
                 change.0
             )
@@ -165,7 +167,7 @@ fn run(info: &Info) -> String {
         ("stable fixed step, verlet", stable(stepping.longest_verlet)),
         ("stable fixed step, rk4", stable(stepping.longest_rk4)),
         (
-            "events, estimate from the examples",
+            "events, rough estimate",
             Some(format!("about {}{}", two_digits(events.total()), per_period.unwrap_or_default())),
         ),
         ("rows × columns", Some(format!("{} × {}", whole(expected.rows.0), expected.columns))),
@@ -192,7 +194,7 @@ fn usage(info: &Info) -> String {
     tables.into_iter().filter(|table| !table.is_empty()).collect::<Vec<_>>().join("\n\n")
 }
 
-/// What a coordinate does.
+/// Describes the freedom of a coordinate.
 fn words(freed: &Freed) -> String {
     match freed {
         Freed::Fixed => "fixed".to_owned(),
@@ -202,7 +204,7 @@ fn words(freed: &Freed) -> String {
     }
 }
 
-/// A table with its heads; nothing without rows.
+/// Returns a table with a header, or an empty string without rows.
 pub(crate) fn grid(
     head: impl IntoIterator<Item = impl Into<String>>,
     rows: impl IntoIterator<Item = Vec<String>>,
@@ -215,11 +217,11 @@ pub(crate) fn grid(
         return String::new();
     }
     let text = table.trim_fmt().replace(KEPT_SPACE, " ");
-    // The table's own space at the left.
+    // Removes the padding at the left side.
     text.lines().map(|line| line.strip_prefix(' ').unwrap_or(line)).collect::<Vec<_>>().join("\n")
 }
 
-/// A sentence in lines that fit.
+/// Breaks a sentence into lines of the maximum width.
 fn paragraph(sentence: &str) -> String {
     let mut table = Table::new();
     table.load_style(TableStyle::new()).set_content_arrangement(ContentArrangement::Dynamic).set_width(WIDTH);
@@ -227,7 +229,7 @@ fn paragraph(sentence: &str) -> String {
     table.trim_fmt().lines().map(str::trim).collect::<Vec<_>>().join("\n")
 }
 
-/// A list that is broken between its names only.
+/// Joins names so that lines break only between them.
 pub(super) fn unbroken(names: &[String]) -> String {
     let names: Vec<String> = names.iter().map(|name| name.replace(' ', &KEPT_SPACE.to_string())).collect();
     names.join(", ")

@@ -1,4 +1,4 @@
-//! Pictures of several results over each other.
+//! `stickslip plot --over`: plots of several results in one diagram.
 
 use super::{PlotFailure, write};
 use crate::arguments::PlotArguments;
@@ -10,7 +10,7 @@ use stickslip_figures::overlay::{self, OVERLAID};
 use stickslip_run::Results;
 use stickslip_scenario::PlotName;
 
-/// Draws each kind of picture of all folders into one.
+/// Draws each kind of plot with the results of all folders.
 pub(super) fn plot(arguments: &PlotArguments) -> Verdict {
     let mut worst = Verdict::Done;
     for failure in draw(arguments).unwrap_or_else(|failure| vec![failure]) {
@@ -20,7 +20,7 @@ pub(super) fn plot(arguments: &PlotArguments) -> Verdict {
     worst
 }
 
-/// Draws what can be drawn; returns what went wrong with the others.
+/// Draws the plots and returns the errors.
 fn draw(arguments: &PlotArguments) -> Result<Vec<PlotFailure>, PlotFailure> {
     let [first, others @ ..] = &arguments.folders[..] else { return Ok(Vec::new()) };
     if others.is_empty() {
@@ -57,23 +57,26 @@ fn sources(results: &Results) -> Sources<'_> {
     Sources { job, kept, insides: insides.clone() }
 }
 
-/// Those that are curves: of those asked for all must be, of those of a scenario the others are left out.
+/// Returns the plots that can be overlaid. If plots are requested, all of them must be of this kind; other plots of a
+/// scenario are skipped.
 fn plots(named: &[PlotName], are_asked_for: bool) -> Result<Vec<PlotName>, PlotFailure> {
     let can = || OVERLAID.map(PlotName::name).join(", ");
     if let Some(other) = named.iter().find(|plot| are_asked_for && !OVERLAID.contains(plot)) {
-        let words = format!("{} cannot be drawn over another; these can: {}", other.name(), can());
+        let words = format!("the plot {} cannot be overlaid; these plots can: {}", other.name(), can());
         return Err(PlotFailure::Over(words));
     }
     let plots: Vec<PlotName> = OVERLAID.into_iter().filter(|plot| named.contains(plot)).collect();
     if plots.is_empty() {
-        let words =
-            format!("the first results name no such pictures\n   help: name some with --plots: {}", can());
+        let words = format!(
+            "the scenario of the first folder names no such plots\n   help: name some with --plots: {}",
+            can()
+        );
         return Err(PlotFailure::Over(words));
     }
     Ok(plots)
 }
 
-/// The ends of the folders' paths, of as many parts as tell them apart.
+/// Returns the shortest ends of the folder paths that differ from each other.
 fn names(folders: &[PathBuf]) -> Vec<String> {
     let end = |folder: &Path, parts: usize| {
         let all: Vec<_> = folder.iter().map(|part| part.to_string_lossy().into_owned()).collect();

@@ -1,4 +1,4 @@
-//! Why a loop does not begin, or what it cannot write.
+//! Errors before and after a real-time loop.
 
 use std::io;
 use std::net::SocketAddr;
@@ -13,153 +13,153 @@ use stickslip_run::Refusal;
 use stickslip_run::complaint::words;
 use thiserror::Error;
 
-/// Why there is no loop, or no report.
+/// Reason why there is no loop or no report.
 #[derive(Debug, Error)]
 pub(crate) enum Failure {
-    /// The file.
+    /// The scenario is rejected.
     #[error(transparent)]
     Refused(#[from] Refusal),
-    /// The scenario, which was good, with this stepper.
+    /// The scenario is invalid with this integrator.
     #[error("--stepper {stepper}: {message}")]
     Unfit {
-        /// As it was asked for.
+        /// Integrator as given.
         stepper: String,
-        /// What does not fit.
+        /// Error message.
         message: String,
     },
-    /// The stepper's name.
+    /// The integrator is unknown.
     #[error(
         "--stepper {0}: expected frames, frames:ACCURACY, event, event:TOLERANCE, verlet, verlet:STEP, rk4 or rk4:STEP, such as verlet:\"1 us\""
     )]
     Stepper(String),
-    /// A step that cannot be found.
+    /// The model has no oscillation that determines a time step.
     #[error(
-        "--stepper {0}: nothing in the scene swings, so that it says no step; give one, such as {0}:\"1 us\""
+        "--stepper {0}: the model has no oscillation that determines a time step; give one, such as {0}:\"1 us\""
     )]
     NoStep(String),
-    /// The drive.
+    /// The model cannot be simulated.
     #[error(transparent)]
     Run(#[from] RunError),
-    /// Channels.
+    /// Inputs or outputs are invalid.
     #[error(transparent)]
     Channels(#[from] ChannelError),
-    /// Inputs for a scene without any.
+    /// The scenario has no inputs.
     #[error(
-        "{0}: nothing in the scene is fed from outside; a waveform of the kind \"input\" or \"generator\" is, such as {{ \"input\": {{ \"initial\": 0, \"range\": [\"-1 um\", \"1 um\"] }} }}"
+        "{0}: the scenario has no waveform of kind \"input\" or \"generator\"; add one, such as {{ \"input\": {{ \"initial\": 0, \"range\": [\"-1 um\", \"1 um\"] }} }}"
     )]
     NoInputs(&'static str),
-    /// No address of this machine, or a port in use.
+    /// The address is not local or the port is in use.
     #[error("--inputs udp:{address}: {}", words(source))]
     Address {
-        /// The address.
+        /// Address given for the inputs.
         address: SocketAddr,
-        /// What the system says.
+        /// Error of the operating system.
         source: io::Error,
     },
-    /// Nobody to send to.
+    /// The destination of the outputs is unknown.
     #[error(
-        "--outputs udp: without --inputs udp:HOST:PORT nobody speaks who could be answered; give udp:HOST:PORT"
+        "--outputs udp: without --inputs udp:HOST:PORT the destination is not known; give --outputs udp:HOST:PORT"
     )]
     NobodyToAnswer,
-    /// Shared memory of two names.
-    #[error("--outputs shm: the inputs have other shared memory; both lie in one")]
+    /// Inputs and outputs name different shared memories.
+    #[error("--outputs shm: the inputs use another shared memory; give the same name for both")]
     TwoMemories,
-    /// Shared memory.
+    /// The shared memory cannot be used.
     #[error(transparent)]
     Memory(#[from] MemoryError),
-    /// What is replayed.
+    /// The recording cannot be replayed.
     #[error("--inputs replay: {0}")]
     Recording(#[from] RecordingError),
-    /// A recording that ends before.
-    #[error("--for: the recording has {recorded} frames, {asked} are asked for")]
+    /// The recording is too short.
+    #[error("--for: the recording has {recorded} frames, {asked} are needed")]
     Short {
-        /// What it has.
+        /// Number of recorded frames.
         recorded: u64,
-        /// What is asked for.
+        /// Number of requested frames.
         asked: u64,
     },
-    /// No frame, or more than anybody can wait for.
-    #[error("--for: expected 1 to 1.4e12 frames of the period, got {0:e}")]
+    /// The number of frames is invalid.
+    #[error("--for: expected a time of 1 to 1.4e12 frames, got {0:e} frames")]
     Frames(f64),
-    /// More steps in a frame than anybody waits for.
+    /// A frame has too many time steps.
     #[error(
-        "--stepper {stepper}: steps of {step} make {steps} steps a frame of {period}, expected at most {most}\n   help: {help}"
+        "--stepper {stepper}: time steps of {step} give {steps} time steps per frame of {period}, expected at most {most}\n   help: {help}"
     )]
     TooManySteps {
-        /// As it was asked for.
+        /// Integrator as given.
         stepper: String,
-        /// Its step.
+        /// Time step.
         step: String,
-        /// Steps of a frame.
+        /// Time steps per frame.
         steps: f64,
-        /// The period.
+        /// Period.
         period: String,
-        /// How many there may be.
+        /// Maximum number of time steps.
         most: f64,
-        /// What might do.
+        /// Advice for the user.
         help: String,
     },
-    /// More than the machine can do.
+    /// The machine is too slow for this period.
     #[error(
-        "--period: this machine cannot keep {period:.3} µs: of {frames} frames computed without waiting the median took {median:.3} µs, the \
-         longest {worst:.3} µs\n   help: use a period of {help:.0} µs or more, another stepper or a coarser tolerance; --force starts \
-         anyway, --unpaced runs without a clock"
+        "--period: this machine cannot keep {period:.3} µs: of {frames} frames computed without waiting, the \
+         median took {median:.3} µs, the longest {worst:.3} µs\n   help: use a period of {help:.0} µs or \
+         more, another stepper or a coarser tolerance; --force starts anyway, --unpaced runs without a clock"
     )]
     TooShort {
-        /// The period, µs.
+        /// Period, µs.
         period: f64,
-        /// Frames computed.
+        /// Number of computed frames.
         frames: u64,
-        /// The median, µs.
+        /// Median computing time, µs.
         median: f64,
-        /// The longest, µs.
+        /// Longest computing time, µs.
         worst: f64,
-        /// What might do, µs.
+        /// Recommended period, µs.
         help: f64,
     },
-    /// The input never came.
+    /// No valid input arrived.
     #[error(
-        "--inputs: no good input came within {wait} s{refused}; nothing was computed\n   help: start the client before, or wait longer with --wait; --wait 0 starts without"
+        "--inputs: no valid input arrived within {wait} s{refused}; nothing was computed\n   help: start the client first, or wait longer with --wait; --wait 0 starts without an input"
     )]
     NoInput {
-        /// How long was waited, s.
+        /// Waiting time, s.
         wait: f64,
-        /// What came and was refused, in words.
+        /// Description of refused packets.
         refused: String,
     },
-    /// A file cannot be begun.
+    /// A file cannot be created.
     #[error("{}: {}", path.display(), words(source))]
     File {
-        /// The file.
+        /// Path of the file.
         path: PathBuf,
-        /// What the system says.
+        /// Error of the operating system.
         source: io::Error,
     },
-    /// Something else than a file, which a file would replace.
-    #[error("{}: it is a device, a pipe or a link; give the name of a file", .0.display())]
+    /// The path is a device, a pipe or a link.
+    #[error("{}: this is a device, a pipe or a link; give the name of a file", .0.display())]
     NoPlainFile(PathBuf),
-    /// What the command reads.
-    #[error("{}: it is read by this command; give another name", .0.display())]
+    /// The command reads this file.
+    #[error("{}: this command reads this file; give another name", .0.display())]
     IsRead(PathBuf),
-    /// A file for two things.
-    #[error("{}: it is asked for twice; give another name", .0.display())]
+    /// Two options name the same file.
+    #[error("{}: two options name this file; give another name", .0.display())]
     Twice(PathBuf),
-    /// A file could not be written to its end.
-    #[error("not all could be written: {0}")]
+    /// A file could not be completed.
+    #[error("not all outputs could be written: {0}")]
     Cut(String),
     /// The report cannot be written.
     #[error("the report cannot be written: {}", words(.0))]
     Report(#[from] io::Error),
-    /// A picture.
+    /// A plot fails.
     #[error(transparent)]
     Figure(#[from] FigureError),
-    /// The report is no JSON.
+    /// The report cannot be serialised.
     #[error(transparent)]
     Json(#[from] serde_json::Error),
 }
 
 impl Failure {
-    /// How the command ends.
+    /// Returns the exit status of the command.
     pub(crate) fn verdict(&self) -> Verdict {
         match self {
             Self::Cut(_) | Self::Report(_) | Self::Figure(_) | Self::Json(_) => Verdict::Stopped,

@@ -1,4 +1,4 @@
-//! Files of a loop: those that are written while it runs, and its report.
+//! Output files of a real-time loop: those written during the loop, and the report.
 
 use super::failure::Failure;
 use super::stage::Stage;
@@ -13,37 +13,37 @@ use stickslip_run::complaint::words;
 use stickslip_run::folder::{Folder, draft, sweep};
 use tempfile::NamedTempFile;
 
-/// Names of the files of the report.
+/// File names of the report.
 const REPORT: &str = "realtime.json";
 const HISTOGRAM: &str = "histogram.csv";
 const FRAMES: &str = "frames.csv";
-/// Bytes that are kept for them.
+/// Reserved disk space for the report, bytes.
 const RESERVE: usize = 1 << 16;
 
-/// Files that are written while the loop runs; they get their names when it is over.
+/// Files written during the loop. They receive their names when the loop has ended.
 #[derive(Debug, Default)]
 pub(super) struct Drafts {
     files: Vec<(NamedTempFile, PathBuf)>,
-    /// What the command reads, and must not replace.
+    /// Input files of the command, which must not be replaced.
     read: Vec<PathBuf>,
-    /// What the report is written to.
+    /// Files of the report.
     reported: Vec<PathBuf>,
 }
 
 impl Drafts {
-    /// None yet; what is at these paths is read, and the report goes into a folder.
+    /// Starts without files. `read` are the input files of the command, `report` is the folder of the report.
     pub(super) fn beside<'p>(read: impl IntoIterator<Item = &'p Path>, report: &Path) -> Self {
         let read = read.into_iter().filter_map(|path| path.canonicalize().ok()).collect();
         let reported = report.canonicalize().map(|at| names().iter().map(|name| at.join(name)).collect());
         Self { read, reported: reported.unwrap_or_default(), ..Self::default() }
     }
 
-    /// Begins a file.
+    /// Creates a file.
     pub(super) fn begin(&mut self, path: &Path) -> Result<BufWriter<File>, Failure> {
         let failed = |source| Failure::File { path: path.to_owned(), source };
         let folder = path.parent().filter(|parent| !parent.as_os_str().is_empty()).unwrap_or(Path::new("."));
         let name = path.file_name().ok_or_else(|| failed(std::io::ErrorKind::IsADirectory.into()))?;
-        // A draft takes the place of what is there: of a device, a pipe or a link it would be the end.
+        // A file replaces what is at its path, which must not be a device, a pipe or a link.
         match path.symlink_metadata() {
             Ok(there) if there.is_dir() => return Err(failed(std::io::ErrorKind::IsADirectory.into())),
             Ok(there) if !there.is_file() => return Err(Failure::NoPlainFile(path.to_owned())),
@@ -62,7 +62,10 @@ impl Drafts {
         Ok(BufWriter::new(writer))
     }
 
-    /// Gives all of them their names; those that get none are gone.
+    /// Gives all files their names.
+    ///
+    /// # Errors
+    /// Fails if files cannot be renamed; they are deleted, the others are kept.
     pub(super) fn keep(self) -> Result<(), Failure> {
         let name = |(file, path): (NamedTempFile, PathBuf)| {
             let error = file.persist(&path).err()?.error;
@@ -73,17 +76,17 @@ impl Drafts {
     }
 }
 
-/// Names of all files of the report.
+/// Returns the names of all files of the report.
 fn names() -> Vec<String> {
     [REPORT, HISTOGRAM, FRAMES].map(str::to_owned).into_iter().chain(realtime::all_files()).collect()
 }
 
-/// The folder of the report, with room for it.
+/// Returns the folder of the report with reserved disk space.
 pub(super) fn ready(stage: &Stage<'_>) -> Result<Folder, Failure> {
     Ok(Folder::ready(&stage.job.folder, RESERVE)?)
 }
 
-/// Writes the report; returns where it is.
+/// Writes the report. Returns its folder and file names.
 pub(super) fn write(
     mut folder: Folder,
     stage: &Stage<'_>,
@@ -92,7 +95,7 @@ pub(super) fn write(
 ) -> Result<String, Failure> {
     let (at, stale) = (&stage.job.folder, names());
     folder.release();
-    // A command that was killed has left its drafts.
+    // An interrupted command may have left temporary files.
     sweep(at, &stale);
     folder.write(REPORT, report.pretty()?.as_bytes())?;
     folder.write(HISTOGRAM, histogram_csv(&ended.timing, &ended.floor).as_bytes())?;

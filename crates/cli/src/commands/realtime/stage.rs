@@ -1,4 +1,4 @@
-//! A drive made ready for its loop.
+//! Preparation of a drive for a real-time loop.
 
 use super::failure::Failure;
 use super::stepper::chosen;
@@ -15,20 +15,20 @@ use stickslip_run::checkpoint::model_key;
 use stickslip_run::{Job, Real, quantity};
 use stickslip_scenario::Warning;
 
-/// Frames that are computed before the start, without waiting.
+/// Number of frames computed before the start to measure the computing time.
 const PROBED: u64 = 500;
-/// The same on rows of springs.
+/// The same for contacts modelled as rows of springs.
 const ROWS_PROBED: u64 = 1000;
-/// Most steps of a frame, where their number is known before: a frame is what inputs, outputs and deadlines wait for.
+/// Maximum number of time steps per frame, if known in advance.
 const MOST_STEPS: f64 = 1e5;
-/// Most frames of a loop: two years of 20 kHz.
+/// Maximum number of frames: two years at 20 kHz.
 const MOST_FRAMES: f64 = 1.4e12;
 
-/// A drive made ready.
+/// A drive prepared for a real-time loop.
 pub(super) struct Stage<'a> {
     pub(super) arguments: &'a RealtimeArguments,
     pub(super) job: &'a Job,
-    /// Tells its packets from those of other scenarios.
+    /// Identification number of the scenario in packets.
     pub(super) number: u64,
     pub(super) inputs: Vec<Input>,
     pub(super) outputs: Vec<Output>,
@@ -36,11 +36,11 @@ pub(super) struct Stage<'a> {
     start: State,
 }
 
-/// Refuses a frame of more steps than a loop in real time may have.
+/// Rejects a frame with too many time steps.
 fn check_steps(model: &Model, stepper: Stepper, arguments: &RealtimeArguments) -> Result<(), Failure> {
     let period = arguments.period;
     let (steps, longer) = match model.effective(stepper).accuracy() {
-        // A quotient of two decimals is a whole number but for its rounding.
+        // Rounding must not increase an integer ratio.
         Accuracy::Step(step) => ((period / step * (1.0 - 1e-12)).ceil(), true),
         Accuracy::Frame { length, error } => (model.substeps(length, error), false),
         Accuracy::Tolerance(_) => return Ok(()),
@@ -92,7 +92,7 @@ impl<'a> Stage<'a> {
         Ok(Self { arguments, job, number: u64::from_le_bytes(number), inputs, outputs, plan, start })
     }
 
-    /// What a client has to know.
+    /// Returns the text with inputs and outputs for clients.
     pub(super) fn introduction(&self) -> String {
         let inputs: Vec<&str> = self.inputs.iter().map(|input| input.name.as_str()).collect();
         let inputs = if inputs.is_empty() { "none".to_owned() } else { inputs.join(", ") };
@@ -104,13 +104,13 @@ impl<'a> Stage<'a> {
         )
     }
 
-    /// What is odd about the scene under the stepper taken, where its own is another.
+    /// Returns warnings of the scenario for a frame integrator that replaces its own.
     pub(super) fn warnings(&self) -> Vec<Warning> {
         let is_own = matches!(self.job.scenario.plan.stepper, Stepper::Frames { .. });
         if is_own { Vec::new() } else { self.job.warnings_of_frames(self.plan.stepper) }
     }
 
-    /// The stepper in words.
+    /// Describes the integrator.
     pub(super) fn stepper(&self) -> String {
         let stepper = self.job.model.effective(self.plan.stepper);
         match stepper.accuracy() {
@@ -126,7 +126,7 @@ impl<'a> Stage<'a> {
         }
     }
 
-    /// How the loop is run; `recorded` frames are there to be replayed.
+    /// Returns the settings of the loop. `recorded` is the number of frames of a recording to be replayed.
     pub(super) fn order(&self, recorded: Option<u64>) -> Result<Order, Failure> {
         let arguments = self.arguments;
         let asked = arguments.duration.map(|duration| duration / arguments.period);
@@ -154,7 +154,7 @@ impl<'a> Stage<'a> {
         })
     }
 
-    /// The drive at t = 0, which an observer may end within a frame.
+    /// Returns the drive at t = 0. The observer may interrupt it within a frame.
     pub(super) fn drive<'d>(&'d self, observer: &'d (dyn Watcher + Sync)) -> Result<Drive<'d>, Failure> {
         let channels = (&self.inputs[..], &self.outputs[..]);
         let start = (self.start.clone(), 0);
@@ -162,7 +162,8 @@ impl<'a> Stage<'a> {
         Ok(drive.heeding(observer))
     }
 
-    /// What frames take here, on a copy, and what they would on rows of springs; neither where the observer ends it.
+    /// Measures the computing time of frames, on a copy, and that of a model with rows of springs. Returns `None` if
+    /// the observer interrupts.
     pub(super) fn measure(
         &self,
         tells: bool,
@@ -180,7 +181,7 @@ impl<'a> Stage<'a> {
         }
         if tells {
             complain(format_args!(
-                "{}: {frames} frames computed without waiting: median {median:.2} µs, 99 % within {most:.2} µs, longest {worst:.2} µs",
+                "{}: {frames} frames, computed without waiting: median {median:.2} µs, 99 % within {most:.2} µs, longest {worst:.2} µs",
                 self.job.name
             ));
         }

@@ -1,17 +1,18 @@
-//! A stepper by its name.
+//! Integrators by name.
 
 use super::failure::Failure;
 use stickslip_drive::{Model, Stepper};
 use stickslip_scenario::quantity;
 
-/// What may be lost of a stroke in a stroke where nothing is given.
+/// Default accuracy of frames: error per stroke, relative to the stroke.
 const ACCURACY: f64 = 1e-3;
-/// Tolerance where none is given: that of a scenario.
+/// Default tolerance, equal to that of a scenario.
 const TOLERANCE: f64 = 1e-8;
-/// Longest step where none is given, as a share of the longest stable one.
+/// Default time step as a fraction of the longest stable one.
 const SHARE: f64 = 0.2;
 
-/// Frames of the period, unless another one is asked for: as exact as the scenario's own frames, if it has any.
+/// Returns the requested integrator. The default are frames of the given period, with the accuracy of the scenario's
+/// own frames if it has any.
 pub(super) fn chosen(
     asked: Option<&str>,
     own: Stepper,
@@ -27,7 +28,7 @@ pub(super) fn chosen(
     })
 }
 
-/// Reads `NAME` or `NAME:VALUE`; frames without a value have the accuracy given.
+/// Reads `NAME` or `NAME:VALUE`. `accuracy` is the default for frames.
 fn stepper(text: &str, accuracy: f64, model: &Model, period: f64) -> Result<Stepper, Failure> {
     let (name, value) = text.split_once(':').map_or((text, None), |(name, value)| (name, Some(value)));
     let refuse = || Failure::Stepper(text.to_owned());
@@ -46,7 +47,7 @@ fn stepper(text: &str, accuracy: f64, model: &Model, period: f64) -> Result<Step
         }
         "event" => {
             let tolerance = value.map_or(Ok(TOLERANCE), |value| value.parse().map_err(|_| refuse()))?;
-            // As a scenario may have it.
+            // Same range as in a scenario.
             if (1e-13..=1e-2).contains(&tolerance) { Ok(Stepper::Event { tolerance }) } else { Err(refuse()) }
         }
         "verlet" => fixed(|step| Stepper::Verlet { step }),
@@ -55,7 +56,7 @@ fn stepper(text: &str, accuracy: f64, model: &Model, period: f64) -> Result<Step
     }
 }
 
-/// The longest step that divides the frame and is no longer than the share.
+/// Returns the longest time step that divides the frame and is below the default fraction of the stable one.
 fn divided(model: &Model, make: fn(f64) -> Stepper, period: f64) -> Option<f64> {
     let longest = SHARE * model.longest_step(make(1.0))?;
     (longest.is_finite() && longest > 0.0).then(|| period / (period / longest).ceil().max(1.0))

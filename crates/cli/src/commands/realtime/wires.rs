@@ -1,4 +1,4 @@
-//! What goes in and out, opened before anything is computed.
+//! Inputs and outputs of a real-time loop.
 
 use super::failure::Failure;
 use super::files::Drafts;
@@ -17,16 +17,16 @@ use stickslip_realtime::wire;
 use stickslip_realtime::{Intake, Sink, Source};
 
 /// First line of a log.
-const LOG_HEAD: &[u8] = b"frame,latency_ns,execution_ns,left_out\n";
-/// Its columns.
+const LOG_HEAD: &[u8] = b"frame,latency_ns,execution_ns,deadlines_skipped\n";
+/// Number of columns of a log.
 const LOG_WIDTH: usize = 4;
 
-/// All that is open.
+/// All open inputs and outputs.
 pub(super) struct Wires {
     pub(super) wiring: Wiring,
-    /// Where tapes are written down.
+    /// Writers of recordings and logs.
     pub(super) reels: Vec<Reel<'static>>,
-    /// Frames that are there to be replayed.
+    /// Number of frames of a recording to be replayed.
     pub(super) recorded: Option<u64>,
 }
 
@@ -79,7 +79,7 @@ pub(super) fn open(stage: &Stage<'_>, drafts: &mut Drafts) -> Result<Wires, Fail
     Ok(Wires { wiring: Wiring { source, intake, sinks, log, recording }, reels, recorded })
 }
 
-/// What other machines can do, in words: addresses beyond loopback are as open as the network is.
+/// Returns warnings for addresses that other machines can reach.
 pub(super) fn exposed(wires: &WireArguments) -> Vec<String> {
     let is_beyond = |address: &&SocketAddr| !address.ip().to_canonical().is_loopback();
     let reached = match &wires.inputs {
@@ -92,16 +92,17 @@ pub(super) fn exposed(wires: &WireArguments) -> Vec<String> {
     });
     let reached = reached.map(|at| {
         format!(
-            "--inputs udp:{at}: other machines on the network can reach this port, and whoever speaks first has the inputs; \
-             udp:127.0.0.1:{} is this machine's alone",
+            "--inputs udp:{at}: other machines on the network can reach this port, and the first client \
+             controls the inputs; only this machine can reach udp:127.0.0.1:{}",
             at.port()
         )
     });
-    let sent = sent.map(|to| format!("--outputs udp:{to}: outputs go out to the network, as they are"));
+    let sent =
+        sent.map(|to| format!("--outputs udp:{to}: outputs are sent to the network without encryption"));
     reached.into_iter().chain(sent).collect()
 }
 
-/// Times as numbers of frames, at least one.
+/// Converts times to numbers of frames, at least one.
 fn patience(stage: &Stage<'_>) -> Patience {
     let wires = &stage.arguments.wires;
     let frames = |time: f64| (time / stage.arguments.period).ceil().max(1.0) as u64;
@@ -112,7 +113,7 @@ fn patience(stage: &Stage<'_>) -> Patience {
     }
 }
 
-/// The one shared memory that inputs and outputs lie in, if either does.
+/// Returns the shared memory of inputs and outputs, if one of them uses it.
 fn region(stage: &Stage<'_>) -> Result<Option<Arc<Region>>, Failure> {
     let wires = &stage.arguments.wires;
     let named: Vec<&PathBuf> = wires
@@ -140,7 +141,7 @@ fn sinks(
         match outputs {
             Outputs::Udp(to) => {
                 let socket = match (&own, to) {
-                    // The inputs' own reaches only what their address does.
+                    // The socket of the inputs only reaches its own network.
                     (_, Some(to)) => sender(*to)?,
                     (Some(own), None) => own.try_clone()?,
                     (None, None) => return Err(Failure::NobodyToAnswer),
@@ -159,7 +160,7 @@ fn sinks(
     Ok(sinks)
 }
 
-/// A socket of any port, of the kind that reaches an address.
+/// Returns a socket on any port that can reach an address.
 fn sender(to: SocketAddr) -> Result<UdpSocket, Failure> {
     let any: SocketAddr = if to.is_ipv4() { ([0; 4], 0).into() } else { ([0; 16], 0).into() };
     socket(any).map_err(|source| Failure::Address { address: to, source })

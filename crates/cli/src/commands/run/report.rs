@@ -1,4 +1,4 @@
-//! What a run tells people, and how it ended.
+//! Printed report and exit status of a run.
 
 use std::fmt::Display;
 use std::io;
@@ -13,24 +13,24 @@ use stickslip_run::outlook::Outlook;
 use stickslip_run::quantity;
 use stickslip_run::summary::{DriveSummary, Fretting, Losses, SettlingSummary, Status, Summary};
 
-/// An error below this share of the step does not show in its digits.
+/// Smallest error relative to the step length that is shown.
 const SHOWN: f64 = 1e-4;
-/// Steps that change by less than this share are even.
+/// Relative change below which step lengths count as constant.
 const EVEN: f64 = 1e-3;
-/// Smaller shares show in no per cent.
+/// Relative growth per period that rounds to 0 %.
 const UNSEEN: f64 = 5e-5;
 
-/// What is to be printed of one scenario.
+/// Printed report of one scenario.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct Report {
     pub(crate) verdict: Verdict,
-    /// For people, on stdout.
+    /// Text on stdout.
     pub(crate) result: String,
-    /// For machines, on stdout.
+    /// JSON on stdout.
     pub(crate) json: String,
-    /// On stderr: what the results are not worth …
+    /// Warnings about the results, on stderr.
     pub(crate) warning: String,
-    /// … and what went wrong.
+    /// Errors, on stderr.
     pub(crate) error: String,
 }
 
@@ -39,12 +39,12 @@ impl Report {
         Self { verdict, result: String::new(), json: String::new(), warning: String::new(), error }
     }
 
-    /// A scenario that is not run.
+    /// Report of a rejected scenario.
     pub(crate) fn refused(refusal: &impl Display) -> Self {
         Self::failed(Verdict::BadInput, refusal.to_string())
     }
 
-    /// A scenario whose turn did not come.
+    /// Report of a scenario that was not run because of an interruption.
     pub(crate) fn skipped(job: &Job) -> Self {
         Self::failed(
             Verdict::Interrupted,
@@ -52,7 +52,7 @@ impl Report {
         )
     }
 
-    /// The folder of the results cannot be made.
+    /// Report of a run whose output folder cannot be created.
     pub(crate) fn no_folder(job: &Job, error: &io::Error) -> Self {
         let folder = job.folder.display();
         let help = "   help: choose another folder with --out";
@@ -62,10 +62,10 @@ impl Report {
         )
     }
 
-    /// The results cannot be written.
+    /// Report of a run whose results cannot be written.
     pub(crate) fn not_written(job: &Job, error: &io::Error) -> Self {
         let folder = job.folder.display();
-        // Nothing but another command takes the drafts of a run away.
+        // Only another command removes the temporary files of a run.
         let help = match error.kind() {
             io::ErrorKind::NotFound => {
                 "\n   help: another run has removed the unfinished files in this folder; give each run its own folder with --out"
@@ -81,7 +81,7 @@ impl Report {
         )
     }
 
-    /// The same of a run with a checkpoint: how to go on with one that was halted.
+    /// Adds how to resume a stopped run with a checkpoint.
     pub(crate) fn resumable(mut self, job: &Job, outcome: &Outcome) -> Self {
         let limit = match &outcome.error {
             _ if outcome.excess.is_some() => " --set run.limits.memory=…",
@@ -97,7 +97,7 @@ impl Report {
         self
     }
 
-    /// The same of a run whose pictures could not all be written.
+    /// Adds that plots could not be written.
     pub(crate) fn without_pictures(mut self, job: &Job, failure: Option<io::Error>) -> Self {
         if let Some(failure) = failure {
             let lines = [
@@ -113,7 +113,7 @@ impl Report {
         self
     }
 
-    /// A run that has written its results.
+    /// Report of a run that has written its results.
     pub(crate) fn ended(
         job: &Job,
         (outcome, summary): (&Outcome, &Summary),
@@ -142,7 +142,7 @@ impl Report {
         Ok(Self { verdict, result, json: summary.line()?, warning: warnings.join("\n"), error })
     }
 
-    /// The same of a run that kept step with the clock.
+    /// Adds how well real time was kept.
     pub(crate) fn with_pace(mut self, words: Option<String>) -> Self {
         if let Some(words) = words.filter(|_| !self.result.is_empty()) {
             self.result += &format!("\n  {words}");
@@ -150,30 +150,30 @@ impl Report {
         self
     }
 
-    /// The same of a run whose steady motion somebody did not wait for.
+    /// Adds that the search for the periodic orbit was interrupted.
     pub(crate) fn without_outlook(mut self, job: &Job) -> Self {
         let folder = job.folder.display();
-        let said = "interrupted during the search for the periodic motion; all other results are in";
+        let said = "interrupted during the search for the periodic orbit; all other results are in";
         self.complain([format!("{}: {said} {folder}", job.name)]);
         self.verdict = self.verdict.max(Verdict::Interrupted);
         self
     }
 
-    /// Adds to what went wrong.
+    /// Adds error messages.
     fn complain(&mut self, lines: impl IntoIterator<Item = String>) {
         let before = std::mem::take(&mut self.error);
         let all: Vec<String> = [before].into_iter().filter(|said| !said.is_empty()).chain(lines).collect();
         self.error = all.join("\n");
     }
 
-    /// The same where results that are warned of are not good enough.
+    /// Treats warnings about the results as errors.
     pub(crate) fn judged_strictly(self) -> Self {
         let verdict = if self.warning.is_empty() { self.verdict } else { self.verdict.max(Verdict::Stopped) };
         Self { verdict, ..self }
     }
 }
 
-/// What the steps of a drive have come to.
+/// Describes the settling of the step length.
 fn settling(steps: &DriveSummary) -> String {
     let length = |length: Real| quantity(length, "m");
     let last = length(steps.last());
@@ -219,7 +219,7 @@ fn settling(steps: &DriveSummary) -> String {
     }
 }
 
-/// How far the body falls back in a step, where it does, and the share of its forward motion that this is.
+/// Describes the back-step and its fraction of the forward motion.
 fn back_step(losses: &Losses) -> String {
     let share = losses.back_step.map(|share| format!(" ({:.1} %)", 100.0 * share.0)).unwrap_or_default();
     match losses.back_step_length {
@@ -228,17 +228,17 @@ fn back_step(losses: &Losses) -> String {
     }
 }
 
-/// What the drive would settle on.
+/// Describes the periodic orbit.
 fn lasting(outlook: &Outlook) -> String {
     match outlook {
         Outlook::Found(motion) => {
-            format!("periodic motion: {}; a disturbance {}", motion.step_words(), motion.words)
+            format!("periodic orbit: {}; a disturbance {}", motion.step_words(), motion.words)
         }
         Outlook::NotFound { fault } => fault.clone(),
     }
 }
 
-/// What the last cycle of a contact has come to.
+/// Describes the last cycle of a contact.
 fn cycle(fretting: &Fretting) -> String {
     let energy = |energy: Real| quantity(energy, "J");
     if fretting.regime == Some("still") {
@@ -262,7 +262,7 @@ fn cycle(fretting: &Fretting) -> String {
     }
 }
 
-/// What was done, the numbers looked for first, where the files are.
+/// Returns the text of a complete run: the main results first, then the files.
 fn result(job: &Job, outcome: &Outcome, summary: &Summary) -> String {
     let (simulated, wall) = (quantity(summary.simulated, "s"), quantity(Real(outcome.wall), "s"));
     let steady = summary.steady_after.map(|periods| format!(", steps constant after {periods} periods"));
@@ -271,7 +271,7 @@ fn result(job: &Job, outcome: &Outcome, summary: &Summary) -> String {
     if let Some(steps) = &summary.steps {
         lines.push(format!("  {}, mean speed {}", settling(steps), quantity(steps.mean_speed, "m/s")));
         lines.extend(steps.oddity().iter().map(|line| format!("    {line}")));
-        // Who has a settled step need not hear that a motion was not looked for any further.
+        // If the step has settled, an unsuccessful search for the periodic orbit is not mentioned.
         let outlook =
             summary.outlook().filter(|it| matches!(it, Outlook::Found(_)) || steps.steady.is_none());
         lines.extend(outlook.map(|outlook| format!("  {}", lasting(outlook))));

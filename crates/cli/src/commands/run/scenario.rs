@@ -1,4 +1,4 @@
-//! One job from start to files.
+//! Runs one job and writes its files.
 
 use super::pace::Paced;
 use super::report::Report;
@@ -14,34 +14,34 @@ use stickslip_run::folder::{Folder, is_complete, sweep};
 use stickslip_run::summary::Status;
 use stickslip_run::{Draft, Job, Outcome, Recorder, Summary, Watcher};
 
-/// Bytes that are kept for the summary, besides what the scenario weighs: the disk may be full when it is written.
+/// Disk space reserved for the summary in addition to the scenario, bytes.
 const RESERVE: usize = 1 << 16;
 
-/// Bytes that the files need that come last, the pictures apart.
+/// Returns the disk space needed for the last files, without plots.
 fn reserve(job: &Job) -> usize {
     RESERVE + 8 * job.resolved.len()
 }
 
-/// How runs are conducted and drawn.
+/// Settings for runs and plots.
 pub(crate) struct Conduct<'a> {
     pub(crate) look: &'a Look,
     pub(crate) interrupt: &'a Interrupt,
     pub(crate) progress: &'a Progress,
-    /// Whether they keep step with the clock.
+    /// Whether runs keep step with wall time.
     pub(crate) realtime: bool,
 }
 
-/// How a run begins.
+/// Kind of start of a run.
 pub(crate) enum Beginning {
-    /// At its start.
+    /// From the initial state.
     Plain,
-    /// At its start, with checkpoints every so many seconds of wall time.
+    /// From the initial state, with checkpoints at this interval of wall time, s.
     Checkpoints(f64),
-    /// Where its checkpoint is, with more of them; at another interval, s, where one is given.
+    /// From a checkpoint, with further checkpoints; at this interval of wall time, s, if given.
     Resumed(Box<Resumption>, Option<f64>),
 }
 
-/// Runs a job and writes its results, also those of a run that did not come to its end.
+/// Runs a job and writes its results, even if the run stops early.
 pub(crate) fn run(
     job: &Job,
     beginning: Beginning,
@@ -54,7 +54,7 @@ pub(crate) fn run(
     if let Err(error) = folder.reserve(reserve(job)) {
         return Report::not_written(job, &error);
     }
-    // A run that was killed has left its drafts.
+    // An interrupted run may have left temporary files.
     let names =
         [TRACE, EVENTS, CYCLES, STEPS, SCENARIO, SUMMARY].into_iter().chain(INSIDES).map(str::to_owned);
     sweep(&job.folder, &names.chain(Look::all_files()).collect::<Vec<_>>());
@@ -87,7 +87,8 @@ pub(crate) fn run(
     report.with_pace(paced.map(|paced| paced.words()))
 }
 
-/// Writes what comes beside the tables, and gives all files their names. `goes_on` is asked while the steady motion is looked for.
+/// Writes all files except tables and gives them their names. `goes_on` is called during the search for the periodic
+/// orbit.
 pub(crate) fn write(
     job: &Job,
     (look, goes_on): (&Look, &dyn Fn() -> bool),
@@ -122,7 +123,8 @@ pub(crate) fn write(
     Ok(if gave_up { report.without_outlook(job) } else { report })
 }
 
-/// Where an interrupted run writes beside complete results: NAME.interrupted, or NAME.interrupted-2 … where that is something else.
+/// Returns the folder of an interrupted run if complete results exist: NAME.interrupted, or NAME.interrupted-2 etc. if
+/// it is in use.
 fn aside(folder: &Path) -> PathBuf {
     let name = |k: u32| {
         let mut name = folder.to_owned().into_os_string();
@@ -136,7 +138,7 @@ fn aside(folder: &Path) -> PathBuf {
     (1..1000).map(name).find(is_free).unwrap_or_else(|| name(1000))
 }
 
-/// Draws the pictures; returns why some of them could not be written, which costs the run nothing else.
+/// Draws the plots. Returns the first write error, which does not affect other results.
 fn draw(
     job: &Job,
     look: &Look,
@@ -174,7 +176,7 @@ mod tests {
         let set = [("plots", "[]"), ("figures.steady_motion", "true")];
         let set = set.map(|(path, value)| (path.to_owned(), value.to_owned()));
         let job = Job::prepare(&file, &set, root.path()).unwrap();
-        let look = Look { formats: Vec::new(), themes: Vec::new(), scale: 1, width: None };
+        let look = Look::default();
         let written = |goes_on: &dyn Fn() -> bool| {
             let folder = Folder::make(&job.folder).unwrap();
             let recorder = Recorder::new(&job, &()).with_tables(&folder).unwrap();
@@ -187,7 +189,7 @@ mod tests {
         let (report, summary) = written(&|| false);
         assert_eq!(report.verdict, Verdict::Interrupted);
         assert!(
-            report.error.contains("interrupted during the search for the periodic motion"),
+            report.error.contains("interrupted during the search for the periodic orbit"),
             "{}",
             report.error
         );

@@ -1,14 +1,14 @@
-//! A steady motion as tables for people, the same on a terminal and into a pipe.
+//! Formats a periodic orbit as tables. The width does not depend on the terminal.
 
 use crate::commands::info::tables::grid;
 use stickslip_run::outlook::step_words;
 use stickslip_run::{Job, Real, quantity};
 use stickslip_study::steady::{Aftermath, Multiplier, Steady};
 
-/// Multipliers that are told one by one.
+/// Maximum number of multipliers that are listed.
 const TOLD: usize = 8;
 
-/// What was found.
+/// Returns all tables.
 pub(super) fn text(job: &Job, found: &Steady, aftermath: Option<&Aftermath>) -> String {
     let body = job.scenario.figures.body.and_then(|body| job.scenario.scene.bodies.get(body));
     let step = found.step.map(|step| step_words(Real(step), Real(found.bound), 1));
@@ -31,7 +31,7 @@ pub(super) fn text(job: &Job, found: &Steady, aftermath: Option<&Aftermath>) -> 
         ("found in", Some(format!("{} simulated periods", found.work))),
         (
             "shakedown",
-            told(&found.shaken_down, "never slips grossly; the motion found is the nearest of a family of motions"),
+            told(&found.shaken_down, "never in gross slip; the orbit found is the nearest of a family of orbits"),
         ),
         (
             "no multiplier",
@@ -50,30 +50,30 @@ pub(super) fn text(job: &Job, found: &Steady, aftermath: Option<&Aftermath>) -> 
     let rows = rows.into_iter().filter_map(|(label, cell)| Some(vec![label.to_owned(), cell?]));
     let title = &job.scenario.title;
     let head = if title.is_empty() { job.name.clone() } else { format!("{}: {title}", job.name) };
-    let motion = grid(["STEADY MOTION", ""], rows);
+    let motion = grid(["PERIODIC ORBIT", ""], rows);
     let multipliers = multipliers(&found.multipliers);
     [head, motion, multipliers].into_iter().filter(|part| !part.is_empty()).collect::<Vec<_>>().join("\n\n")
 }
 
-/// Whether a run stays.
+/// Describes the stability.
 fn stable(found: &Steady) -> String {
     let radius = format!("{:.6}", found.radius());
     match (found.comes_back(), found.doubt()) {
         (Some(false), _) => {
-            format!("no: a run leaves this motion, largest |λ| {radius}; other unstable motions may exist")
+            format!("no: a run leaves this orbit, largest |λ| {radius}; other unstable orbits may exist")
         }
         (None, Some(doubt)) => format!("not known: {doubt}"),
         (None, None) if !found.shaken_down.is_empty() => {
             format!(
-                "neither: the motion is one of a family, and a disturbed run may end in another motion of the family, largest |λ| {radius}"
+                "neutral: the orbit is one of a family, and a disturbed run may end on another orbit of the family, largest |λ| {radius}"
             )
         }
         (None, None) if found.is_one_of_many() => {
             format!(
-                "neither: the motion is one of a family with different steps; a disturbance neither grows nor decays, largest |λ| {radius}"
+                "neutral: the orbit is one of a family with different steps; a disturbance neither grows nor decays, largest |λ| {radius}"
             )
         }
-        (None, None) => format!("neither: a disturbance neither grows nor decays, largest |λ| {radius}"),
+        (None, None) => format!("neutral: a disturbance neither grows nor decays, largest |λ| {radius}"),
         (Some(true), _) if found.radius() == 0.0 => "yes".to_owned(),
         (Some(true), _) => format!("yes, largest |λ| {radius}"),
     }

@@ -1,4 +1,4 @@
-//! `stickslip study optimise`: where a result is largest or smallest.
+//! `stickslip study optimise`: finds the maximum or minimum of a result.
 
 use super::{json, shown};
 use crate::arguments::study::OptimiseStudyArguments;
@@ -19,9 +19,9 @@ use stickslip_scenario::quantity;
 use stickslip_study::optimum::{Best, Optimum, Report};
 use stickslip_study::sweep::StudyError;
 
-/// A period of the waveform for a generator.
+/// File with one sampled period of the waveform, for a signal generator.
 const SAMPLES: &str = "waveform.csv";
-/// The waveform as a scenario has it.
+/// File with the waveform in the form of a scenario.
 const WAVEFORM: &str = "waveform.json";
 
 pub(super) fn optimise(arguments: &OptimiseStudyArguments) -> Result<Verdict, StudyError> {
@@ -39,7 +39,7 @@ pub(super) fn optimise(arguments: &OptimiseStudyArguments) -> Result<Verdict, St
     let out = out.clone().unwrap_or_else(|| Path::new("results").join(format!("{stem}-optimum")));
     let progress = Progress::new(!quiet && !arguments.json);
     progress.tell(format_args!(
-        "{}: {} numbers, at most {} evaluations",
+        "{}: {} variables, at most {} evaluations",
         optimum.job.name,
         optimum.dimensions(),
         optimum.most_evaluations()
@@ -58,7 +58,7 @@ pub(super) fn optimise(arguments: &OptimiseStudyArguments) -> Result<Verdict, St
     Ok(Verdict::Done)
 }
 
-/// Hertz of a text with a unit, or of a plain number.
+/// Reads a sample rate in Hz, with or without a unit.
 fn sample_rate(text: &str) -> Result<f64, StudyError> {
     let refused = |why: &str| StudyError::Unasked(format!("--rate {text}: {why}"));
     let rate = match text.parse::<f64>() {
@@ -68,7 +68,7 @@ fn sample_rate(text: &str) -> Result<f64, StudyError> {
     if rate > 0.0 && rate.is_finite() { Ok(rate) } else { Err(refused("expected a frequency above 0")) }
 }
 
-/// Writes all files, `optimum.json` last; returns their names.
+/// Writes all files, `optimum.json` last. Returns their names.
 fn write(
     out: &Path,
     (optimum, best, report): (&Optimum, &Best, &Report),
@@ -84,7 +84,7 @@ fn write(
         serde_json::to_vec_pretty(report).map_err(|error| disk(OPTIMUM, io::Error::other(error)))?;
     json.push(b'\n');
     files.push((OPTIMUM.to_owned(), json));
-    // Those of an earlier search.
+    // Delete files of an earlier search.
     for stale in Look::all_files_of(&[picture::NAME]).iter().map(String::as_str).chain([SAMPLES, WAVEFORM]) {
         drop(fs::remove_file(out.join(stale)));
     }
@@ -94,7 +94,7 @@ fn write(
     Ok(files.into_iter().map(|(name, _)| name).collect())
 }
 
-/// Share of the optimum by which local searches may differ before that is told.
+/// Relative difference of local searches above which it is reported.
 const DISAGREE: f64 = 0.01;
 
 fn tell(report: &Report) {
@@ -123,13 +123,13 @@ fn tell(report: &Report) {
         say(format_args!("limit: {limit}"));
     }
     let ends: Vec<String> = report.starts.iter().map(|start| shown(start.to, unit)).collect();
-    say(format_args!("local searches ended at {}", ends.join(", ")));
+    say(format_args!("results of the local searches: {}", ends.join(", ")));
     say(format_args!("{} evaluations, {} without a result", report.evaluations, report.failed));
-    // The waveform, which is the last one, stands in its file.
+    // The waveform is the last entry and has its own file.
     let numbers = best.set.len() - usize::from(report.waveform.is_some());
     let mut set: Vec<String> = best.set.iter().take(numbers).map(|set| format!("--set {set}")).collect();
     set.extend(report.waveform.as_ref().map(|_| format!("the waveform of {WAVEFORM}")));
-    say(format_args!("`stickslip steady` and `run` take it with {}", set.join(" ")));
+    say(format_args!("options for `stickslip steady` and `run`: {}", set.join(" ")));
     let (low, high) = (fold(report, f64::min), fold(report, f64::max));
     if high - low > DISAGREE * high.abs().max(low.abs()) {
         say(format_args!(
@@ -139,7 +139,7 @@ fn tell(report: &Report) {
     }
 }
 
-/// The least or the largest of what local searches have ended at.
+/// Returns the smallest or largest result of the local searches.
 fn fold(report: &Report, of: impl Fn(f64, f64) -> f64) -> f64 {
     report.starts.iter().map(|start| start.to.0).reduce(of).unwrap_or(f64::NAN)
 }

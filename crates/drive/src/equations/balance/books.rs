@@ -1,4 +1,4 @@
-//! What balanced coordinates change in slopes and books, and when nothing holds them.
+//! Energy balance of balanced coordinates, and overload of their contacts.
 
 use super::super::sum::{Components, Sum, View};
 use super::super::{Equations, Sample};
@@ -7,11 +7,11 @@ use crate::model::Balanced;
 use crate::scene::Axis;
 
 impl Equations<'_> {
-    /// What balanced coordinates change in the sums: the slopes of those that are carried, and the power of their loads.
+    /// Adds the contributions of balanced coordinates: slopes of positions that are states, and the power of their loads.
     ///
-    /// Contacts and springs take the power L q̇ of a load L, and have been asked. Near gross slip q̇ grows without bound, and
-    /// no step would be short enough for it: booked is L q, read off the present place, less the integral of q L̇.
-    // Out of line: most scenes have none, and their slopes are no longer for it.
+    /// The power L q̇ of a load L diverges near gross slip. Therefore the work is L q from the present position, minus the
+    /// integral of q L̇.
+    // Not inlined, as most models have no balanced coordinates.
     #[inline(never)]
     pub(in crate::equations) fn balance(&self, at: &impl View, sum: &mut Sum<'_>, extra: &mut [f64]) {
         let read = |i: usize| at.component(i);
@@ -26,7 +26,7 @@ impl Equations<'_> {
         }
     }
 
-    /// What loads pull at a balanced coordinate, N.
+    /// Returns the load on a balanced coordinate, N.
     fn load(&self, balanced: &Balanced, t: f64) -> Sample {
         let mut sum = Sample { value: balanced.own.force, rate: 0.0, acceleration: 0.0 };
         for &(w, a) in &balanced.own.loads {
@@ -37,7 +37,7 @@ impl Equations<'_> {
         sum
     }
 
-    /// Σ L q over balanced coordinates, J: the work of their loads, but for the integral of q L̇.
+    /// Returns Σ L q over balanced coordinates, J: the work of their loads without the integral of q L̇.
     pub(crate) fn laden(&self, t: f64, y: &impl Fn(usize) -> f64) -> f64 {
         let read = |i: usize| y(i);
         let at = Components { t, y: &read as &dyn Fn(usize) -> f64 };
@@ -54,8 +54,8 @@ impl Equations<'_> {
         self.pull(&balanced.pull, at).value + led.sum::<f64>()
     }
 
-    /// Whether what acts along z presses any contact of coordinate `b`, or nothing acts: a body between a floor and a ceiling
-    /// is held whatever pulls. A load of no more than `rounding` (N) is about to press, or to lift, as it changes.
+    /// Whether the normal load presses a contact of coordinate `b`, or is zero. A body between floor and ceiling is pressed by
+    /// any load. A load of at most `rounding` (N) is judged by its change.
     pub(crate) fn presses(&self, b: usize, at: &Instant<'_>, rounding: f64) -> bool {
         let balanced = &self.model.balanced[b];
         let Sample { value, rate, acceleration } = self.pull(&balanced.pull, at);
@@ -64,10 +64,10 @@ impl Equations<'_> {
         push == 0.0 || balanced.contacts.iter().any(|(_, a)| a * push > 0.0)
     }
 
-    /// What pulls at balanced coordinate `b`, N, and the most that its contacts hold where nothing else does; none where a
-    /// spring holds it, or a contact still does.
+    /// Returns the load on balanced coordinate `b` and the limit of its contacts, N. None if a spring holds it, or a contact
+    /// still does.
     ///
-    /// `gone` says of a contact that it holds no more than its limit.
+    /// `gone` says whether a contact has reached its limit.
     pub(crate) fn given_way(
         &self,
         b: usize,

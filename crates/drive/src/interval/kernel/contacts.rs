@@ -9,7 +9,7 @@ use crate::state::State;
 use crate::{Piece, Waveform};
 use stickslip_contact::{Branch, FixedDepthBranch, Profile};
 
-/// A contact at constant depth on one branch.
+/// Contact at constant depth on one branch.
 #[derive(Debug, Clone)]
 pub(super) struct Steady<'a> {
     u: Length<'a>,
@@ -26,22 +26,22 @@ pub(super) struct Moving<'a> {
     u: Length<'a>,
     depth: Depth<'a>,
     law: Law,
-    /// Places of its friction work, its force and its elastic energy among the components, where it grows.
+    /// Indices of its friction work, force and elastic energy in the state, if it may grow.
     slot: Option<[usize; 3]>,
 }
 
-/// What presses it.
+/// Source of the indentation.
 #[derive(Debug, Clone)]
 enum Depth<'a> {
     /// Constant d (m) with M(d) (m²).
     Constant { d: f64, reduced_force: f64 },
-    /// The bodies.
+    /// Motion of the bodies.
     Coupled(Length<'a>),
-    /// A waveform, on this piece.
+    /// A piece of a waveform.
     Prescribed { waveform: &'a Waveform, piece: Piece },
 }
 
-/// Its law.
+/// Law of a contact.
 #[derive(Debug, Clone)]
 enum Law {
     Slip(Branch),
@@ -55,7 +55,7 @@ impl<'a> Steady<'a> {
         Self { u, count: closed.contact.count, branch: closed.branch, profile }
     }
 
-    /// Takes up another branch.
+    /// Sets another branch.
     pub(super) fn renew(&mut self, branch: FixedDepthBranch) {
         self.branch = branch;
     }
@@ -74,12 +74,12 @@ impl<'a> Moving<'a> {
         let depth = match &contact.press {
             Press::Constant { d, reduced_force } => Depth::Constant { d: *d, reduced_force: *reduced_force },
             Press::Coupled(measure) => Depth::Coupled(Length::of(measure, model, state)?),
-            // One that does not grow may be asked for accelerations alone, which these are not made for.
+            // Without growth only accelerations may be evaluated, which this form does not support.
             Press::Force(_) | Press::Indentation(_) | Press::Radius(_) if contact.slot.is_none() => {
                 return None;
             }
             Press::Force(w) | Press::Indentation(w) | Press::Radius(w) => {
-                // What a block makes has no piece.
+                // Outputs of blocks have no piece.
                 Depth::Prescribed { waveform: model.waveforms.get(*w)?, piece: *state.pieces.get(*w)? }
             }
         };
@@ -88,7 +88,7 @@ impl<'a> Moving<'a> {
         let slot = contact.slot.filter(|_| !straight);
         let law = match &state.modes[index] {
             Mode::Slip(branch) => Law::Slip(*branch),
-            // Elsewhere the memory is asked.
+            // Otherwise the memory computes the force.
             Mode::Grow if slot.is_some() => Law::Grow,
             _ => return None,
         };
@@ -97,8 +97,8 @@ impl<'a> Moving<'a> {
         Some(Self { index, contact, u, depth, law, slot })
     }
 
-    /// Normal: -count·E\*M(d) along d, where the bodies press it. Tangential: -count·(F_x + βG\*m u̇) along u, the second term of
-    /// the springs that stick.
+    /// Adds the forces: normal -count·E\*M(d) along d, if bodies press it; tangential -count·(F_x + βG\*m u̇) along u. The second
+    /// term is the damping of sticking springs.
     #[inline(always)]
     pub(super) fn act<const N: usize>(
         &self,
@@ -136,19 +136,18 @@ impl<'a> Moving<'a> {
             Law::Slip(branch) if branch.covers(d, u.value) => {
                 (branch.force(law, d, u.value, reduced_force), 0.0)
             }
-            // Growth, and beyond what the branch covers: the memory is asked.
+            // During growth, and where the branch does not apply, the memory computes the force.
             _ => self.ask::<N>((eq, y), &motion, extra),
         };
         if damped {
-            // A power of its own, not friction: it is lost where springs stick.
+            // Dissipated in sticking springs, separate from friction.
             sums.damping += contact.count * damping * motion.du * motion.du;
         }
         let force = if damped { force + damping * motion.du } else { force };
         sums.apply(&self.u.row, u.driven, -contact.count * force);
     }
 
-    /// The force of one contact, N, and what its springs that stick resist, N s/m, by the memory; beside it the slopes of what
-    /// grows.
+    /// Returns force (N) and viscosity (N s/m) of one contact from the memory, and writes the slopes of growth.
     #[inline(never)]
     fn ask<const N: usize>(
         &self,

@@ -26,8 +26,8 @@ impl<'a> Tie<'a> {
         Some(Self { elongation, stroke, stiffness, damping, preload })
     }
 
-    /// k(s - e) + c(ṡ - ė) + preload along e. The stroke puts in (k(s - e) + c(ṡ - ė))ṡ; the preload's work is read off the
-    /// length. Without velocities nothing is damped, and rates are the followers' alone.
+    /// Adds k(s - e) + c(ṡ - ė) + preload along e. The input power of the stroke is (k(s - e) + c(ṡ - ė))ṡ; the work of the
+    /// preload is a potential energy. Without velocities there is no damping, and rates are the prescribed ones.
     #[inline(always)]
     pub(super) fn act<const N: usize>(
         &self,

@@ -1,5 +1,4 @@
-//! The same for more coordinates than a kernel has room for in a row, where each length lies between two of them at most: chains,
-//! and sliders that springs join.
+//! Kernel for any number of coordinates, with at most two in each length: chains, and sliders that springs connect.
 
 use crate::equations::Equations;
 use crate::interval::{Closed, Followed};
@@ -7,7 +6,7 @@ use crate::model::{Link, Measure, Model, Stroke, Terms};
 use crate::state::State;
 use stickslip_contact::{FixedDepthBranch, Profile};
 
-/// The forces of an interval on any number of coordinates. Scratch, made anew with it.
+/// Forces of an interval on any number of coordinates. Scratch memory, rebuilt with it.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Wide<'a> {
     steady: Vec<Steady<'a>>,
@@ -15,12 +14,12 @@ pub(super) struct Wide<'a> {
     ties: Vec<Tie<'a>>,
 }
 
-/// Σ coefficient · coordinate.
+/// Sparse form Σ coefficient · coordinate.
 #[derive(Debug, Clone, Copy)]
 enum Ends {
-    /// Of one coordinate, or with a coefficient of 0 of none: most contacts ride on a follower.
+    /// One coordinate. A coefficient of 0 means none.
     One(End),
-    /// Of two.
+    /// Two coordinates.
     Two([End; 2]),
 }
 
@@ -31,15 +30,15 @@ struct End {
     arm: f64,
 }
 
-/// What a force acts along.
+/// Linear form of coordinates along which a force acts.
 trait Along {
-    /// Σ coefficient · coordinate.
+    /// Returns Σ coefficient · coordinate.
     fn dot(&self, x: &[f64]) -> f64;
-    /// Adds a force to those on the coordinates.
+    /// Adds a force to the forces on the coordinates.
     fn pull(&self, forces: &mut [f64], force: f64);
 }
 
-/// A contact at constant depth on one branch.
+/// Contact at constant depth on one branch.
 #[derive(Debug, Clone)]
 struct Steady<'a> {
     ends: Ends,
@@ -49,11 +48,11 @@ struct Steady<'a> {
     profile: &'a Profile,
 }
 
-/// A spring between free coordinates alone, without a damper: no work is put in or lost.
+/// Spring between free coordinates without a damper; it has no input power and no loss.
 #[derive(Debug, Clone, Copy)]
 struct Spring {
     ends: Ends,
-    /// Σ coefficient · coordinate at which it is slack but for its preload, m.
+    /// Σ coefficient · coordinate at which only the preload acts, m.
     rest: f64,
     stiffness: f64,
     preload: f64,
@@ -70,7 +69,7 @@ struct Tie<'a> {
     preload: f64,
 }
 
-/// Forces on the coordinates, and powers, as they add up.
+/// Sums of forces on the coordinates and of powers.
 struct Sums<'f> {
     forces: &'f mut [f64],
     input: f64,
@@ -78,7 +77,7 @@ struct Sums<'f> {
 }
 
 impl Ends {
-    /// None of more than two coordinates.
+    /// Returns the form of a row. None for more than two coordinates.
     fn of(terms: &Terms) -> Option<Self> {
         let end = |&(at, arm): &(usize, f64)| End { at, arm };
         match &terms[..] {
@@ -115,7 +114,7 @@ impl Along for [End; 2] {
     }
 }
 
-/// Does the same along one coordinate or two, known once for all of it.
+/// Evaluates an expression for one or two coordinates, with a single branch.
 macro_rules! along {
     ($ends:expr, $known:ident => $act:expr) => {
         match &$ends {
@@ -126,7 +125,7 @@ macro_rules! along {
 }
 
 impl Sums<'_> {
-    /// Adds a force along a length whose followers move at the rate `driven`: what drives them puts in -force · driven.
+    /// Adds a force along a length with the prescribed rate `driven`; the input power is -force · driven.
     #[inline(always)]
     fn apply(&mut self, ends: &impl Along, driven: f64, force: f64) {
         ends.pull(self.forces, force);
@@ -159,7 +158,7 @@ impl<'a> Steady<'a> {
 }
 
 impl Spring {
-    /// None of a tie that has more to it.
+    /// Returns the spring of a tie. None if the tie has damping or prescribed motion.
     fn of(tie: &Tie<'_>) -> Option<Self> {
         let ([place, 0.0, _], [slack, 0.0, _]) = (tie.followed.line()?, tie.stroke.line()?) else {
             return None;
@@ -188,7 +187,7 @@ impl<'a> Tie<'a> {
         Some(Self { ends: Ends::of(&elongation.free)?, followed, stroke, stiffness, damping, preload })
     }
 
-    /// As [a narrow one](super::ties) acts.
+    /// Adds its forces, see [`ties`](super::ties).
     #[inline(always)]
     fn act(&self, t: f64, (x, v): (&[f64], Option<&[f64]>), sums: &mut Sums<'_>) {
         let (followed, stroke) = (self.followed.at(t), self.stroke.at(t));
@@ -204,7 +203,7 @@ impl<'a> Tie<'a> {
 }
 
 impl<'a> Wide<'a> {
-    /// Room for all that acts in a model.
+    /// Reserves memory for the forces of a model.
     pub(super) fn reserve(&mut self, model: &Model) {
         self.clear();
         self.steady.reserve(model.contacts.len());
@@ -212,7 +211,7 @@ impl<'a> Wide<'a> {
         self.ties.reserve(model.links.len());
     }
 
-    /// The room that it takes, empty.
+    /// Returns its memory, empty.
     pub(super) fn emptied(self) -> Wide<'static> {
         let (steady, ties) = (super::emptied(self.steady), super::emptied(self.ties));
         Wide { steady, springs: self.springs, ties }
@@ -224,7 +223,7 @@ impl<'a> Wide<'a> {
         self.ties.clear();
     }
 
-    /// Lays out what acts; none where something has no form here.
+    /// Computes the data of all forces. None if an element has no such form.
     pub(super) fn lay_out(
         &mut self,
         (model, state): (&'a Model, &State),
@@ -243,14 +242,14 @@ impl<'a> Wide<'a> {
         Some(())
     }
 
-    /// Takes up another branch of a contact, by its place among those of closed form.
+    /// Sets another branch of a contact, given by its index among those of closed form.
     pub(super) fn renew(&mut self, place: usize, branch: FixedDepthBranch) {
         if let Some(steady) = self.steady.get_mut(place) {
             steady.branch = branch;
         }
     }
 
-    /// Slopes of all components; input and damping are the last two.
+    /// Writes the slopes of all components; input and damping power are the last two.
     #[inline(never)]
     pub(super) fn slopes(&self, eq: &Equations<'_>, (t, y): (f64, &[f64]), dy: &mut [f64]) {
         let n = eq.layout.free;
@@ -263,14 +262,14 @@ impl<'a> Wide<'a> {
         (extra[first], extra[first + 1]) = self.accelerate(eq.model, t, (x, Some(v)), dv);
     }
 
-    /// Accelerations, and the power put in.
+    /// Writes accelerations and the input power.
     #[inline(never)]
     pub(super) fn accelerations(&self, eq: &Equations<'_>, (t, x): (f64, &[f64]), out: &mut [f64]) {
         let (dv, input) = out.split_at_mut(x.len());
         (input[0], _) = self.accelerate(eq.model, t, (x, None), dv);
     }
 
-    /// From forces to accelerations; gives the powers put in and damped.
+    /// Computes accelerations; returns input and damping power.
     #[inline(always)]
     fn accelerate(
         &self,

@@ -1,40 +1,40 @@
-//! A contact in partial slip as it acts on a single slider.
+//! A contact in partial slip that acts on a single slider.
 //!
-//! Its energy is N(h) = c h^{2+1/n} Σ aₖ (h/L)ᵏ ([`RootSeries`]). With y = ⁿ√h the leading term is a power 2n+1 of y, and the
-//! divided differences of y^{2n+1} over the heights yⁿ are quotients of sums of products, all of one sign. With the complete
-//! homogeneous polynomials Pₖ(a, y) = Σ aᵏ⁻ⁱyⁱ
+//! Its energy is N(h) = c h^{2+1/n} Σ aₖ (h/L)ᵏ ([`RootSeries`]). With y = ⁿ√h the leading term is y^{2n+1}. Its divided
+//! differences over heights yⁿ are quotients of sums of positive products. With the complete homogeneous polynomials Pₖ(a, y) = Σ
+//! aᵏ⁻ⁱyⁱ
 //!
 //! * f\[a, y\] = P_{2n}(a, y)/P_{n-1}(a, y),
 //! * f\[a, y, c\] = Σ Cₛyˢ/[P_{n-1}(a, y) P_{n-1}(y, c) P_{n-1}(a, c)], Cₛ = Σ (ac)ᴮ P_{A-B-1}(a, c) over n ≤ A ≤ 2n, 0 ≤ B < n
 //!   with A + B = 3n-1-s, 0 ≤ s < 2n.
 //!
-//! A series multiplies by Leibniz' rule: (fV)\[a, y, c\] = f\[a, y, c\]V(c) + f\[a, y\]V\[y, c\] + f(a)V\[a, y, c\].
+//! A series is multiplied by Leibniz' rule: (fV)\[a, y, c\] = f\[a, y, c\]V(c) + f\[a, y\]V\[y, c\] + f(a)V\[a, y, c\].
 
 use std::array;
 use stickslip_contact::RootSeries;
 
-/// Most coefficients Cₛ.
+/// Largest number of coefficients Cₛ.
 const DEGREES: usize = 8;
 
-/// A contact in partial slip, its heights counted by their roots.
+/// Contact in partial slip, with heights represented by their roots.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct PartialSlip {
     law: RootSeries,
-    /// αc: b falls by gain·N' as the height does.
+    /// αc: the contribution to b is gain·N'.
     gain: f64,
-    /// λ.
+    /// λ, change of the height of the slip front per displacement.
     pub(super) lean: f64,
-    /// h at the start, m, and its root.
+    /// Initial height h, m, and its root.
     pub(super) height: f64,
     root: f64,
-    /// Roots of h at both turning points; the second may lie beyond the centre, at a height below zero.
+    /// Roots of h at both turning points. `beyond` is the negative height of a second turning point beyond the centre.
     ends: [f64; 2],
     beyond: f64,
-    /// Its part of K is that polynomial in the root of h over both sums of it and the roots at the ends.
+    /// Coefficients of the numerator of K, a polynomial in the root of h.
     numerator: [f64; DEGREES],
 }
 
-/// Runs an expression with the constant N at the root of a law.
+/// Evaluates an expression with the root of a law as the constant N.
 macro_rules! rooted {
     ($law:expr, $N:ident => $call:expr) => {
         match $law.root {
@@ -59,26 +59,26 @@ macro_rules! rooted {
 }
 
 impl PartialSlip {
-    /// `pull` is what M adds to b, 1/(m s²).
+    /// Returns a contact; `pull` is the factor of M in b, 1/(m s²).
     pub(super) fn new(law: RootSeries, pull: f64, lean: f64, height: f64) -> Self {
         let root = rooted!(law, N => root::<N>(height));
         let gain = pull * law.factor;
         Self { law, gain, lean, height, root, ends: [root; 2], beyond: 0.0, numerator: [0.0; DEGREES] }
     }
 
-    /// Whether its force goes on smoothly to the centre.
+    /// Whether its force is smooth up to the centre.
     pub(super) fn ends_smoothly(&self) -> bool {
         self.law.root == 1
     }
 
-    /// Takes up the turning points.
+    /// Sets the turning points, m.
     pub(super) fn swing_between(&mut self, low: f64, high: f64) {
         rooted!(self.law, N => self.take_up::<N>(low, high));
     }
 
     fn take_up<const N: usize>(&mut self, low: f64, high: f64) {
         let height = |q: f64| self.height - self.lean * q;
-        // A slide that would turn only beyond the centre has no root of a height there.
+        // A turning point beyond the centre has no root of a height.
         self.beyond = height(high).min(0.0);
         let ends = [above(height(low)), above(height(high))].map(root::<N>);
         let [a, c] = ends;
@@ -94,7 +94,7 @@ impl PartialSlip {
         let mut product = 1.0;
         for low in 0..N {
             for high in N..=2 * N {
-                // Where the degree would be below zero the two terms of the pair have cancelled.
+                // For a negative degree both terms cancel.
                 if let Some(coefficient) = (3 * N - 1).checked_sub(high + low).map(|s| &mut self.numerator[s])
                 {
                     *coefficient += product * sums[high - low - 1];
@@ -105,7 +105,7 @@ impl PartialSlip {
         self.ends = ends;
     }
 
-    /// Its parts of b at the start and of its first two derivatives; m/s², 1/s², 1/(m s²).
+    /// Returns the contact's contributions to b at the start and to the first two derivatives; m/s², 1/s², 1/(m s²).
     #[inline(always)]
     pub(super) fn start(&self) -> [f64; 3] {
         let [force, stiffness, bend] = rooted!(self.law, N => self.derivatives::<N>(self.height));
@@ -113,14 +113,14 @@ impl PartialSlip {
         [power * self.height * force, power * lean * stiffness, power * lean * lean / self.height * bend]
     }
 
-    /// The first three derivatives of N at a height, over c h^{1+1/n}, c h^{1/n} and c h^{1/n-1}.
+    /// Returns the first three derivatives of N at a height, divided by c h^{1+1/n}, c h^{1/n} and c h^{1/n-1}.
     #[inline(always)]
     fn derivatives<const N: usize>(&self, height: f64) -> [f64; 3] {
         let e = 2.0 + 1.0 / N as f64;
         if self.law.terms.len() == 1 {
             return [e, e * (e - 1.0), e * (e - 1.0) * (e - 2.0)];
         }
-        // V, h dV/dh and half of h² d²V/dh²; what the third derivative adds to the last one is left out: that is for guesses.
+        // V, h dV/dh and half of h² d²V/dh². The third derivative of V is neglected, as the result serves for guesses only.
         let [value, slope, bend] = self.law.divided([height; 3]);
         let (slope, bend) = (height * slope, height * height * bend);
         [
@@ -130,11 +130,11 @@ impl PartialSlip {
         ]
     }
 
-    /// Its part of K at q, 1/s².
+    /// Returns the contact's contribution to K at q, 1/s².
     #[inline(always)]
     pub(super) fn stiffness<const L: usize>(&self, q: [f64; L]) -> [f64; L] {
         let heights = q.map(|q| above(self.height - self.lean * q));
-        // One branch for all nodes: the usual case stays free of it.
+        // One branch for all nodes keeps the usual case fast.
         if self.beyond < 0.0 {
             return rooted!(self.law, N => self.stiffness_beyond::<N, L>(heights));
         }
@@ -144,7 +144,7 @@ impl PartialSlip {
         rooted!(self.law, N => heights.map(root::<N>).map(|y| self.leading_stiffness::<N>(y)))
     }
 
-    /// That of the leading term, V = 1.
+    /// Returns the contribution of the leading term, V = 1.
     #[inline(always)]
     fn leading_stiffness<const N: usize>(&self, y: f64) -> f64 {
         let [a, c] = self.ends;
@@ -152,7 +152,7 @@ impl PartialSlip {
         numerator / (symmetric(N - 1, a, y) * symmetric(N - 1, y, c))
     }
 
-    /// That of a sphere.
+    /// Returns the contribution of a sphere.
     fn stiffness_of_series<const L: usize>(&self, heights: [f64; L]) -> [f64; L] {
         let ([a, c], scale) = (self.ends, self.gain * self.lean);
         let (first, last) = (a * a, c * c);
@@ -164,7 +164,7 @@ impl PartialSlip {
         })
     }
 
-    /// The same where the slide would turn only beyond the centre.
+    /// Returns the contribution if the turning point lies beyond the centre.
     fn stiffness_beyond<const N: usize, const L: usize>(&self, heights: [f64; L]) -> [f64; L] {
         let (a, roots) = (self.ends[0], heights.map(root::<N>));
         let first = a.powi(N as i32);
@@ -181,12 +181,12 @@ impl PartialSlip {
         array::from_fn(|i| scale * (inner[i] - outer[i]))
     }
 
-    /// Its parts of the mean of b up to q, of b there and of its slope; m/s², m/s², 1/s².
+    /// Returns the contact's contributions to the mean of b up to q, to b and to its derivative; m/s², m/s², 1/s².
     #[inline(always)]
     pub(super) fn pull<const L: usize>(&self, q: [f64; L]) -> [[f64; L]; 3] {
         let heights = q.map(|q| self.height - self.lean * q);
         let inside = heights.map(above);
-        // Beyond the centre the mean goes on over nothing.
+        // Beyond the centre the force is zero.
         let share = |i: usize| if heights[i] < 0.0 { self.height / (self.height - heights[i]) } else { 1.0 };
         let shares: [f64; L] = array::from_fn(share);
         rooted!(self.law, N => self.pull_inside::<N, L>(inside, shares))
@@ -217,13 +217,13 @@ impl PartialSlip {
     }
 }
 
-/// A height, or nothing.
+/// Returns a height, at least 0.
 #[inline(always)]
 fn above(height: f64) -> f64 {
     if height > 0.0 { height } else { 0.0 }
 }
 
-/// The N-th root of a number that is not below zero.
+/// Returns the N-th root of a non-negative number.
 #[inline(always)]
 fn root<const N: usize>(x: f64) -> f64 {
     match N {
@@ -234,7 +234,7 @@ fn root<const N: usize>(x: f64) -> f64 {
     }
 }
 
-/// Pₖ(a, b).
+/// Returns Pₖ(a, b).
 #[inline(always)]
 fn symmetric(degree: usize, a: f64, b: f64) -> f64 {
     let (mut sum, mut power) = (1.0, 1.0);
@@ -245,7 +245,7 @@ fn symmetric(degree: usize, a: f64, b: f64) -> f64 {
     sum
 }
 
-/// f\[a, b\] = (a^{2N+1} - b^{2N+1})/(aᴺ - bᴺ) of two roots, not both zero, without a difference.
+/// Returns f\[a, b\] = (a^{2N+1} - b^{2N+1})/(aᴺ - bᴺ) of two roots, not both zero, without cancellation.
 #[inline(always)]
 fn mean_power<const N: usize>(a: f64, b: f64) -> f64 {
     if N == 2 {
@@ -267,7 +267,7 @@ mod tests {
         [power(1), power(2), power(3), power(4), sphere]
     }
 
-    /// N, whose divided differences the closed forms are; nothing below zero.
+    /// Returns N, whose divided differences the closed forms are; zero for negative heights.
     fn energy(law: &RootSeries, h: f64) -> f64 {
         let h = h.max(0.0);
         let sum = law.terms.iter().rev().fold(0.0, |sum, term| sum * (law.curvature * h) + term);
@@ -297,7 +297,7 @@ mod tests {
         }
     }
 
-    /// A swing of 1e-12 of the height: a difference of powers would have lost all but four digits.
+    /// Amplitude of 1e-12 of the height: differences of powers would keep four digits only.
     #[test]
     fn no_swing_is_too_small_for_its_digits() {
         for law in laws() {
@@ -315,7 +315,7 @@ mod tests {
             let slip = PartialSlip::new(law, 3.0, 0.5, 0.8);
             for q in [-0.2, 0.3, 1.5, 2.5] {
                 let (h, step) = (0.8 - 0.5 * q, 1e-4);
-                // Central differences of N: its derivatives to the square of the step.
+                // Central differences of N, of second order.
                 let [less, same, more] = [h - step, h, h + step].map(|h| energy(&law, h));
                 let (force, bend) =
                     ((more - less) / (2.0 * step), (more - 2.0 * same + less) / (step * step));

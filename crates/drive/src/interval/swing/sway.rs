@@ -1,37 +1,36 @@
-//! Gross slip over followers on sines.
+//! Gross slip over sinusoidal prescribed motions.
 //!
-//! What is dragged in gross slip feels a constant force, however its followers move: the slider runs along a parabola, and what
-//! they do tells only when the slide ends. Its speed along the slide, s(t) = ±(v + at + ḟ), has a curvature of at most the bound J of
-//! the sines' third derivative: from any moment on it stays above s + ṡτ - Jτ²/2, whose zero is never beyond that of s. Going from
-//! one such zero to the next finds the first fall of s, leaves out none, and converges as Newton's method does.
+//! The contact forces are constant in gross slip, so the slider's motion is a parabola for any prescribed motion. The velocity of
+//! slip is s(t) = ±(v + at + ḟ), with a curvature of at most J, the bound of the sines' third derivative. Hence s stays above s +
+//! ṡτ - Jτ²/2, whose zero is never later than that of s. The iteration from zero to zero misses no zero and converges
+//! quadratically.
 
 use super::{SMALLEST, Swing};
 use crate::interval::{Closed, Followed, Interval};
 use crate::{Sample, Waveform};
 
-/// Most moments looked at until the slide ends; then it is left to steps.
-// Within a period slides over a sine take 6, at most 12, and over a sum of three, the highest of order 7, 11 and at most 29.
+/// Largest number of iterations until slip ends; otherwise the stepper continues.
 const LOOKS: u32 = 64;
 
-/// Followers on sines, as they move along a coordinate.
+/// Sinusoidal prescribed motion along a coordinate.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Sway<'a> {
     waveform: &'a Waveform,
-    /// Of the waveform along the coordinate.
+    /// Factor of the waveform along the coordinate.
     factor: f64,
-    /// A bound of the third derivative, m/s³.
+    /// Bound of the third derivative, m/s³.
     jerk: f64,
 }
 
 impl<'a> Sway<'a> {
-    /// What drags a contact; none where that is a line.
+    /// Returns the prescribed motion of a contact. None if it is linear.
     fn of(closed: &Closed<'a>) -> Option<Self> {
         let Followed::Sines { factor, waveform, .. } = closed.followed else { return None };
         let factor = factor / closed.arm;
         Some(Self { waveform, factor, jerk: factor.abs() * waveform.sines_jerk() })
     }
 
-    /// Whether another contact is dragged alike, so that both slides end at once.
+    /// Whether another contact has the same prescribed motion, so that both end slip together.
     fn drags(&self, closed: &Closed<'_>) -> bool {
         match closed.followed {
             Followed::Sines { factor, waveform, .. } => {
@@ -41,7 +40,7 @@ impl<'a> Sway<'a> {
         }
     }
 
-    /// Along the coordinate at time t, m and its derivatives.
+    /// Returns the motion along the coordinate at time t, m, and its derivatives.
     #[inline(always)]
     pub(super) fn at(&self, t: f64) -> Sample {
         let Sample { value, rate, acceleration } = self.waveform.sines_at(t);
@@ -51,7 +50,8 @@ impl<'a> Sway<'a> {
 }
 
 impl<'a> Swing<'a> {
-    /// Takes up an interval whose followers are on sines; false where not all contacts are in gross slip over the same ones.
+    /// Takes over an interval with sinusoidal prescribed motions. Returns false unless all contacts are in gross slip over the
+    /// same motion.
     #[inline(never)]
     pub(super) fn begin_swayed(&mut self, interval: &Interval<'a>) -> bool {
         self.slips.clear();
@@ -73,13 +73,13 @@ impl<'a> Swing<'a> {
         true
     }
 
-    /// What the contacts hold the slider back with along the coordinate, N, in gross slip.
+    /// Returns the force of the contacts against the slider in gross slip, N.
     pub(super) fn held(&self) -> f64 {
         self.load - self.sense * self.push / self.mobility
     }
 
-    /// Finds the end of a slide; false where it is not found, or the slide is no longer than rounding. `length` is the natural
-    /// one, m.
+    /// Computes the end of slip. Returns false if it is not found, or if slip is not longer than rounding. `length` is the
+    /// natural length, m.
     #[inline(never)]
     pub(super) fn aim_swayed(&mut self, sway: &Sway<'_>, length: f64) -> bool {
         let Some(duration) = self.slides_for(sway) else { return false };
@@ -89,7 +89,7 @@ impl<'a> Swing<'a> {
         way.abs() > SMALLEST * length
     }
 
-    /// How long it slides, s.
+    /// Returns the duration of slip, s.
     fn slides_for(&mut self, sway: &Sway<'_>) -> Option<f64> {
         let mut passed = 0.0;
         for _ in 0..LOOKS {
@@ -97,17 +97,17 @@ impl<'a> Swing<'a> {
             let Sample { rate, acceleration, .. } = sway.at(self.start.t + passed);
             let speed = self.sense * (self.start.v + rate) + self.push * passed;
             let rise = self.push + self.sense * acceleration;
-            // Beyond the end leads rounding alone, but where nothing slides at the start.
+            // Only rounding leads beyond the end, unless there is no slip at the start.
             if speed <= 0.0 {
                 return (passed > 0.0).then_some(passed);
             }
-            // No sine, and no end.
+            // Without a sine there may be no end.
             if !passed.is_finite() {
                 return None;
             }
             let step = zero(speed, rise, sway.jerk);
             passed += step;
-            // What is left after this step is the square of it.
+            // The remaining error is of second order.
             if sway.jerk * step * step <= -f64::EPSILON * rise * passed {
                 return Some(passed);
             }
@@ -116,10 +116,10 @@ impl<'a> Swing<'a> {
     }
 }
 
-/// The zero of s + ṡτ - Jτ²/2 ahead, s.
+/// Returns the positive zero of s + ṡτ - Jτ²/2, s.
 fn zero(speed: f64, rise: f64, jerk: f64) -> f64 {
     let root = (rise * rise + 2.0 * jerk * speed).sqrt();
-    // No difference of like numbers.
+    // Avoids cancellation.
     if rise > 0.0 { (rise + root) / jerk } else { 2.0 * speed / (root - rise) }
 }
 
@@ -129,7 +129,7 @@ mod tests {
     use crate::interval::PhasePoint;
     use crate::waveform::{Harmonic, Shape, Timing};
 
-    /// Fastest foot of one sine, and of sines with a wave of their own on top, m/s; period 1 s.
+    /// One sine, and a sum of sines; period 1 s.
     fn waveforms() -> [Waveform; 2] {
         let one = Shape::Sine { amplitude: 1.0, phase: 0.3, offset: 0.1 };
         let term = |amplitude, order, phase| Harmonic { amplitude, order, phase };
@@ -137,8 +137,7 @@ mod tests {
         [one, Shape::Harmonics { terms }].map(|shape| Waveform::new(shape, Timing::every(1.0)).unwrap())
     }
 
-    /// Slides of all senses, speeds and pushes end where the speed first falls through zero on a grid of 2000 moments a period,
-    /// by bisection between two of them: none earlier, none later.
+    /// Slip ends at the first zero of its velocity on a fine grid, refined by bisection.
     #[test]
     fn a_slide_ends_at_the_first_fall_of_its_speed() {
         let (mut found, mut most) = (0, 0);

@@ -1,4 +1,4 @@
-//! How long a swing takes.
+//! Time of a closed-form oscillation.
 
 use super::{Clock, Swing};
 use crate::quadrature::{self, Lanes};
@@ -7,13 +7,12 @@ use std::array;
 use std::f64::consts::PI;
 
 impl Swing<'_> {
-    /// Time from one position of the clock to another, s, `part` of the whole way, and whether its relative error is as
-    /// allowed.
+    /// Returns the time between two values of the integration variable, s, and whether its relative error is below `allowed`.
+    /// `part` is the fraction of the whole range.
     #[inline(always)]
     pub(super) fn time_between(&mut self, from: f64, to: f64, allowed: f64, part: f64) -> (f64, bool) {
         let (span, mean) = if self.nears {
-            // Where slip reaches the centre, M ends as a power 3/2 of the height: the root of the way that is left sees no
-            // such end.
+            // Near the centre M has a power 3/2 of the height; over the root of the remaining range the integrand is smooth.
             let [start, end] = [from, to].map(|at| (self.to - at).max(0.0).sqrt());
             let slowness = |shares: Lanes| {
                 let left = shares.map(|share| start + (end - start) * share);
@@ -22,7 +21,7 @@ impl Swing<'_> {
             };
             (start - end, quadrature::mean(allowed, part, slowness))
         } else if self.clock == Clock::Angle && from == 0.0 && to == PI {
-            // From turn to turn no angle is needed, but its sine at nodes known beforehand.
+            // Between two turning points the nodes are known in advance.
             let range = self.high - self.low;
             let slowness = |shares: Lanes| self.angular(shares.map(|share| self.low + range * share));
             (PI, quadrature::mean_over_arc(allowed, slowness))
@@ -30,12 +29,12 @@ impl Swing<'_> {
             let slowness = |shares: Lanes| self.slowness(shares.map(|share| from + (to - from) * share));
             (to - from, quadrature::mean(allowed, part, slowness))
         };
-        // Nodes of this quadrature count as evaluations: each asks for the forces once.
+        // Each node evaluates the forces once.
         self.evaluations += mean.asked;
         (span * mean.value, mean.error <= allowed)
     }
 
-    /// dt/dθ = 1/√(2K), s; or dt/dq = 1/ν, s/m.
+    /// Returns dt/dθ = 1/√(2K), s, or dt/dq = 1/ν, s/m.
     #[inline(always)]
     pub(super) fn slowness<const N: usize>(&self, at: [f64; N]) -> [f64; N] {
         if self.clock == Clock::Way {
@@ -46,41 +45,40 @@ impl Swing<'_> {
         self.angular(ways)
     }
 
-    /// dt/dθ at q, s.
+    /// Returns dt/dθ at q, s.
     #[inline(always)]
     fn angular<const N: usize>(&self, ways: [f64; N]) -> [f64; N] {
         self.stiffness(ways).map(|stiffness| (0.5 / stiffness).sqrt())
     }
 
-    /// q where the clock stands so, m.
+    /// Returns q for a value of the integration variable, m.
     #[inline(always)]
     pub(super) fn way(&self, at: f64) -> f64 {
         if self.clock == Clock::Way { at } else { self.swung(at) }
     }
 
-    /// q at an angle, m.
+    /// Returns q at an angle, m.
     #[inline(always)]
     fn swung(&self, angle: f64) -> f64 {
-        // (1 - cos θ)/2 as a square: near the first turning point a difference of 1 and a cosine has no
-        // digits left.
+        // (1 - cos θ)/2 as a square avoids cancellation near the first turning point.
         let half = sine(0.5 * angle);
         self.low + (self.high - self.low) * half * half
     }
 
-    /// ν at q, m/s.
+    /// Returns ν at q, m/s.
     #[inline(always)]
     pub(super) fn speed_at<const N: usize>(&self, ways: [f64; N]) -> [f64; N] {
         if self.clock == Clock::Way {
             let ([mean, ..], speed) = (self.force(ways), self.speed());
             return array::from_fn(|i| (speed * speed + 2.0 * ways[i] * mean[i]).sqrt());
         }
-        // ν² as a product of both distances: it vanishes at the turning points to the last bit.
+        // ν² as a product vanishes exactly at the turning points.
         let stiffness = self.stiffness(ways);
         let inside = |q: f64| (q - self.low).max(0.0) * (self.high - q).max(0.0);
         array::from_fn(|i| (2.0 * inside(ways[i]) * stiffness[i]).sqrt())
     }
 
-    /// The angle at q, 0 to π.
+    /// Returns the angle at q, 0 to π.
     pub(super) fn angle(&self, q: f64) -> f64 {
         2.0 * math::atan2((q - self.low).max(0.0).sqrt(), (self.high - q).max(0.0).sqrt())
     }

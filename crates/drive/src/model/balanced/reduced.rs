@@ -1,8 +1,8 @@
 //! Elimination of balanced bodies without a contact.
 //!
-//! Springs join balanced coordinates: K q = P - F, K symmetric. With the coordinates that contacts act on (s) and the others
-//! (l), q_l = K_ll⁻¹(P_l - K_ls q_s), and what is left for the former is K_ss - K_sl K_ll⁻¹ K_ls. It must be diagonal: two
-//! coordinates with contacts that also pull at each other would have to be solved for together.
+//! Springs connect balanced coordinates: K q = P - F with a symmetric K. s are the coordinates with contacts, l the others. Then
+//! q_l = K_ll⁻¹(P_l - K_ls q_s), and the reduced stiffness is K_ss - K_sl K_ll⁻¹ K_ls. It must be diagonal, as two coupled
+//! coordinates with contacts are not supported.
 
 use super::{Balanced, Pull, is_balanced, measure_of, split};
 use crate::contact::Contact;
@@ -11,14 +11,12 @@ use crate::scene::Axis;
 use crate::{Field, Part, SceneError, SceneFault};
 use nalgebra::DMatrix;
 
-/// What is left of a stiffness by which two coordinates with contacts pull at each other, as a part of their own, counts as
-/// none: rounding of the elimination.
+/// Relative coupling stiffness that counts as rounding of the elimination.
 const NONE: f64 = 1e-12;
 
-/// Finds what acts along each balanced coordinate: contacts, springs, and what others hand on. `first` is the signal of the
-/// first.
+/// Determines contacts, springs and reduced loads of each balanced coordinate. `first` is the signal of the first.
 ///
-/// Fails where nothing holds a coordinate, or two that contacts act on depend on each other.
+/// Fails if nothing holds a coordinate, or if two coordinates with contacts are coupled.
 pub(in crate::model) fn assign(
     contacts: &[Contact],
     stiffness: &DMatrix<f64>,
@@ -33,7 +31,7 @@ pub(in crate::model) fn assign(
         DMatrix::from_fn(rows.len(), columns.len(), |i, j| stiffness[(rows[i], columns[j])])
     };
     let Some(inverse) = of(&loose, &loose).cholesky().map(|it| it.inverse()) else {
-        // Without a spring of its own, or the first of a chain that hangs on nothing.
+        // A coordinate without a spring, or the first of a chain without a fixed end.
         let free = loose.iter().find(|b| stiffness[(**b, **b)] == 0.0).or(loose.first()).unwrap_or(&0);
         let (part, axis) = (Part::Body(all[*free].body), all[*free].axis);
         return Err(SceneFault::Unbalanceable(axis).of(part, Field::Coordinate(axis)));
@@ -72,9 +70,7 @@ pub(in crate::model) fn assign(
     Ok(())
 }
 
-/// Joins contacts to the coordinates that they act on.
-///
-/// Fails where a contact lies between two balanced bodies.
+/// Assigns contacts to balanced coordinates. Fails for a contact between two balanced bodies.
 fn join(contacts: &[Contact], first: usize, all: &mut [Balanced]) -> Result<(), SceneError> {
     for (c, contact) in contacts.iter().enumerate() {
         for axis in [Axis::X, Axis::Z] {
@@ -90,14 +86,13 @@ fn join(contacts: &[Contact], first: usize, all: &mut [Balanced]) -> Result<(), 
     Ok(())
 }
 
-/// What an elimination has left of a stiffness: nothing, where it is rounding.
-// A chain that ends on nothing holds nothing: with what rounding leaves of it a contact past its limit would hang on a spring
-// of 1e-16 of its own.
+/// Returns the stiffness after elimination, 0 if it is rounding.
+// Otherwise rounding would act as a weak spring beyond the limit of a contact.
 fn rounded(left: f64, whole: f64) -> f64 {
     if left > NONE * whole { left } else { 0.0 }
 }
 
-/// The stiffness between balanced coordinates, N/m; what is left of the springs goes into their pulls.
+/// Returns the stiffness matrix of balanced coordinates, N/m; the remaining forces of springs are added to their loads.
 pub(in crate::model) fn springs(links: &[Link], (first, all): (usize, &mut [Balanced])) -> DMatrix<f64> {
     let mut stiffness = DMatrix::zeros(all.len(), all.len());
     for link in links.iter().filter(|link| is_balanced(&link.elongation, first)) {
@@ -106,7 +101,7 @@ pub(in crate::model) fn springs(links: &[Link], (first, all): (usize, &mut [Bala
             for (other, with) in &own {
                 stiffness[(*b, *other)] += link.stiffness * a * with;
             }
-            // The force k(s - e) + preload along e, with what is left of e.
+            // Force k(s - e) + preload with the rest of e.
             let end = Link { elongation: rest.clone(), ..link.clone() };
             all[*b].own.links.push((end, *a));
         }

@@ -1,16 +1,20 @@
-//! Contacts that keep to one branch of their law between chords: for frames.
+//! Contacts that keep to one branch of their force law over several steps; used by the `frames` stepper.
 //!
-//! A chord a step moves a memory at every step, and friction is swept as often. At a constant depth one edge drags over one piece
-//! of the memory for many steps: one chord to its end is the same as many, and until then a force costs one M. So the memory
-//! of such a contact stays behind, and its branch is looked at where steps end. A piece that is used up, or a sense that has
-//! turned, cuts the step where the cubic through both its ends says that it did, but never to less than an eighth: the work of
-//! a step is bounded, and of several ends within an eighth the later ones cost the error of a kink in so short a time. Where an edge
-//! of a damped contact uses up its piece the step ends there, however soon: with the springs that stick goes a force of many times what
-//! friction holds. Of such pieces there are at most as many as a memory has turning points.
+//! On a branch one slip edge uses up one piece of the slip memory, and the force law is smooth. At a constant
+//! indentation, one memory piece lasts for many steps. One straight path to the end of the piece is equivalent to many
+//! short ones. The slip memory is therefore committed only where a branch ends: where its memory piece is used up or
+//! the motion reverses.
 //!
-//! A contact under a normal that moves keeps to none: it goes by the whole law of its memory, one chord a step. A chord across a touch or a
-//! change of what drags leaves a turning point in the memory that lies off the path by the square of the step, for good: steps are cut
-//! there, too.
+//! There the step is cut, at the time that the cubic through both ends of the step gives. It is cut to no less than one
+//! eighth of a full step, which bounds the work. A later branch end within that eighth causes an error like a kink.
+//!
+//! Where a damped contact has used up its memory piece, the step is cut without this lower limit. The damping force of
+//! the springs that stick can be many times the friction limit, and it vanishes with them. The number of these cuts is
+//! bounded by the number of stored reversals.
+//!
+//! A contact under a varying normal force keeps to no branch. It follows the full force law, with one straight path per
+//! step. Its steps are cut where it touches or separates and where a slip edge starts or stops. Without the cut, the
+//! slip memory would store a reversal with an error of second order in the step.
 
 use super::Chords;
 use super::way::{Way, end_of, kink};
@@ -22,56 +26,58 @@ use crate::state::State;
 use crate::{Model, record::Record};
 use stickslip_contact::{Apex, Branch, Memory, Segment};
 
-/// Turning points that a contact remembers.
+/// Largest number of reversals that a slip memory keeps.
 pub(super) const KNOTS: usize = 256;
-/// The same where a normal moves: a contact that grows leaves one at each step.
+/// Largest number of reversals under a varying normal force, where a growing contact adds one per step.
 pub(super) const GROWING_KNOTS: usize = 1024;
 
-/// Ends of branches so near to each other, in shares of a step, are one.
+/// Largest distance of two branch ends that count as simultaneous, as a fraction of the step.
 const TOGETHER: f64 = 1e-6;
-/// What may be left of a piece that is used up, in u_c.
+/// Largest remaining length of a memory piece that counts as used up, in u_c.
 const NEAR: f64 = 1e-6;
 
-/// What stuck springs resist by their damping, of what they hold, from which on it matters how it gives way.
-// With 0, a swing of 0.11 kg on a flat, damped by 59 ns, is ten times as far off at 1e-4.
+/// Smallest ratio βu̇/u_c at which steps are adapted to vanishing contact damping.
 const STRONG: f64 = 0.1;
 
-/// Part of the springs of a contact that still stick up to which it gives way, and how far it slides in a step meanwhile, in u_c: the root
-/// of the accuracy that is asked for, between these.
+/// Fraction of the damping in full stick below which steps are no longer limited.
 const HELD: f64 = 1e-3;
+/// Smallest and largest displacement per step while contact damping vanishes, in u_c.
 const PARTS: (f64, f64) = (1.0 / 512.0, 1.0 / 32.0);
 
-/// How the damping of a contact weakens where an edge has used up its piece: with the springs that stick.
+/// Decrease of the contact damping at the end of a memory piece, where springs begin to slip.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub(in crate::run) enum Weakening {
-    /// A loop closes.
+    /// A hysteresis loop closes.
     Loop,
-    /// It gives way: the last of the springs begin to slip, and until then the force goes with the root of the time that is left.
+    /// The last sticking springs begin to slip. Until then the damping force varies with the square root of the time
+    /// left.
     Away,
 }
 
-/// What is known between two ends of branches.
+/// Closed forms and branch ends of the contacts between two changes of a branch.
 pub(in crate::run) struct Branches<'a> {
     pub(super) interval: Interval<'a>,
-    /// Whether the interval is that of the state.
+    /// Whether `interval` belongs to the current state.
     pub(super) current: bool,
-    /// Contacts whose branches end with the step, and the senses of the next ones.
+    /// Contacts whose branches end with the step, and the senses of their next branches.
     pub(super) ended: Vec<(usize, f64)>,
-    /// Those that were found to end where the step was cut, whatever the last bit says, likewise.
+    /// Contacts whose branches end where the step was cut, and the senses of their next branches. Rounding does not
+    /// matter.
     due: Vec<(usize, f64)>,
-    /// How far a damped contact under a normal that moves may slide in a step while it gives way, in u_c.
+    /// Largest displacement per step while contact damping vanishes under a varying normal force, in u_c.
     part: f64,
 }
 
 impl<'a> Branches<'a> {
-    /// Of frames that are asked for so much accuracy.
+    /// Creates the branches for frames of the requested accuracy.
     pub(super) fn of(model: &'a Model, accuracy: f64) -> Self {
         let room = || Vec::with_capacity(model.contacts.len());
         let part = accuracy.sqrt().clamp(PARTS.0, PARTS.1);
         Self { interval: Interval::of(model), current: false, ended: room(), due: room(), part }
     }
 
-    /// What is left of the piece of contact `c` in a motion, m: as whoever [glides](Chords::glides) sees it, to the last bit.
+    /// Returns the remaining length of the memory piece of contact `c`, m. It agrees with [`Chords::glides`] to the
+    /// last bit.
     fn left(&self, c: usize, branch: &Branch, motion: &Motion) -> f64 {
         match self.interval.closed_form(c) {
             Some(closed) => closed.margin(motion.u),
@@ -79,7 +85,7 @@ impl<'a> Branches<'a> {
         }
     }
 
-    /// Whether all contacts of a model keep to branches of closed form.
+    /// Whether all contacts of the model keep to branches with closed-form forces.
     #[inline]
     fn holds_all(&self, model: &Model) -> bool {
         self.current && self.interval.closed.len() == model.contacts.len()
@@ -87,9 +93,10 @@ impl<'a> Branches<'a> {
 }
 
 impl<'a> Chords<'a> {
-    /// Works out what stays the same until a branch ends, where it is not known.
+    /// Computes the constants of the interval after a branch has changed.
     ///
-    /// The motions as the step begins with it, by the same formulas as at its end: whoever takes up a state has no others.
+    /// The contact motions at the start of the step are computed with the formulas used at its end. A continued run
+    /// thus gives the same bits.
     #[inline]
     pub(in crate::run) fn prepare(&mut self, state: &State) {
         if let Some(branches) = &mut self.branches
@@ -102,7 +109,7 @@ impl<'a> Chords<'a> {
         }
     }
 
-    /// The motions of the contacts at time t in y.
+    /// Computes the contact motions at time t with components y.
     #[inline]
     pub(super) fn move_contacts(&mut self, state: &State, t: f64, y: &[f64]) {
         let mut motions = std::mem::take(&mut self.motions);
@@ -121,8 +128,9 @@ impl<'a> Chords<'a> {
         self.motions = motions;
     }
 
-    /// Whether all contacts keep to their branches through the step to time t in y, and nobody wants to see it: then it is
-    /// accepted, and no memory moves.
+    /// Accepts the step to time t with components y if all contacts keep to their branches and no output is due.
+    ///
+    /// Returns whether the step was accepted. No slip memory changes.
     #[inline]
     pub(in crate::run) fn glides(
         &mut self,
@@ -139,7 +147,7 @@ impl<'a> Chords<'a> {
         }
         self.move_contacts(state, t, y);
         let closed = self.branches.iter().flat_map(|branches| &branches.interval.closed);
-        // Not a number keeps to nothing.
+        // A motion that is NaN keeps to no branch.
         if !closed.zip(&self.motions).all(|(closed, motion)| closed.keeps(motion)) {
             return false;
         }
@@ -151,8 +159,10 @@ impl<'a> Chords<'a> {
         true
     }
 
-    /// When the first branch ends in the step to time t in y, or the law of a contact under a moving normal has its first kink, s; none
-    /// where none does: then what was found before holds.
+    /// Returns the first branch end in the step to time t with components y, s.
+    ///
+    /// For a contact under a varying normal force, a kink of its force law counts as a branch end. `None` leaves
+    /// earlier results unchanged.
     pub(in crate::run) fn first_end(&mut self, state: &State, (t, y): (f64, &[f64])) -> Option<f64> {
         self.branches.as_ref()?;
         self.move_contacts(state, t, y);
@@ -179,8 +189,9 @@ impl<'a> Chords<'a> {
         (first < f64::INFINITY).then_some(state.t + first * duration)
     }
 
-    /// How the damping of a contact weakens where the step was found to end; none where no edge of a damped contact has used up its piece
-    /// there.
+    /// Returns how contact damping decreases at the branch end found last.
+    ///
+    /// `None` means that no damped contact has used up its memory piece there.
     pub(in crate::run) fn weakens(&self, state: &State) -> Option<Weakening> {
         let due = self.branches.iter().flat_map(|branches| &branches.due);
         let damped = due.filter(|(c, _)| self.model.contacts[*c].is_damped());
@@ -194,15 +205,18 @@ impl<'a> Chords<'a> {
         ways.max()
     }
 
-    /// Whether the damping of contact `c` gives way where its piece ends, and matters at its speed: where it does not stages see more of
-    /// the motion that lie evenly.
+    /// Whether significant damping of contact `c` vanishes at the end of its memory piece.
+    ///
+    /// For weak damping, evenly distributed stages are more accurate.
     fn gives_way(&self, c: usize, branch: &Branch) -> bool {
         let contact = &self.model.contacts[c];
         let resisted = contact.interface.damping() * self.motions[c].du.abs();
         branch.ends_in_the_centre() && resisted > STRONG * contact.natural.displacement
     }
 
-    /// Longest step, s, that sees damped springs give way under a normal that moves, where no branch tells when.
+    /// Returns the longest time step that resolves vanishing contact damping under a varying normal force, s.
+    ///
+    /// No branch predicts that moment. The value is ∞ if no contact needs this limit.
     pub(in crate::run) fn longest(&self, state: &State) -> f64 {
         let Some(Branches { part, .. }) = self.branches.as_ref().filter(|_| self.is_damped) else {
             return f64::INFINITY;
@@ -223,7 +237,9 @@ impl<'a> Chords<'a> {
         longest.fold(f64::INFINITY, f64::min)
     }
 
-    /// When the damping of a contact will give way after the step to time t in y, s, at its speed there; none where none is to.
+    /// Returns when contact damping is expected to vanish after the step to time t with components y, s.
+    ///
+    /// The estimate extrapolates the sliding velocity at the end of the step.
     pub(in crate::run) fn gives_way_after(&mut self, state: &State, (t, y): (f64, &[f64])) -> Option<f64> {
         if !self.is_damped {
             return None;
@@ -239,15 +255,16 @@ impl<'a> Chords<'a> {
         ends.reduce(f64::min)
     }
 
-    /// A step was not cut, or not where the first branch ends: its end decides.
+    /// Discards the branch ends found for a cut. The end of the step then determines them.
     pub(in crate::run) fn let_end_decide(&mut self) {
         if let Some(branches) = &mut self.branches {
             branches.due.clear();
         }
     }
 
-    /// Writes down the paths of a step of `duration` (s) that ends at time t: of contacts whose branches end with it, and of
-    /// those that keep to none.
+    /// Collects the paths of a step of `duration` (s) that ends at time t.
+    ///
+    /// Contacts that keep to their branch have no path.
     pub(super) fn write_down(&mut self, state: &State, (t, duration): (f64, f64)) {
         self.ledger.clear();
         let Some(branches) = &mut self.branches else {
@@ -280,7 +297,7 @@ impl<'a> Chords<'a> {
         }
     }
 
-    /// Contacts whose branches have ended, and whose memories have come to where the state is, take the next ones.
+    /// Sets the next branch of every contact whose branch has ended. Its slip memory must be at the current state.
     #[inline]
     pub(super) fn branch(&mut self, state: &mut State) {
         let Some(branches) = &mut self.branches else { return };
@@ -291,13 +308,13 @@ impl<'a> Chords<'a> {
             };
             let next =
                 next_mode(&self.model.contacts[c], &state.memories[c], &self.motions[c], (sense, left));
-            // The whole law stays what it is.
+            // The interval stays valid for a contact that keeps the full force law.
             branches.current &= matches!((&state.modes[c], &next), (Mode::Whole { .. }, Mode::Whole { .. }));
             state.modes[c] = next;
         }
     }
 
-    /// Where a run sets out: contacts that move take their first branches.
+    /// Sets the first branch of every moving contact at the start of a run.
     pub(super) fn branch_at_start(&mut self, state: &mut State) {
         if self.branches.is_none() {
             return;
@@ -312,9 +329,9 @@ impl<'a> Chords<'a> {
         }
     }
 
-    /// After a corner: contacts that turn there come to where the state is, and take their next branches.
+    /// Commits the contacts that reverse at a corner and sets their next branches.
     ///
-    /// Fails where a memory refuses its path.
+    /// Fails if a slip memory refuses its path.
     pub(super) fn branch_at_corner(
         &mut self,
         state: &mut State,
@@ -330,7 +347,7 @@ impl<'a> Chords<'a> {
         for (c, motion) in self.motions.iter().enumerate() {
             let turns = match &state.modes[c] {
                 Mode::Slip(branch) => branch.sense() * motion.du < 0.0,
-                // At rest until now.
+                // At rest so far.
                 _ => {
                     state.memories[c].branching().is_some()
                         && keeps_to_branches(&self.model.contacts[c], motion)
@@ -348,7 +365,7 @@ impl<'a> Chords<'a> {
         Ok(())
     }
 
-    /// The motions of the contacts where the state is.
+    /// Computes the contact motions at the current state.
     fn measure(&mut self, state: &State) {
         let mut motions = std::mem::take(&mut self.motions);
         let eq = self.plain(state);
@@ -357,9 +374,9 @@ impl<'a> Chords<'a> {
         self.motions = motions;
     }
 
-    /// Every memory comes to where the state is.
+    /// Commits every slip memory to the current state.
     ///
-    /// A path of the past: it cannot be refused, for its branch has been where it leads.
+    /// The commit cannot fail, because the branch has already passed along this path.
     pub(in crate::run) fn settle(&mut self, state: &mut State) {
         if self.branches.is_none() {
             return;
@@ -375,8 +392,10 @@ impl<'a> Chords<'a> {
     }
 }
 
-/// The branch of a contact at a constant depth that moves in a sense; the whole law of all others. What is `left` of the piece
-/// before (m), by a cubic's error, counts as gone.
+/// Returns the branch of a contact at constant indentation for the direction `sense`, otherwise the full force law.
+///
+/// `left` is the remaining length of the previous memory piece, m. A remaining length below [`NEAR`] is an error of the
+/// cubic and counts as used up.
 fn next_mode(contact: &Contact, memory: &Memory, motion: &Motion, (sense, left): (f64, f64)) -> Mode {
     match memory.branching() {
         Some(branching) if keeps_to_branches(contact, motion) => {
@@ -387,7 +406,7 @@ fn next_mode(contact: &Contact, memory: &Memory, motion: &Motion, (sense, left):
     }
 }
 
-/// Whether a contact that moves so keeps to branches of its law.
+/// Whether a contact with this motion can keep to a branch: sliding, closed, and at constant indentation.
 fn keeps_to_branches(contact: &Contact, motion: &Motion) -> bool {
     contact.is_constant() && !contact.inert && motion.d > 0.0 && motion.du != 0.0
 }

@@ -1,4 +1,4 @@
-//! Corners of waveforms, between chords and inside them.
+//! Waveform corners in runs without event location.
 
 use super::Chords;
 use crate::contact::Mode;
@@ -11,12 +11,12 @@ use crate::{Event, RunError};
 use stickslip_contact::Segment;
 
 impl Chords<'_> {
-    /// Puts every waveform on the piece that holds in the middle of a step from the present time to `end`, so that a step
-    /// that ends at a corner sees one side of it only. Tells whether any changed.
+    /// Sets every waveform to its piece at the middle of the step from the current time to `end`.
     ///
-    /// By the middle, since either end may lie on a corner and round to its other side.
+    /// Returns whether any piece has changed. A step that ends at a corner thus sees one side of it only. At either end
+    /// of the step, rounding could select the wrong side.
     ///
-    /// Blocks turn with them. Waveforms that jump are no part of such runs.
+    /// Blocks then choose their laws again. Runs that use this function have no waveforms with jumps.
     pub(in crate::run) fn enter(&self, state: &mut State, end: f64) -> bool {
         let middle = 0.5 * (state.t + end);
         let mut changed = false;
@@ -41,12 +41,12 @@ impl Chords<'_> {
         changed
     }
 
-    /// Moves every waveform whose piece ends now to its next piece: for steps that end at corners. Tells whether any turned.
+    /// Moves every waveform whose piece has ended to its next piece. Returns whether a corner was reached.
     ///
-    /// A jump is a straight path of every contact in no time; its work, what the elastic energy gains and friction takes, is
-    /// booked as input. Free coordinates stay where they are.
+    /// For runs whose steps end at corners. At a jump, every contact moves along a straight path in zero time and free
+    /// coordinates stay. The gain of elastic energy plus the friction work counts as input work.
     ///
-    /// Fails where a jump leads a contact out of its row or its table.
+    /// Fails if a jump moves a contact out of the range of its spring row or table.
     #[inline]
     pub(in crate::run) fn turn(
         &mut self,
@@ -71,7 +71,7 @@ impl Chords<'_> {
         };
         let mut jumps = false;
         for (w, waveform) in model.waveforms.iter().enumerate() {
-            // Several pieces may end in the rounding of one moment.
+            // Several pieces may end at the same rounded time.
             while state.pieces[w].end <= state.t {
                 let piece = state.pieces[w];
                 let Some(next) = state.next_piece(w, waveform) else { break };
@@ -83,7 +83,7 @@ impl Chords<'_> {
             self.jump(state, before)?;
         }
         if jumps && record.wants_events() {
-            // Corners are where their period puts them; a jump moves what is written.
+            // Only jumps are reported. Other corners follow from the waveform.
             for (w, waveform) in model.waveforms.iter().enumerate() {
                 if waveform.has_jumps() && state.pieces[w].start == state.t {
                     let event = Event { t: state.t, source: Source::Waveform(w), kind: EventKind::Jump };
@@ -97,7 +97,7 @@ impl Chords<'_> {
         self.branch_at_corner(state, record)
     }
 
-    /// Contacts follow a jump; `before` is what was stored.
+    /// Moves all contacts along a jump. `before` is the stored energy before the jump, J.
     fn jump(&mut self, state: &mut State, before: f64) -> Result<(), RunError> {
         let mut friction = 0.0;
         self.ledger.jump_blocks((self.model, self.layout), state)?;
@@ -108,7 +108,7 @@ impl Chords<'_> {
             self.ledger.note(self.model, state, c, Segment::Jump(to));
             state.friction[c] += work;
             friction += work;
-            // Its branch is chosen anew, by where it goes from here.
+            // The next branch depends on the motion after the jump.
             state.modes[c] = Mode::Whole { sense: 0.0 };
         }
         state.jumps += stored(&self.plain(state), state) - before + friction;

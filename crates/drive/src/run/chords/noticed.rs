@@ -1,4 +1,4 @@
-//! What shows after a step: guards of blocks that are down, and events of contacts, for the record alone.
+//! Events detected after a step of a run without event location.
 
 use super::{Chords, heading};
 use crate::contact::Motion;
@@ -9,17 +9,17 @@ use crate::state::State;
 use stickslip_contact::{ContactState, Memory};
 
 impl Chords<'_> {
-    /// The laws of blocks whose guards are down after the step, or that decide for another one.
+    /// Changes the laws of blocks whose event functions are negative after the step, or that choose a new law
+    /// themselves.
     ///
-    /// One guard of each block in a step, the first that is down; the others have their turn after the next
-    /// step.
+    /// Each block handles one event function per step, the first negative one. Others follow after later steps.
     pub(super) fn pass_guards(&mut self, state: &mut State, record: &mut dyn Record) {
         for (k, wired) in self.model.blocks.iter().enumerate() {
             let eq = Equations::on(self.model, state, self.layout, self.crossing);
             let t = state.t;
             let guards = wired.block().guards(&state.blocks[k].law);
             let down = |guard: &&usize| eq.block_guard(k, **guard, t, |i| state.y[i]) < 0.0;
-            // Memory has moved before laws are asked: what it has taken up is no guard's news any more.
+            // The block's memory is committed before: changes that it already contains cause no event.
             let fallen = guards.iter().find(down).map(|guard| eq.block_next(k, *guard, state));
             let Some((kind, law)) = fallen.or_else(|| eq.block_turn(k, state)) else { continue };
             state.blocks[k].law = law;
@@ -31,14 +31,16 @@ impl Chords<'_> {
         }
     }
 
-    /// State of contact `c` after the last step, which its memory may lag behind.
+    /// Returns the slip state of contact `c` after the last step, at motion `at`. Its slip memory may lag behind.
     pub(super) fn standing(&self, c: usize, memory: &Memory, at: Option<&Motion>) -> ContactState {
         let lags = self.branches.is_some();
         let at = at.filter(|_| lags).map_or(memory.apex(), Motion::apex);
         memory.preview(&self.model.contacts[c].interface, at).state
     }
 
-    /// Contacts that have turned at a corner, where they stick: where they slid, the next step shows that they have stopped.
+    /// Reports a reversal for every sticking contact that reverses at a corner.
+    ///
+    /// For a slipping contact the next step reports the end of slip.
     pub(super) fn notice_turns(&mut self, state: &State, record: &mut dyn Record) {
         let ended = self.branches.iter().flat_map(|branches| &branches.ended);
         for &(c, sense) in ended {
@@ -52,8 +54,9 @@ impl Chords<'_> {
         }
     }
 
-    /// Events as they show after the step. They are the record's: the state does not count them, or it would tell
-    /// whether somebody watched.
+    /// Reports the events that follow from the contacts before and after the step.
+    ///
+    /// The state does not count them, so that it does not depend on the record.
     pub(super) fn notice(&mut self, state: &State, record: &mut dyn Record) {
         for (c, motion) in self.motions.iter().enumerate() {
             let now = self.standing(c, &state.memories[c], Some(motion));
@@ -61,7 +64,7 @@ impl Chords<'_> {
             let turns = self.senses[c] * heading(&state.modes[c], motion) < 0.0;
             let kind = match (was, now) {
                 (ContactState::Open, ContactState::Open) => continue,
-                // What is in contact after the first step has been so from the start.
+                // A contact that touches in the first step was in contact from the start.
                 (ContactState::Open, _) if state.counts.steps > 1 => EventKind::Touch,
                 (_, ContactState::Open) => EventKind::LiftOff,
                 (ContactState::Slip, now) if now != ContactState::Slip => EventKind::GrossSlipEnds,

@@ -1,6 +1,6 @@
-//! A step between two rows: what is read inside it.
+//! Interpolation within an accepted step.
 
-/// A step accepted, with its components at both ends.
+/// Accepted step with its components at both ends.
 pub(in crate::run) struct Between<'a> {
     pub(in crate::run) from: (f64, &'a [f64]),
     pub(in crate::run) to: (f64, &'a [f64]),
@@ -8,9 +8,9 @@ pub(in crate::run) struct Between<'a> {
 }
 
 impl Between<'_> {
-    /// Component `i` at time t of the step: positions by the cubic through both ends, velocities and work in proportion.
+    /// Returns component `i` at time t inside the step.
     ///
-    /// The cubic has the places and velocities of both ends.
+    /// Positions use the cubic Hermite interpolant; velocities and works are linear in time.
     pub(in crate::run) fn value(&self, i: usize, t: f64) -> f64 {
         let ((t0, from), (t1, to), n) = (self.from, self.to, self.free);
         if t >= t1 {

@@ -1,14 +1,15 @@
-//! Where the next step ends, and how its stages lie in it.
+//! Prediction of the next event, and end and stages of the next step.
 //!
-//! A step that an event cuts is lost beyond it, and one that stops well short of it costs another step. So
-//! the first event is predicted from the motion at the start of the step. A prediction that misses costs
-//! evaluations and no digits: the event itself is located on the dense output of whatever step was tried.
+//! An event wastes the part of the step beyond it. A step that ends well before the event costs another step. The first
+//! event is therefore predicted from the motion at the start of the step. A wrong prediction costs evaluations, but no
+//! accuracy, because the event is located on the dense output.
 //!
-//! Where a contact begins, ends or goes into gross slip its force is a power 3/2 of the time to that moment
-//! (Hertz, and F_x = μF_N[1 - (1 - u/u_c)^{3/2}]): even steps across such a moment are of order 1.5 to 2,
-//! whatever their method. A graded step ends or begins there with its stages crowded towards it, and keeps
-//! its order. Where a force begins or ends with a whole power, as that of a cone or a flat punch, there is nothing to crowd for,
-//! and even steps are a hundred times as exact.
+//! Where a contact touches, separates or begins gross slip, its force varies with the power 3/2 of the time to that
+//! singular moment. Examples are Hertz' force and F_x = μF_N[1 - (1 - u/u_c)^{3/2}]. Even steps across a singular
+//! moment have the order 1.5 to 2. A graded step begins or ends there, with stages concentrated near it, and keeps its
+//! order.
+//!
+//! Forces with an integer power, as for a cone or a flat punch, need no graded steps.
 
 use super::Located;
 use crate::contact::{Contact, Guard, Mode};
@@ -18,57 +19,52 @@ use crate::quadrature;
 use crate::state::State;
 use stickslip_stepper::{Attempt, Grade};
 
-/// What the next step is to be.
+/// Plan of the next step.
 #[derive(Clone, Copy)]
 pub(super) struct Aim {
-    /// Where it ends, s.
+    /// End of the step, s.
     pub(super) target: f64,
-    /// How its stages lie in it: even, or crowded towards its start or its end.
+    /// Distribution of the stages: even, or concentrated near the start or the end.
     pub(super) grade: Grade,
-    /// The longest that it may become, s.
+    /// Longest length that the step may get, s.
     pub(super) most: f64,
-    /// Time to a singular moment ahead, s; ∞ without one.
+    /// Time to the next singular moment, s; ∞ without one.
     pub(super) singular: f64,
-    /// The guard whose singular fall is expected at its end.
+    /// Contact and event function with an expected singular zero at the end of the step.
     pub(super) closes: Option<(usize, Guard)>,
 }
 
-/// An expected end of a law: s from now, and the guard that falls.
+/// Expected end of a contact law.
 #[derive(Clone, Copy)]
 struct Expected {
-    /// s from the start of the step; positive.
+    /// Time from the start of the step, s; positive.
     left: f64,
     contact: usize,
-    /// Which of its guards is expected to fall.
+    /// Event function that is expected to cross zero.
     guard: Guard,
 }
 
-/// Part by which a step aims beyond the expected end of a piece of memory, so that the end lies inside.
-// Without it two contacts that grow take 47 % more evaluations, with 1.005 10 %; with 1.5 an eighth less, but at 1e-9 an error
-// four times as large, and damped contacts 16 % more.
+/// Factor by which a step passes the expected end of a law, so that the end lies inside the step.
 const OVERSTEP: f64 = 1.05;
-/// Time goes by at most this much faster along a graded step than along an even one: so much less is its reach.
-// With 20 some profiles end nearer, but a sine drive at 1e-6 no longer finds its steady step; with 1 a profile of power 4 has
-// five times the error at 1e-9.
+/// Largest rate of time along a graded step, relative to an even one. The longest graded step is shorter by that
+/// factor.
 const FASTEST: f64 = 2.0;
-/// From this tolerance on a graded step may be as long as an even one.
-// At 1e-3 an oblique impact would take 22 % more evaluations, a sine drive 15 %, and at 1e-4 both 6 % less.
+/// Smallest tolerance at which a graded step may be as long as an even one.
 const LOOSE: f64 = 3e-4;
-/// Shortest step of few stages, as a part of the longest: what turns sooner is as good as turning.
+/// Shortest step with few stages, as a fraction of the longest one.
 const LEAST: f64 = 0.05;
-/// A step is not tried again with less than this part of it, and the next one is no shorter.
-// Refused: 0.8, four times the error on a profile of power 3. With 0.02 no run differs.
+/// Smallest ratio of a repeated or following step to a step.
 pub(super) const SHRINK: f64 = 0.2;
 
 impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
-    /// The next step: as long as its control wishes, but not far beyond the first event that is expected.
+    /// Plans the next step: as long as step control permits, but not far beyond the first expected event.
     ///
-    /// In order: the solver coasts, and only corners and the longest step bind; nothing is expected within
-    /// twice the step, or nothing singular, and the step is even and ends at most 5 % of the way beyond the
-    /// event; something singular is within reach, and one graded step goes to it; it is not, and an even step
-    /// goes half of the way.
+    /// * While accelerations are constant, only corners and the longest time step limit the step.
+    /// * If no singular event is expected, the step is even and ends at most 5 % beyond the first event.
+    /// * If a singular event is within reach, one graded step ends there.
+    /// * Otherwise an even step covers half of the time to the singular event.
     ///
-    /// `corner` is the next moment that no step may cross, s. The target is never beyond it.
+    /// `corner` is the next time that no step may cross, s.
     pub(super) fn aim(&self, state: &State, corner: f64) -> Aim {
         let longest = self.motion.longest_now(state.t, self.setting.model.fastest);
         let even = |step: f64| Aim {
@@ -78,15 +74,15 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
             singular: f64::INFINITY,
             closes: None,
         };
-        // Under constant forces a step of any length is exact: an event ahead cuts it and spoils nothing.
+        // Under constant forces a step of any length is exact, and an event may cut it.
         if self.motion.solver.coasts() {
             return even(longest);
         }
         let step = state.step.min(longest);
-        // What is left may be less than a last place of t; the step must get beyond it all the same.
+        // The time left may be less than the rounding of t, and the step must still pass the event.
         let rounding = 16.0 * f64::EPSILON * state.t;
         let within = |end: Expected| OVERSTEP * end.left + rounding;
-        // Even steps have become short for what a graded one is spared.
+        // Even steps shorten before a singular event; a graded step can keep the earlier length.
         let most = (self.motion.pace.reach * step)
             .max(self.motion.pace.gait.proven / FASTEST)
             .min(longest / FASTEST);
@@ -103,20 +99,19 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
             return brief;
         }
         let Some(first) = first else { return start(step) };
-        // Half of what may be missed, on the far side of the moment: its guard has then fallen inside the
-        // step.
+        // Half of the allowed distance beyond the event, so that the event function crosses zero inside the step.
         let over = 0.5 * self.motion.pace.closeness * first.left;
         let to = first.left + over;
         let singular = if self.is_singular(state, first) { first.left } else { f64::INFINITY };
-        // Too far for two steps, cut short by a corner, or with an overshoot of rounding: no graded step
-        // would meet the moment.
+        // The event is too far for two steps, beyond a corner, or closer than rounding: a graded step would not end
+        // there.
         let far = first.left > 2.0 * step.max(most) || over < rounding || state.t + to >= corner;
         if far || singular == f64::INFINITY {
             return Aim { singular, ..start(step.min(within(first))) };
         }
         let fades = self.setting.model.contacts[first.contact].fades_evenly();
         let (grade, most) = if fades { (Grade::Even, step) } else { (Grade::End, most) };
-        // Out of reach of one such step and within that of two: half of the way first, evenly.
+        // Two steps are needed; the first one is even and covers half of the time.
         if to > most {
             return Aim { singular, ..start(step.min(0.5 * first.left)) };
         }
@@ -124,11 +119,10 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         Aim { target: state.t + to, grade, most, singular: f64::INFINITY, closes }
     }
 
-    /// A step of few stages, where something near will end it anyway: the law of a contact as it moves now, or a corner. Beyond
-    /// that moment a longer step would be lost.
+    /// Returns a step with few stages if an event or corner will end the step soon. A longer step would be wasted.
     fn brief(&self, state: &State, (step, left): (f64, f64), corner: f64) -> Option<Aim> {
         let short = self.motion.pace.short;
-        // What few stages were refused is tried again with all.
+        // A step that was rejected with few stages is repeated with all stages.
         if short == 0.0 || self.control.history().rejected.is_some() {
             return None;
         }
@@ -144,12 +138,11 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         (ends <= short.min(step)).then(|| brief(ends.max(LEAST * short).min(step)))
     }
 
-    /// Whether a law ends with a force that goes with a power 3/2 of the time left, and enough of it to tell.
+    /// Whether a law ends with a force of power 3/2 in the time left, and enough of the law remains to matter.
     ///
-    /// What is left of the law is measured in the natural depth where the contact ends, in u_c where its slip
-    /// front reaches the centre; below (tolerance)^{2/3} of it a power 3/2 is below the tolerance, and an
-    /// even step does as well. Under a vibrating foot even steps of Nyström's method took ten steps and four
-    /// rejections for each start of gross slip.
+    /// The remaining length of the law is compared with the natural depth before separation, and with u_c before gross
+    /// slip. Below tolerance^{2/3} of that scale the singular part is within the tolerance, and an even step is
+    /// sufficient.
     fn is_singular(&self, state: &State, end: Expected) -> bool {
         let (contact, motion) =
             (&self.setting.model.contacts[end.contact], self.watch.from[end.contact].motion);
@@ -165,43 +158,44 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         }
     }
 
-    /// How long a graded step may be from here, s, where a contact has only just been touched whose force begins steeply; none
-    /// where an even step does as well.
+    /// Returns the longest graded step just after a touch, s. `None` if an even step is sufficient.
+    ///
+    /// Graded steps are needed where the force begins with a power of d between 1 and 2.
     fn graded_start(&self, state: &State, step: f64) -> Option<f64> {
         if !self.motion.solver.grades() {
             return None;
         }
-        // What has a closed form has been pressed all along.
+        // Contacts with closed-form forces have a constant indentation and cannot just have touched.
         let touched = self.interval.others.iter().filter(|c| self.is_touched(state, **c, step));
         let swing = touched.map(|c| self.touching_swing(*c)).reduce(f64::max)?;
         Some(self.motion.pace.start / swing.max(self.setting.model.fastest))
     }
 
-    /// Whether a contact whose force begins steeply is, at its rate ḋ, no deeper than a step of [`Pace::closeness`] of this one
-    /// would make it.
+    /// Whether a contact has only just touched, with a force that begins with a power of d between 1 and 2.
     ///
-    /// [`Pace::closeness`]: super::motion::Pace::closeness
+    /// Just touched means an indentation of at most [`closeness`](super::motion::Pace::closeness) times the step times
+    /// ḋ.
     fn is_touched(&self, state: &State, c: usize, step: f64) -> bool {
         let contact = &self.setting.model.contacts[c];
         let motion = self.watch.from[c].motion;
-        // A depth that never changes has no first moment.
+        // A contact with constant indentation has no touch.
         !contact.is_constant()
             && matches!(state.modes[c], Mode::Grow | Mode::Slip(_))
             && motion.d <= self.motion.pace.closeness * motion.dd * step
             && contact.is_steep()
     }
 
-    /// The rate at which a touch with the speed ḋ turns, 1/s: ḋ/L with the depth L at which gF_N(L)L = ḋ², g as in
-    /// [`Self::leaves`].
+    /// Returns the angular frequency of the oscillation that a touch with the speed ḋ starts, 1/s.
     ///
-    /// In L and L/ḋ all touches of one power law are the same motion. 0 of what bodies do not press.
+    /// It is ḋ/L with the depth L at which gF_N(L)L = ḋ², with g as in [`Self::leaves`]. In units of L and L/ḋ all
+    /// touches of one power law are the same motion. The result is 0 for contacts that no body presses.
     fn touching_swing(&self, c: usize) -> f64 {
         let contact = &self.setting.model.contacts[c];
         let speed = self.watch.from[c].motion.dd;
         let Some(measure) = contact.coupling().filter(|_| speed > 0.0) else { return 0.0 };
         let gain = contact.count * measure.mobility(|i| self.setting.model.free[i].mobility);
         let mut depth = contact.natural.depth;
-        // Of a power law the first is exact; others are not far from one.
+        // The first iteration is exact for a power law. Other profiles are close to one.
         for _ in 0..2 {
             let (force, slope) =
                 (contact.interface.normal_force(depth), contact.interface.normal_stiffness(depth));
@@ -212,9 +206,9 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         if rate.is_finite() { rate } else { 0.0 }
     }
 
-    /// About when the first piece of memory will be used up: a step much longer would only be thrown away.
+    /// Returns when the first memory piece is expected to be used up, so that the step is not much longer.
     ///
-    /// None where no edge will reach the end of its piece as it moves now.
+    /// `None` if no slip edge reaches the end of its piece with the current motion.
     fn piece_end(&self, state: &State) -> Option<Expected> {
         let (eq, begin) = (self.setting.equations(state, &self.interval), self.motion.solver.span().begin);
         let steady = self.watch.expected_of_closed(&self.interval.closed, begin);
@@ -225,9 +219,9 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         Some(Expected { left, contact, guard: Guard::Piece })
     }
 
-    /// About when the first contact will end, if within twice a step.
+    /// Returns when the first contact is expected to separate, if within two steps.
     ///
-    /// Of contacts pressed by their bodies' motion only.
+    /// Applies to contacts that are pressed by the motion of bodies.
     fn lift_off(&self, state: &State, step: f64) -> Option<Expected> {
         let mut first: Option<Expected> = None;
         for &c in &self.interval.others {
@@ -242,13 +236,14 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         first
     }
 
-    /// Time to the end of a contact as if only its own normal force changed: then ḋ²/2 loses what the springs give,
-    /// and ∫dd/ḋ is left.
+    /// Returns the time to the separation of a contact as if only its own normal force changed, s.
     ///
-    /// With d̈ = r - gF_N(d), g the mobility along d times the number of contacts and r what else accelerates
-    /// them, ν²(x) = ḋ² - 2r(d-x) + 2g[E(d) - E(x)] with the normal energy E = E\*N (J), and the time is ∫₀ᵈ
-    /// dx/ν. None where the contact does not open, would turn before it is apart, or is not apart `within`
-    /// that time (s) at the speed of its end.
+    /// With d̈ = r - gF_N(d), the squared speed is ν²(x) = ḋ² - 2r(d-x) + 2g[E(d) - E(x)], and the time is ∫₀ᵈ dx/ν.
+    /// The gain g is the mobility along d times the number of contacts, and r is the acceleration by other forces. E =
+    /// E\*N is the normal energy (J).
+    ///
+    /// `None` if the contact does not open, turns before it separates, or needs more than `within` (s) at its final
+    /// speed.
     fn leaves(&self, c: usize, contact: &Contact, measure: &Measure, within: f64) -> Option<f64> {
         let (motion, (bend, _)) = (self.watch.from[c].motion, self.watch.from[c].second);
         let (d, v) = (motion.d, motion.dd);
@@ -258,16 +253,16 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         let gain = contact.count * measure.mobility(|i| self.setting.model.free[i].mobility);
         let rest = bend + gain * contact.interface.normal_force(d);
         let energy = contact.interface.normal_energy(d);
-        // Others' forces are taken as they are now: in the last part of a contact its own changes most.
+        // Other forces are taken as constant: shortly before separation the contact's own force changes most.
         let square = |x: f64| {
             v * v - 2.0 * rest * (d - x) + 2.0 * gain * (energy - contact.interface.normal_energy(x))
         };
-        // d over the speed at the end is a cheap bound: the quadrature is spared where even that is too long.
+        // A cheap bound that may spare the quadrature: d divided by the final speed.
         let end = square(0.0);
         if !(end > 0.0 && d < within * end.sqrt()) {
             return None;
         }
-        // Any four nodes will do: the place is corrected by what the step finds there.
+        // Four nodes are sufficient, because the end of the step is corrected later.
         let left = d * quadrature::mean(f64::INFINITY, 1.0, |shares| {
             shares.map(|share| square(d * share).sqrt().recip())
         })
@@ -276,30 +271,27 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
     }
 }
 
-/// The longest graded step as a part of an even one.
+/// Returns the longest graded step as a fraction of an even one.
 ///
-/// What is aimed at further away is refused, and shortens the even steps after it, too, those of the next interval among them: a
-/// slider on a sine took a refused step and two short ones for each start of gross slip.
+/// A longer graded step would be rejected and would also shorten the following even steps.
 pub(super) fn reach(tolerance: f64) -> f64 {
     if tolerance < LOOSE { FASTEST.recip() } else { 1.0 }
 }
 
-/// The longest graded step from a touch, in radians of the swing that the touch begins: what it misses is then a tenth of the tolerance.
+/// Returns the longest graded step from a touch, in radians of the oscillation that the touch starts.
 ///
-/// Of d̈ = -dᵖ from a touch at the speed 1 a step of half a radian and more misses 8e-4 θ^{6.5} at most for 1 < p < 2. Its estimate stops growing at
-/// half a radian and passes through 0 where p is nearly 2: by it alone steps of 0.7 to 1.2 rad were accepted at 1e-3 to 1e-5 that
-/// missed up to 7e-4. All touches miss to one side, so that places are off by the square of their number.
+/// The error of that step is a tenth of the tolerance. For d̈ = -dᵖ, 1 < p < 2, at unit speed, a step of θ rad has an
+/// error of at most 8e-4 θ^{6.5}. Beyond half a radian the embedded estimate is unreliable.
 pub(super) fn start(tolerance: f64) -> f64 {
     math::powf(0.1 * tolerance / 8e-4, 6.5_f64.recip())
 }
 
-/// End of the next step: the corner exactly, or so that no sliver is left before it.
+/// Returns the end of the next step: exactly the corner, or a time that leaves no short remainder before it.
 ///
-/// A step that would leave less than its own length before the corner goes half of the way there, so that two
-/// like steps follow instead of a whole one and a remainder.
+/// A step that would leave less than its own length covers half of the time to the corner. Two equal steps follow.
 fn end(t: f64, step: f64, corner: f64) -> f64 {
     let left = corner - t;
-    // The corner to the last bit: a sum t + step would miss it by rounding.
+    // The sum t + step could differ from the corner by rounding.
     if step >= 0.999 * left {
         corner
     } else if 2.0 * step > left {

@@ -1,9 +1,8 @@
-//! What error each component of a step may have.
+//! Allowed error of each component of a step.
 //!
-//! The error of a step is measured in units of these scales, and 1 is just allowed. Scales are the tolerance
-//! times natural lengths, so that one tolerance suits every scene, and never less than the rounding of what
-//! they are compared with: errors that no shorter step makes smaller would end a run in steps too small. They
-//! are set at events and at rejections, not at every step.
+//! The error of a step is measured in these units; 1 is just allowed. An allowed error is the tolerance times a natural
+//! scale, so that one tolerance suits every model. It is never below the rounding error of the compared quantities,
+//! because no shorter step reduces that. The values are set at events and rejections, not at every step.
 
 use super::shift::FAR;
 use crate::Model;
@@ -12,67 +11,62 @@ use crate::equations::{Components, Equations};
 use crate::model::{Binding, Body, Link, Measure, Stroke};
 use crate::state::{Allowed, State};
 
-/// Part of the tolerance that is asked of the estimates where a list of springs puts kinks into the law: they are no events,
-/// and the estimates of a method of high order see them late; and where a row under a normal that moves begins a step at
-/// every change of a spring. Without it errors were 20 to 1000 times the tolerance.
-// With 0.01 a sine drive on 64 heights saves a quarter of its evaluations, for books of the size of the tolerance and twenty
-// times the error; 1e-4 costs a quarter more.
+/// Factor on the tolerance where the force law has kinks that are no events.
+///
+/// Examples are profiles given as lists of springs, and spring rows under a varying normal force. Error estimates of
+/// high order detect such kinks late.
 const KINKS: f64 = 1e-3;
-/// Part of the tolerance that is asked of the estimates where a contact passes bends of its stiffness, as a normal law has at its points and
-/// a tipped paraboloid where its cone ends: by an indentation that moves, or by damping, which asks for the stiffness itself.
-// Without it errors of drawn scenes are 21 to 510 tolerances from 1e-6 to 1e-11, with it 0.3 to 23 for 1.2 to 4 times the evaluations; with
-// 0.1 3 to 140.
+/// Factor on the tolerance where a contact passes bends of its stiffness, with varying indentation or contact damping.
+///
+/// A tabulated normal law has bends at its points, and a tipped paraboloid has one at the end of its cone.
 const BENDS: f64 = 1e-2;
-/// Part of the tolerance that is asked of the estimates where a free body rests on rows under constant normals, whose springs
-/// slip one by one and end no step: all of it down to [`ROWS_FROM`], and ever less below, down to this.
-// Of 14 drawn scenes errors are up to 1 500 tolerances at 1e-10 without it, and 25 with it, for 1.4 to 2.1 times the evaluations.
-// At 1e-8 a tenth takes 1.3 times as many, up to 2, and a hundredth 1.7, up to 3.2; at 1e-6 a hundredth up to 4.2.
+/// Smallest factor on the tolerance where a free body rests on spring rows under constant normal forces.
+///
+/// Their springs slip one by one and end no step. The factor is 1 down to [`ROWS_FROM`] and decreases with the
+/// tolerance below.
 const ROWS: f64 = 1e-2;
-/// Tolerance down to which the kinks of such rows are left to the estimates.
+/// Tolerance down to which the error estimates resolve the kinks of spring rows under constant normal forces.
 const ROWS_FROM: f64 = 1e-7;
-/// Finest tolerance that rounding leaves room for.
-// On heights at a tolerance of 1e-12 books are 2e-11 with it, 1e-10 with 1e-12; with 1e-14 7 % more evaluations gain
-// half of that.
+/// Smallest tolerance that rounding permits.
 const FINEST: f64 = 1e-13;
-/// Step, in 1/ω of the fastest natural motion, above which rounding of time in the force of a stroke is no reason to shorten it.
-// Without it the flyback of a stage that has run for 0.4 s took steps of 16 ps, 3.1 million of them at a tolerance of 1e-11. With
-// 0.001 that period takes 59 600 steps in all, with 0.01 to 8 46 300; with 1 or more a stack at 1e-12 ends in other last digits.
+/// Time over which rounding errors of fast strokes and followers are allowed, in 1/ω of the fastest oscillation.
 const RUSH: f64 = 0.1;
-/// Tolerance below which contacts are asked, too: at it a thousand seconds of a drive that goes by 10⁵ natural lengths a second are not seen.
+/// Tolerance below which rounding errors of fast followers are allowed for contacts, too.
 const RUSH_BELOW: f64 = 1e-8;
 
-/// Friction below which u_c may lie below the rounding of places.
+/// Friction coefficient below which u_c may be smaller than the rounding of positions.
 const FAINT: f64 = 1e-4;
 
-/// Differences over which derivatives are taken, in natural scales: far below what bends a contact's force, which is a tenth of
-/// u_c and more, and far above rounding.
+/// Finite difference for derivatives, in natural scales.
+///
+/// It is far below a tenth of u_c, where contact forces bend, and far above rounding.
 const DIFFERENCE: f64 = 1e-7;
 
-/// Absolute errors allowed of a step.
+/// Allowed absolute errors of a step.
 pub(super) struct Allowance {
-    /// As they are now.
+    /// Current values.
     pub(super) allowed: Allowed,
-    /// That of the run.
+    /// Tolerance of the run.
     tolerance: f64,
-    /// What is asked of the error estimates, relative to natural scales.
+    /// Tolerance of the error estimates, relative to natural scales.
     pub(super) strict: f64,
     /// Natural scale of work, J.
     work: f64,
-    /// Share of a work that is rounding, where no contact and no stroke tells how much of it matters.
+    /// Relative rounding error of works in a model without friction, strokes and followers; 0 otherwise.
     rounding: f64,
-    /// Share of the kinetic energy that is rounding of works, beside contacts that rub.
+    /// Fraction of the kinetic energy that is rounding error of works in a model with friction; 0 otherwise.
     moving: f64,
-    /// What rounding makes of the work that waveforms put in, J.
+    /// Rounding error of the work done by waveforms, J.
     least: f64,
-    /// Whether a contact's friction is so small that the tolerance may lie below the rounding of places beside it.
+    /// Whether a friction coefficient is so small that the tolerance may be below the rounding of positions.
     is_faint: bool,
 }
 
 impl Allowance {
-    /// Of growing contacts' forces; the rest is known step by step. The integrals of work steer the steps as well: energy
-    /// books close at the tolerance.
+    /// Creates the allowed errors that do not change in a run, such as those of forces of growing contacts.
     ///
-    /// `tolerance` is relative to natural scales: u_c, u_cω, μF_N and μF_N u_c.
+    /// Works have allowed errors, too, so that the energy balance closes within the tolerance. `tolerance` is relative
+    /// to the natural scales u_c, u_cω, μF_N and μF_N u_c.
     pub(super) fn new(model: &Model, tolerance: f64, mut scale: Vec<f64>) -> Self {
         let part = model.contacts.iter().map(|contact| part(model, contact, tolerance)).fold(1.0, f64::min);
         let strict = if part < 1.0 { (part * tolerance).max(f64::min(tolerance, FINEST)) } else { tolerance };
@@ -82,7 +76,7 @@ impl Allowance {
         for contact in &model.contacts {
             if let Some(slot) = contact.slot {
                 let limit = contact.friction_limit();
-                // Without friction there is no limit to compare with, and no force either.
+                // Without friction there is no limit and no force, so any scale is suitable.
                 let natural = if limit > 0.0 { limit } else { 1.0 };
                 scale[layout.force(slot)] = natural * (strict * contact.natural.sweep).max(PLACES);
             }
@@ -95,7 +89,7 @@ impl Allowance {
         }
         for wired in &model.blocks {
             let first = layout.block(wired.first);
-            // Blocks name their own natural scales: the run knows none of them by kind.
+            // Blocks define their own natural scales.
             let own = scale[first..].iter_mut().zip(&wired.states.scales);
             own.for_each(|(scale, natural)| *scale = strict * natural);
         }
@@ -110,42 +104,41 @@ impl Allowance {
             .iter()
             .any(|contact| (f64::MIN_POSITIVE..FAINT).contains(&contact.interface.friction()));
         let work = model.work_scale();
-        // Where nothing rubs the works have no scale but what moves: a swing at resonance grows by the same in every period.
+        // Without friction, small works matter: at resonance every period adds the same work.
         let moving = if rubs { f64::EPSILON } else { 0.0 };
         let allowed = Allowed { scale, power: 0.0 };
         Self { allowed, tolerance, strict, work, rounding, moving, least, is_faint }
     }
 
-    /// The tolerance times the natural scale, and never below what rounding of a far-travelled coordinate makes of the force,
-    /// or rounding of time of the work of a fast follower.
+    /// Sets the allowed errors at a state: the tolerance times natural scales, but at least rounding errors.
     ///
-    /// With ε the spacing of doubles at 1: positions tolerance·length + 8ε|x|, at least ε|v|·length/speed; velocities
-    /// tolerance·speed + 8ε|x|·speed/length + 8ε|v|; works tolerance·μF_N u_c + 8εtP with the power P of the followers,
-    /// where more is asked than the tolerance that of [`surge`], and 8ε|W| of works W where loads alone move bodies; at least
-    /// 2ε of the kinetic energy.
-    // A slider of friction 1e-8 that rests beside two masses on a spring asked for their work to 1e-28 J of 1e-6 J, and the run stood still.
+    /// With the spacing ε of doubles at 1, the power P of the followers and works W where only loads move bodies:
+    ///
+    /// * position: tolerance·length + 8ε|x|, at least ε|v|·length/speed;
+    /// * velocity: tolerance·speed + 8ε|x|·speed/length + 8ε|v|;
+    /// * work: tolerance·μF_N u_c + 8εtP + 8ε|W|, at least 2ε of the kinetic energy.
+    ///
+    /// A stricter tolerance for kinks or bends adds at most the rounding error of [`surge`].
     pub(super) fn set(&mut self, model: &Model, state: &State) {
         let layout = model.layout();
         let Allowed { scale, power } = &mut self.allowed;
         let mut kinetic = 0.0_f64;
         for (i, free) in model.free.iter().enumerate() {
             let (length, speed) = free.scale;
-            // A displacement that has travelled far rounds the force of a stiff contact, and the force the
-            // velocity.
+            // Rounding of a large displacement causes errors of the contact force and hence of the velocity.
             let (x, v) = (PLACES * state.y[i].abs(), PLACES * state.y[layout.velocity(i)].abs());
             let rate = state.y[layout.velocity(i)].abs();
-            // Near 0 a place has the rounding of the way that a step goes.
+            // Near 0 a position has the rounding error of the distance covered in a step.
             scale[i] = (self.strict * length + x).max(f64::EPSILON * rate * (length / speed));
             kinetic += free.mass * rate * rate;
             scale[layout.velocity(i)] = self.strict * speed + x * (speed / length) + v;
         }
-        // The time of a corner is rounded to εt, in which a follower at power P does the work Pεt. Without
-        // this term a flyback of a nanosecond or less ended in steps too small.
+        // Time is rounded to εt, in which a follower of power P does the work Pεt.
         let work = self.strict * self.work + PLACES * state.t * *power;
-        // What is asked beyond the tolerance gives way where rounding is in it.
+        // A stricter tolerance must not be below the rounding error.
         let beyond = (self.tolerance - self.strict) * self.work;
         let noise = if beyond > 0.0 { PLACES * state.t * surge(model, state) } else { 0.0 };
-        // A mass that a step of load drives over metres has put in 10¹⁵ times what natural lengths of a micrometre let expect.
+        // Loads that move bodies far do work far above the natural scale.
         let gone = self.rounding * (state.y[layout.input()].abs() + state.y[layout.damping()].abs());
         let least = (self.moving * kinetic).max(self.least);
         scale[layout.dimension()..].fill((work + noise.min(beyond) + gone).max(least));
@@ -156,7 +149,7 @@ impl Allowance {
         if self.is_faint {
             allow_places(model, state, scale);
         }
-        // Where nothing swings there is no such step.
+        // Without oscillation there is no such step.
         let by_contacts = self.strict < RUSH_BELOW;
         if model.fastest > 0.0 && (by_contacts || !model.links.is_empty()) {
             allow_rush(model, state, scale, by_contacts);
@@ -165,9 +158,9 @@ impl Allowance {
 }
 
 impl Allowance {
-    /// The works of a contact that only followers move are measured by its own, however much larger others beside it are: nothing free
-    /// is between them, whose rounding would be theirs as well.
-    // Loops of 1e-14 J beside a contact of 6e-3 J were 1.1 % off at any tolerance.
+    /// Sets the allowed errors of works of contacts that only followers move, relative to their own scale of work.
+    ///
+    /// Larger works of other contacts do not matter, because no free coordinate connects them.
     fn allow_walked(&mut self, model: &Model, state: &State) {
         let layout = model.layout();
         for contact in model.contacts.iter().filter(|contact| contact.is_walked()) {
@@ -186,7 +179,7 @@ impl Allowance {
     }
 }
 
-/// Part of the tolerance that a contact asks of the estimates.
+/// Returns the factor on the tolerance that a contact requires.
 fn part(model: &Model, contact: &Contact, tolerance: f64) -> f64 {
     let is_row = !contact.engine.branches();
     let profile = contact.interface.profile();
@@ -202,7 +195,7 @@ fn part(model: &Model, contact: &Contact, tolerance: f64) -> f64 {
     }
 }
 
-/// How far a derivative moves each coupled component of a model.
+/// Returns the finite difference for each coupled component of a model.
 pub(super) fn differences(model: &Model) -> Vec<f64> {
     let mut natural = Allowance::new(model, 1.0, Vec::new());
     natural.set(model, &model.rest());
@@ -211,12 +204,13 @@ pub(super) fn differences(model: &Model) -> Vec<f64> {
     natural.allowed.scale[..coupled].iter().map(|scale| unit * scale).collect()
 }
 
-/// Raises what is allowed to what rounding of time leaves of the forces of fast strokes and followers, and rounding of places of contacts
-/// whose bodies started far from the origin, and of stacks whose ends have gone far from there.
+/// Raises the allowed errors to rounding errors of time in fast strokes and followers, and of large positions.
 ///
-/// A stage of a step lies at a time that is rounded to εt, and a link's force changes by F' = kṡ + cs̈ in a second, a contact's by mω²u̇ of
-/// what it follows: accelerations are wrong by εtF'/m and powers by εtF'ṡ, and what a step makes of them falls with its length only.
-/// Allowed is what one of [`RUSH`]/ω makes of them, ω the fastest natural motion's.
+/// The time of a stage is rounded to εt. The force of a link changes at the rate F' = kṡ + cs̈, that of a contact at
+/// mω²u̇ of its follower. Accelerations thus have errors of εtF'/m and powers of εtF'ṡ. Allowed is their effect over
+/// the time [`RUSH`]/ω, with ω of the fastest oscillation.
+///
+/// Large positions are those of bodies that start far from the origin, and of stack ends that have moved far.
 fn allow_rush(model: &Model, state: &State, scale: &mut [f64], by_contacts: bool) {
     let layout = model.layout();
     let equations = Equations::on(model, state, layout, false);
@@ -250,19 +244,18 @@ fn allow_rush(model: &Model, state: &State, scale: &mut [f64], by_contacts: bool
         let place = f64::EPSILON * contact.u.constant.abs();
         let Some((first, _)) = contact.u.free.first() else { continue };
         let free = &model.free[*first];
-        // All that holds the coordinate when it sticks: mω².
+        // Stiffness that holds the coordinate in stick: mω².
         let stiffness = (free.scale.1 / free.scale.0).powi(2) / free.mobility;
         push(stiffness * (late * rate.abs() + place), rate, &contact.u.free);
     }
     scale[layout.dimension()..].iter_mut().for_each(|scale| *scale = scale.max(work));
 }
 
-/// Raises what is allowed to the rounding of the places that contacts and links tell from each other: a friction may be so small that its
-/// u_c is less than a few of their last places.
+/// Raises the allowed errors to rounding errors of the positions that contacts and links compare.
 ///
-/// A place rounds the force of all that holds it, and the force, by kεx/m = ω²εx, the velocity within 1/ω; the force of a stack rounds its
-/// power within that time.
-// A stage on two feet of frictions 0.5 and 1e-12, tipped by 24 µrad, took steps of a thousandth of its period for the rounding of 50 nm.
+/// With very small friction, u_c may be only a few rounding errors of a position. The rounding error εx of a position
+/// causes the acceleration error kεx/m = ω²εx, and within 1/ω the velocity error ωεx. The force error of a stack causes
+/// an error of its power in the same time.
 fn allow_places(model: &Model, state: &State, scale: &mut [f64]) {
     let layout = model.layout();
     let equations = Equations::on(model, state, layout, false);
@@ -289,10 +282,9 @@ fn allow_places(model: &Model, state: &State, scale: &mut [f64]) {
     scale[layout.dimension()..].iter_mut().for_each(|scale| *scale = scale.max(work));
 }
 
-/// By how much the power of free strokes rises in a step, W: kṡ²h. So much may rounding of the time of a stage of it be mistaken.
+/// Returns the increase of the power of strokes in a step h, W: kṡ²h. Rounding of a stage's time causes such an error.
 ///
-/// A step of h is at most the fastest natural motion's 1/ω.
-// Without it an impact drive on rows, asked for works to 6e-21 J, took steps of 5 ns after half a second: ten times as many.
+/// h is at most 1/ω of the fastest oscillation.
 fn surge(model: &Model, state: &State) -> f64 {
     if model.links.is_empty() {
         return 0.0;
@@ -304,19 +296,16 @@ fn surge(model: &Model, state: &State) -> f64 {
     if step > 0.0 { model.links.iter().map(rise).sum::<f64>() * step } else { 0.0 }
 }
 
-/// Largest power that followers can put into the contacts now, W: μF_N times their speed, and of profiles with kinks what springs that
-/// all stick resist by their damping.
+/// Returns an upper bound of the power that followers can put into the contacts, W.
 ///
-/// An upper bound: no spring takes more than its limit of friction and that. Asked at corners only: on a straight
-/// piece the speed between two of them is one and the same.
-// The damping of a height is gone as soon as it slips, and no event says when: without it a flyback of a nanosecond over two damped
-// heights, whose damping was thousands of μF_N, ended in steps too small. On smooth profiles it fades, or is gone at an event.
+/// It is μF_N times the speed of the followers. Profiles with kinks add the damping force of all springs in stick. The
+/// bound is computed at corners only, because the speed is constant on a straight piece.
 pub(super) fn follower_power(model: &Model, state: &State) -> f64 {
     let equations = Equations::on(model, state, model.layout(), false);
     model.contacts.iter().map(|contact| power(contact, &equations, state)).sum()
 }
 
-/// The same of one contact.
+/// Returns an upper bound of the power that followers can put into one contact, W.
 fn power(contact: &Contact, equations: &Equations<'_>, state: &State) -> f64 {
     let at = Components { t: state.t, y: |i: usize| state.y[i] };
     let rate = |w: usize| equations.signal(w, &at).rate;

@@ -1,4 +1,4 @@
-//! Coordinates without mass in a run: when nothing balances them any more, and when their places are states.
+//! Quasi-static coordinates (without mass) in a run: loss of balance, and positions as states.
 
 use super::Located;
 use crate::RunError;
@@ -8,12 +8,11 @@ use crate::scene::Axis;
 use crate::state::State;
 use stickslip_stepper::Attempt;
 
-/// What is left of a load at the located moment at which it lifts a body off, as a part of the largest one.
-// Moments are located to 1e-11 of a period or better.
+/// Rounding error of a load at the located separation of a body, as a fraction of the largest load.
 const PARTING: f64 = 1e-9;
 
 impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
-    /// Fails where nothing balances a coordinate any more: all that acts along it slips, or has parted.
+    /// Fails if a quasi-static coordinate has no balance any more: all its contacts slip or are open.
     pub(super) fn check_balance(&self, state: &State) -> Result<(), RunError> {
         let (model, equations) = (self.setting.model, self.setting.plain(state));
         let at = Instant { t: state.t, y: &|i| state.y[i] };
@@ -23,7 +22,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
                 Axis::Z => state.modes[c] == Mode::Open,
                 _ => state.modes[c].has_given_way(&model.contacts[c]),
             };
-            // A load that sets out from 0 N has pressed nothing yet.
+            // A load that begins at 0 N has not pressed yet.
             let sets_out = || along == Axis::Z && equations.presses(b, &at, self.rounding_of(b));
             if let Some(forces) = equations.given_way(b, &at, gone).filter(|_| !sets_out()) {
                 return Err(model.unbalanced(b, state.t, forces));
@@ -32,11 +31,12 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         Ok(())
     }
 
-    /// How far the whole law may be taken, s: to `to`, or to the last moment before nothing balances a coordinate any more.
+    /// Returns the time up to which the full force law has a balance, s: `to`, or the last earlier time.
     ///
-    /// No mode says there that a contact has given way, and beyond it there is no place to go to. What pulls and what holds
-    /// depend on the time alone. Fails where that moment is no more than `least` (s) ahead: about it places change faster than any
-    /// step tells.
+    /// Beyond that time no equilibrium position exists, and no contact law shows it. Loads and holding forces depend on
+    /// time only.
+    ///
+    /// Fails if that time is at most `least` (s) ahead, because positions then change faster than any step resolves.
     pub(super) fn until_overloaded(&self, state: &State, to: f64, least: f64) -> Result<f64, RunError> {
         let (model, equations, from) = (self.setting.model, self.setting.plain(state), state.t);
         let over = |t: f64| equations.overloaded(t, &|i| state.y[i]);
@@ -57,7 +57,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         }
     }
 
-    /// What is rounding of a load where the last contact parts, N.
+    /// Returns the rounding error of a load when the last contact separates, N.
     fn rounding_of(&self, b: usize) -> f64 {
         let model = self.setting.model;
         let force = |(c, _): &(usize, f64)| {
@@ -67,7 +67,9 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         PARTING * model.balanced[b].contacts.iter().map(force).sum::<f64>()
     }
 
-    /// The place of a balanced coordinate becomes a state where the first of its contacts grows: it begins where that stands.
+    /// Makes the position of a quasi-static coordinate a state when its first contact begins to grow in full stick.
+    ///
+    /// The state begins at the current position.
     pub(super) fn carry(&self, state: &mut State, c: usize) {
         let model = self.setting.model;
         if state.modes[c] != Mode::Grow {

@@ -1,7 +1,7 @@
-//! Where an interval between two events begins.
+//! Start of an interval between two events.
 //!
-//! After most events only the contacts that fired have another law, and the interval takes up those; after a corner, a moved
-//! origin and events of blocks it is made anew.
+//! After most events only contacts with a zero crossing have another law, and the interval is updated for them. After a
+//! corner, a moved origin or a block event the interval is built again.
 
 use super::Located;
 use super::watch::Fallen;
@@ -11,13 +11,14 @@ use crate::state::{Grip, State};
 use stickslip_stepper::Attempt;
 
 impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
-    /// What is known until the next event: forms of contacts, the method, and whether anything holds.
+    /// Builds the interval until the next event: closed forms of contacts, integration method, and whether anything
+    /// sticks.
     pub(super) fn begin_interval(&mut self, state: &mut State) {
         self.interval.begin(self.setting.model, state);
         self.count_interval(state);
     }
 
-    /// The same where nothing but the laws of the contacts that fired has changed; false, with nothing done, where it has.
+    /// Updates the interval if only laws of contacts have changed. Otherwise returns false and does nothing.
     pub(super) fn renew_interval(&mut self, state: &mut State) -> bool {
         let of_contact = |fallen: &Fallen| matches!(fallen, Fallen::Contact(..));
         let contacts = self.watch.fired.iter().filter_map(|fallen| match fallen {
@@ -32,14 +33,15 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         renews
     }
 
-    /// Nothing is under way in it yet.
+    /// Counts the interval, ends any leap and determines whether anything sticks.
     fn count_interval(&mut self, state: &mut State) {
         self.takeoff = None;
         self.interval.count(&mut state.tally);
         let (model, modes) = (self.setting.model, &state.modes);
         let presses =
             |(mode, contact): (&Mode, &Contact)| *mode != Mode::Open && contact.coupling().is_some();
-        // Without contacts, and while all of them slip, links and bodies on what they press swing on: their steps must damp all the same.
+        // Links and bodies that press contacts oscillate also during slip, so the stability limit applies to their
+        // steps.
         let holds = modes.iter().any(Mode::holds)
             || modes.is_empty()
             || !model.links.is_empty()

@@ -1,4 +1,4 @@
-//! What happens to blocks at an event: the next law of one whose guard fell, and of all where rates may jump.
+//! Next laws of blocks at an event, and where rates may jump.
 
 use super::Located;
 use super::watch::Fallen;
@@ -11,7 +11,9 @@ use crate::state::State;
 use stickslip_stepper::Attempt;
 
 impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
-    /// The law of a block after one of its guards fell; none where a jump at the same moment has taken it to a law without that guard.
+    /// Changes the law of a block after a zero crossing.
+    ///
+    /// Does nothing if a jump at the same time has set a law without that event function.
     pub(super) fn handle_block(
         &mut self,
         state: &mut State,
@@ -28,10 +30,11 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         self.bounds.event(self.setting.model, state, (Source::Block(k), kind))
     }
 
-    /// Blocks decide afresh where rates of what they read may have jumped, in order: each reads only those before it.
+    /// Lets blocks choose their laws again where the rates of their inputs may have jumped.
     ///
-    /// One whose guard has just fallen has its law: there a rate is 0 but for rounding. At a corner, and where what it reads has
-    /// another law since then, rates are others than those by which it fell.
+    /// Blocks are handled in order, because each reads only earlier ones. A block with a zero crossing keeps its new
+    /// law, because its rate is zero within rounding. At a corner, or if an input has a new law, its rate has changed,
+    /// and it chooses again.
     pub(super) fn turn_blocks(
         &mut self,
         state: &mut State,

@@ -1,8 +1,8 @@
-//! The step that reaches the end of a run.
+//! Step that reaches the end of a run.
 //!
-//! No step sees the end: it is tried in its whole length, and read off its dense output up to the end. So what a run writes
-//! does not depend on when it ends, and one that stops before that step goes on from there as if it had never been told to
-//! end.
+//! Steps are not cut at the end. The last step is attempted in full length, and output up to the end comes from its
+//! dense output. Output therefore does not depend on the end. A run that stops before that step continues as if it had
+//! no end.
 
 use super::Located;
 use crate::equations::Equations;
@@ -10,7 +10,7 @@ use crate::run::steady::Steps;
 use crate::state::State;
 use stickslip_stepper::{Attempt, Completion, Hand, StepControl};
 
-/// What an attempt changes beside the solver's own scratch.
+/// Data that an attempt changes, apart from scratch of the integrator.
 #[derive(Clone)]
 pub(super) struct Bookmark {
     control: StepControl,
@@ -21,7 +21,7 @@ pub(super) struct Bookmark {
 }
 
 impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
-    /// Where the run stands before an attempt that may reach its end; none where none can.
+    /// Saves the data before an attempt that may reach the end; `None` if no attempt can.
     #[inline(always)]
     pub(super) fn bookmark(&self) -> Option<Bookmark> {
         (self.horizon.end < f64::INFINITY && !self.horizon.takes_last).then(|| self.mark())
@@ -38,25 +38,25 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         }
     }
 
-    /// Takes back what the attempt changed: the run stands where it stood.
+    /// Undoes an attempt.
     pub(super) fn turn_back(&mut self, before: Option<Bookmark>) {
         let Some(before) = before else { return };
-        // It will be made again, and counted then.
+        // The attempt will be repeated and counted then.
         self.output.evaluations += self.motion.solver.evaluations() - before.evaluations;
         self.motion.solver.set_hand(before.hand);
         (self.control, self.horizon.steps) = (before.control, before.steps);
         self.end_at(before.end);
     }
 
-    /// Ends the run, and its rows, at another time, s.
+    /// Sets the end of the run and of its rows, s.
     pub(super) fn end_at(&mut self, end: f64) {
         self.horizon.end = end;
         self.horizon.nearly = self.output.end_at(end);
     }
 
-    /// Ends the step just tried at the end of the run, on its dense output, where it goes beyond.
+    /// Cuts the attempted step at the end of the run, on its dense output, if it passes the end.
     ///
-    /// An event beyond the end is no event of this run: what had fallen is forgotten.
+    /// Zero crossings beyond the end are discarded.
     pub(super) fn end_here(&mut self, state: &State) {
         if self.motion.solver.span().end_time <= self.horizon.end {
             return;

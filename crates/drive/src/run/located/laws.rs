@@ -1,11 +1,13 @@
-//! What happens at an event: contacts get their next law. Blocks: [`block_laws`](super::block_laws).
+//! Next laws of contacts at an event. For blocks see [`block_laws`](super::block_laws).
 //!
-//! Laws change here and, for a jump, in [`turning`](super::turning); nowhere else. Of a guard that fell the
-//! law after it follows from the guard and the motion; after a corner, where velocities jump, every contact
-//! that the corner moves is decided afresh from velocities and, where these vanish, accelerations, also where its
-//! guard fell at that very moment. Without contact damping
-//! forces are continuous at every change of law: accelerations do not depend on it, and each contact is
-//! decided for itself.
+//! Contact laws change here and, at jumps, in [`turning`](super::turning). After a zero crossing, the next law follows
+//! from the event function and the motion.
+//!
+//! At a corner velocities jump. Every contact that the corner moves then gets its law from the new velocities, or from
+//! accelerations where velocities vanish. This includes contacts with a zero crossing at the corner.
+//!
+//! Without contact damping, forces are continuous at every change of law. Accelerations then do not depend on the next
+//! laws, and each contact is decided separately.
 
 use super::Located;
 use super::watch::Fallen;
@@ -19,14 +21,14 @@ use crate::state::State;
 use stickslip_contact::Course;
 use stickslip_stepper::{Attempt, System};
 
-/// How far ahead ḋ is looked at for its rate, as a part of the waveform's period and of the contact's.
+/// Time over which ḋ is differentiated, as a fraction of the waveform's duration or of the contact's 1/ω.
 const BEND_AHEAD: f64 = 1e-5;
 
 impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
-    /// Sets the next law of every contact whose guard fell; after a corner, of all contacts it moves.
+    /// Sets the next law of every component with a zero crossing, and after a corner of all contacts that it moves.
     ///
-    /// Components are handled in the order in which their guards were found. Fails where events accumulate or
-    /// their limit is reached.
+    /// Components are handled in the order in which their zero crossings were found. Fails if events accumulate or
+    /// reach their limit.
     pub(super) fn handle_fallen(
         &mut self,
         state: &mut State,
@@ -39,7 +41,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
                 Fallen::Contact(c, guard) if corner && self.is_up_to_corner(c, guard) => {}
                 Fallen::Contact(c, guard) => {
                     if let Err(reason) = self.handle_contact(state, (c, guard), record) {
-                        // A detour that follows looks at contacts afresh, and at no event of a block that has been.
+                        // Step doubling follows: it chooses contact laws again, but does not repeat events of blocks.
                         if matches!(reason, RunError::Zeno { .. }) {
                             self.pass_blocks(state, (i + 1, corner), record)?;
                         }
@@ -48,23 +50,23 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
                 }
                 Fallen::Block(k, guard) => {
                     self.handle_block(state, (k, guard), record)?;
-                    // Its signal may be what a body follows: velocities jump as at a corner.
+                    // A body may follow the signal of the block, so that velocities jump as at a corner.
                     turns = true;
                 }
             }
         }
-        // What a block makes turns a corner with its law.
+        // A change of a block's law acts like a corner.
         if turns && !corner {
             self.turning.before.clone_from(&state.modes);
         }
-        // Before the contacts: their velocities are what blocks make.
+        // Blocks first, because they determine velocities of the contacts.
         if turns && !self.setting.model.blocks.is_empty() {
             self.turn_blocks(state, corner, record)?;
         }
         if turns {
             for c in 0..self.setting.model.contacts.len() {
-                // The law of a row that fell has the slack of its guard, which a second choice would lose. A branch that goes on in its
-                // sense keeps it.
+                // The law that a zero crossing has set uses the slack of its event function. A second choice would lose
+                // it, except for a branch that continues in its sense.
                 let is_kept = |fallen: &Fallen| matches!(fallen, Fallen::Contact(own, guard) if *own == c && !guard.is_edge());
                 if matches!(state.modes[c], Mode::Slip(_)) || !self.watch.fired.iter().any(is_kept) {
                     self.turn(state, c, record)?;
@@ -74,17 +76,16 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         Ok(())
     }
 
-    /// Whether what follows a guard that fell at the moment of a corner hangs on the velocities after it: an edge that turned just then
-    /// goes where the corner sends it.
+    /// Whether the next law of a contact with a zero crossing at a corner depends on the velocities after the corner.
     fn is_up_to_corner(&self, c: usize, guard: Guard) -> bool {
         let contact = &self.setting.model.contacts[c];
         guard.is_edge() && !contact.is_never_pressed() && moved_by_waveform(contact)
     }
 
-    /// The law of a contact after one of its guards fell.
+    /// Sets the law of a contact after a zero crossing of one of its event functions.
     ///
-    /// A piece that ends in the centre is the start of gross slip: it is written down as such and not as a
-    /// loop that closed.
+    /// A memory piece that ends in the centre of the contact is reported as the start of gross slip, not as a closed
+    /// loop.
     fn handle_contact(
         &mut self,
         state: &mut State,
@@ -93,8 +94,8 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
     ) -> Result<(), RunError> {
         let contact = &self.setting.model.contacts[c];
         let motion = self.watch.motion_at_end(&self.interval, c, (state.t, &state.y));
-        // Where rounding, of time or of a displacement that has travelled far, stops short of where the guard falls, that counts
-        // as reached.
+        // Rounding of time or of a large displacement may stop before the zero. The remaining length then counts as
+        // used up.
         let left = |state: &State| guard.value(contact, state.law(c), &motion).max(0.0);
         if let Some(change) = guard.change() {
             let at = (&motion, change, left(state));
@@ -107,7 +108,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         } else {
             0.0
         };
-        // The law first: whether the slip is gross is known of the branch that it gives.
+        // The law is set first, because its branch shows whether slip is gross.
         self.set_law(state, c, (course, &motion), slack);
         if kind == EventKind::LoopClosed && state.modes[c].is_gross() {
             kind = EventKind::GrossSlip;
@@ -116,10 +117,10 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         self.bounds.event(self.setting.model, state, (Source::Contact(c), kind))
     }
 
-    /// What it means that a guard fell, and the course after it.
+    /// Returns the event and the next course after a zero crossing.
     ///
-    /// Where d turns while u̇ = 0 the guards of both edges vanish together: then accelerations decide, and not the order in
-    /// which rounding has let them fall.
+    /// If d has an extremum while u̇ = 0, the event functions of both slip edges vanish together. Accelerations then
+    /// decide, because the order of the zero crossings is due to rounding.
     fn after(&mut self, state: &State, (c, guard): (usize, Guard), motion: &Motion) -> (EventKind, Course) {
         let (contact, old) = (&self.setting.model.contacts[c], &state.modes[c]);
         let fired = guard.fired(contact, old, motion);
@@ -143,25 +144,23 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         (kind, course)
     }
 
-    /// Whether neither edge of a contact moves, but for rounding: |u̇| and κ|ḋ| are both within the band of [`Guard::Drag`]
-    /// for the distance it has travelled.
+    /// Whether both slip edges of a contact are at rest: |u̇| and κ|ḋ| are within the nearness of [`Guard::Drag`].
     fn stands(&self, contact: &Contact, motion: &Motion) -> bool {
         let (_, near) = Guard::Drag.bands(contact, self.setting.tolerance, motion.u);
         motion.du.abs() <= near && contact.interface.stick_slope() * motion.dd.abs() <= near
     }
 
-    /// Decides afresh what a contact does after a corner, where velocities jump.
+    /// Chooses the law of a contact again after a corner, where velocities jump.
     ///
-    /// Notes an event only where the kind of law or the sense of sliding changes: a corner that leaves a
-    /// contact sliding on is no event of that contact.
+    /// Reports an event only if the kind of law or the sliding direction changes.
     fn turn(&mut self, state: &mut State, c: usize, record: &mut dyn Record) -> Result<(), RunError> {
         let contact = &self.setting.model.contacts[c];
         if contact.is_never_pressed() || !moved_by_waveform(contact) {
             return Ok(());
         }
-        // As it was before a jump, which sets laws for itself.
+        // The law before a jump, because the jump has set other laws.
         let old = self.turning.before[c];
-        // The path bends at a corner: growth after it is a piece of its own and joins nothing.
+        // The path bends at a corner, so that later growth is a separate piece.
         state.grew[c] = false;
         self.decide(state, c);
         let kind = match (old, state.modes[c]) {
@@ -178,31 +177,31 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         self.bounds.event(self.setting.model, state, (Source::Contact(c), kind))
     }
 
-    /// Decides from velocities what a contact does, and from accelerations where it is at rest.
+    /// Sets the law of a contact from its velocities, or at rest from its accelerations.
     pub(super) fn decide(&mut self, state: &mut State, c: usize) {
         let contact = &self.setting.model.contacts[c];
         let eq = self.setting.plain(state);
         let mut motion = eq.motion(contact, state.t, |i| state.y[i]);
-        // Within the band velocities have no sign to go by: the accelerations just after the moment decide.
+        // Near zero the signs of velocities mean nothing, and the following accelerations decide.
         if self.stands(contact, &motion) {
             (motion.dd, motion.du) = self.push(state, c, &motion);
         }
         let course = state.memories[c].course(&contact.interface, motion.d, motion.dd, motion.du);
         let same = course.sense() != 0.0 && course.sense() == state.modes[c].sense();
-        // A branch that goes on in its sense is still anchored where it was.
+        // A branch that continues in its sense keeps its starting point.
         if !same || !matches!(state.modes[c], Mode::Slip(_)) {
             self.set_law(state, c, (course, &motion), 0.0);
         }
     }
 
-    /// Where a contact at rest sets out to, as a direction in (d, u): along its acceleration; within round-off of
-    /// equilibrium along its remaining velocity, and on in its present sense if there is none.
+    /// Returns the direction in (d, u) in which a contact at rest begins to move.
     ///
-    /// d̈ and ü count as rounding below 1e-12 of u_cω².
+    /// It is the direction of the acceleration. If the acceleration is only rounding, the remaining velocity decides,
+    /// or else the present sense. Accelerations below 1e-12 of u_cω² count as rounding.
     fn push(&mut self, state: &State, c: usize, motion: &Motion) -> (f64, f64) {
         let contact = &self.setting.model.contacts[c];
         let eq = self.setting.plain(state);
-        // By the general equations: what is known of the interval is of the laws before.
+        // Without closed forms, which belong to the previous laws.
         let slopes = &mut self.output.components;
         eq.slopes(state.t, &state.y, slopes);
         let of = |measure: &Measure| {
@@ -211,7 +210,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         };
         let (bend, pull) = (contact.coupling().map(of), of(&contact.u));
         let bend = bend.unwrap_or_else(|| self.bend(state, contact));
-        // Rounding of the forces, as an acceleration in the contact's own scale.
+        // Rounding error of the forces, as an acceleration in the contact's natural scale.
         let noise = 1e-12 * contact.natural_velocity() * contact.natural.frequency;
         let pull = if pull.abs() > noise { pull } else { 0.0 };
         if pull.abs().max(contact.interface.stick_slope() * bend.abs()) > noise {
@@ -219,12 +218,12 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         } else if motion.du != 0.0 {
             (motion.dd, motion.du)
         } else {
-            // Nothing decides: the mode it had stays.
+            // Nothing decides, so the sense stays.
             (motion.dd, state.modes[c].sense())
         }
     }
 
-    /// d̈ of a contact that a waveform presses, m/s²: the difference of ḋ over a short time on the waveform's piece.
+    /// Returns d̈ of a contact that a waveform presses, m/s²: the finite difference of ḋ on the waveform's piece.
     fn bend(&self, state: &State, contact: &Contact) -> f64 {
         let Some(w) = contact.press.waveform() else { return 0.0 };
         let eq = self.setting.plain(state);
@@ -234,20 +233,19 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         (rate(state.t + ahead) - rate(state.t)) / ahead
     }
 
-    /// Sets the law of a contact, and the force and energy it starts to grow with.
+    /// Sets the law of a contact, and the force and energy at which growth in full stick begins.
     ///
-    /// `slack` (m) is how much of a piece of memory may be left and still count as used up. The step in use
-    /// is kept from the start of gross slip to its end: steps grow in between to lengths that the law after
-    /// it refuses.
+    /// `slack` (m) is the remaining length of a memory piece that counts as used up. The step length before gross slip
+    /// is stored and used again afterwards, because steps in gross slip become too long for the next law.
     pub(super) fn set_law(&self, state: &mut State, c: usize, (course, at): (Course, &Motion), slack: f64) {
         let contact = &self.setting.model.contacts[c];
-        // A contact pressed by a constant load cannot open: without any motion it sets out forward.
+        // A constant load keeps the contact closed; without motion it begins forward.
         let course = if course == Course::Open && contact.is_constant() && state.memories[c].apex().d > 0.0 {
             Course::Forward
         } else {
             course
         };
-        // Read before the law changes: only the passage from one to the other says something of the step.
+        // Read before the law changes.
         let was_gross = state.modes[c].is_gross();
         state.modes[c] = Mode::of(contact, &state.memories[c], (course, at), slack, self.setting.tolerance);
         state.grew[c] = false;
@@ -260,16 +258,16 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
             self.carry(state, c);
         }
         if let (Mode::Grow, Some(slot)) = (state.modes[c], contact.slot) {
-            // Force and energy start as what the memory has at its apex: the slopes add to them.
+            // Force and energy begin at those of the slip memory; the slopes add to them.
             let now = state.memories[c].preview(&contact.interface, state.memories[c].apex());
             state.y[self.setting.layout.force(slot)] = now.force;
             state.y[self.setting.layout.elastic(slot)] = now.elastic;
         }
     }
 
-    /// Writes an event down.
+    /// Counts an event and reports it to the record.
     ///
-    /// Counted whether or not somebody watches: counts are of the state, and output does not change it.
+    /// The event counts without a record, too, because output does not change the state.
     #[inline(always)]
     pub(super) fn note(
         &mut self,
@@ -284,9 +282,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         }
     }
 
-    /// Tells which rows of springs have come to slip as a whole in the last step, or to stick again. Such events are the record's: nobody
-    /// counts them.
-    // Apart from the loop, which hardly ever has any.
+    /// Reports the spring rows that have begun or ended gross slip in the last step. These events are not counted.
     #[inline(never)]
     pub(super) fn tell_rows(&mut self, state: &State, record: &mut dyn Record) {
         for k in 0..self.output.rows.count() {
@@ -307,7 +303,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
     }
 }
 
-/// Whether a corner of any waveform changes the velocities of this contact directly.
+/// Whether a corner of any waveform directly changes the velocities of a contact.
 fn moved_by_waveform(contact: &Contact) -> bool {
     let normal = contact.coupling().is_some_and(|measure| !measure.driven.is_empty());
     contact.press.waveform().is_some() || normal || !contact.u.driven.is_empty()

@@ -1,10 +1,9 @@
-//! Intervals that are taken in one go, without the stepper.
+//! Leaps: intervals with a closed-form solution, passed without the integrator.
 //!
-//! Between two events of a single slider whose contacts all have closed forms, and which straight waveforms
-//! drag, the motion is known: parabolas in gross slip, else one quadrature of time
-//! ([`Swing`](crate::interval::Swing)). Rows, looks and the ends of periods on the way are read off it each
-//! for itself, from the start of the leap: they are the same whatever others are asked for. On the benchmark
-//! drive an error of 1e-9 costs less than half of what steps cost.
+//! The motion between two events is known for a single slider if all its contacts have closed-form forces and waveforms
+//! are straight. It is a parabola in gross slip, otherwise one quadrature of time ([`Swing`](crate::interval::Swing)).
+//!
+//! Rows, snapshots and period ends are computed from the start of the leap, independently of each other.
 
 use super::Located;
 use super::watch::Fallen;
@@ -18,17 +17,17 @@ use crate::run::horizon::Progress;
 use crate::state::{Books, State, beyond};
 use stickslip_stepper::Attempt;
 
-/// Velocity, relative to those around, below which the turn is so near that a cubic has it.
-// With 1e-6 P1 takes half as much again, for the same digits of its back-step.
+/// Largest relative velocity at which a turning point is so near that the cubic is accurate.
 const SLOW: f64 = 0.05;
-/// Most secants to a turn.
+/// Largest number of secant steps to a turning point.
 const SECANTS: u32 = 8;
 
 impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
-    /// Moves to the next event, corner or end in one go; none, with nothing done, where the interval has no closed form.
+    /// Advances to the next event, corner or goal in one leap.
     ///
-    /// Ends at the first of the event of the motion, the next corner, and where the run is to go; cut there, the swing stays
-    /// under way. Fails as a step does: values not finite, contacts out of range, limits.
+    /// Returns `None` and does nothing if the interval has no closed-form solution. A goal before the event interrupts
+    /// the leap, and the next call continues it. Fails if values are not finite, a contact refuses its path, or a limit
+    /// is reached.
     pub(super) fn leap(
         &mut self,
         state: &mut State,
@@ -46,7 +45,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         }
         let stop = next.min(self.horizon.end);
         let mut to = if event.t < stop { event } else { self.swing.at(stop) };
-        // Less than a last place of t ahead there is no leap: the stepper takes over.
+        // If the end is less than the rounding of t ahead, the integrator takes over.
         if to.t <= state.t {
             self.takeoff = None;
             return Ok(None);
@@ -59,12 +58,12 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
                 return Ok(Some(self.stay(begins)));
             }
         }
-        // Before the rows: what output asks of the swing is no part of the run.
+        // Counted before the rows, whose evaluations do not belong to the run.
         state.counts.evaluations += self.swing.evaluations - spent;
         if self.output.due(to.t) {
             self.write_on_the_way(state, to, record);
         }
-        // Both may be true, to the last bit: then the event's guards fall and the corner turns in one.
+        // Both may be true at the same time: zero crossings and corner are then handled together.
         let (is_event, is_corner) = (to.t == event.t, to.t == self.horizon.corner);
         self.land(state, to, is_event || is_corner)?;
         self.watch.fired.clear();
@@ -81,21 +80,21 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         self.bounds.step(state, record).map(|()| Some(Progress::Made))
     }
 
-    /// The leap is not made: it would reach the end of the run.
+    /// Cancels the leap, because it would reach the end of the run.
     fn stay(&mut self, begins: bool) -> Progress {
         if begins {
-            // Whoever goes on from here leaps as if nobody had asked.
+            // A later call leaps as if this one had not been made.
             (self.takeoff, self.interval.traits.asked) = (None, false);
         }
         Progress::Short
     }
 
-    /// Takes up the interval and finds its event.
+    /// Begins a leap and finds its event.
     ///
-    /// False where the scene has more than one free coordinate, the interval no closed form, or the search no
-    /// result; steps take the interval then.
+    /// Returns false if the model has several free coordinates, the interval no closed form, or the search no result.
+    /// The interval is then integrated in steps.
     fn take_off(&mut self, state: &State) -> bool {
-        // What has no closed form now has none until the next event.
+        // Without a closed form, there is none until the next event.
         self.interval.traits.asked = true;
         if self.setting.model.free.len() != 1 {
             return false;
@@ -108,9 +107,9 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         leaps
     }
 
-    /// Where the leap ends: at the end of a period with which the steps of the drive are constant, or else where it was to.
+    /// Returns the end of the leap: a period end with which the step length of the drive is constant, otherwise `to`.
     ///
-    /// Ends horizon and output there.
+    /// A constant step length ends the run there.
     #[inline(never)]
     fn leap_over_steps(&mut self, state: &State, to: PhasePoint) -> PhasePoint {
         while let Some(due) = self.horizon.steps.due(to.t) {
@@ -123,10 +122,9 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         to
     }
 
-    /// Rows and looks that are due on the way.
+    /// Writes the rows and snapshots that are due during the leap.
     ///
-    /// The state is only read. Scratch is borrowed from the output and given back, so that nothing is
-    /// allocated.
+    /// The state is only read. Scratch of the output is reused, so that nothing is allocated.
     #[inline(never)]
     fn write_on_the_way(&mut self, state: &State, to: PhasePoint, record: &mut dyn Record) {
         let eq = self.setting.plain(state);
@@ -150,7 +148,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         self.output.components = y;
     }
 
-    /// The way of the watched body, and the marks on it.
+    /// Reads the extent of the watched body during the leap and writes sample rows.
     fn pass_leap(
         &mut self,
         eq: &Equations<'_>,
@@ -170,18 +168,20 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         self.output.marks.end_step();
     }
 
-    /// A part of an arc: it turns once between velocities of two signs, and twice or never between those of one, for the slide
-    /// rises and falls once at most.
+    /// Reads the extent over a part of the leap.
+    ///
+    /// Between velocities of opposite sign there is one turning point. Between velocities of the same sign there are
+    /// two or none, because the sliding velocity rises and falls at most once.
     fn pass_arc(&mut self, state: &State, from: PhasePoint, to: PhasePoint) {
         let shift = state.shifts[0];
         let point = |place: PhasePoint| [place.t, shift + place.x, place.v];
-        // A parabola is its own cubic.
+        // For a parabola the cubic is exact.
         if !self.swing.is_free() && to.t > from.t {
             let mut turns = [None, None];
             if from.v * to.v < 0.0 {
                 turns[0] = Some(self.turn_between(from, to));
             } else if self.swing.leads_back(from.v) {
-                // In the middle the slide may be faster than what carries the body back.
+                // In the middle, sliding may be faster than the follower that moves the body back.
                 let middle = self.swing.at(0.5 * (from.t + to.t));
                 if middle.v * from.v < 0.0 {
                     turns = [(from, middle), (middle, to)].map(|(a, b)| Some(self.turn_between(a, b)));
@@ -192,7 +192,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         self.output.marks.pass(state, |_| point(to));
     }
 
-    /// Where the velocity changes its sign, by secants that keep it between (Illinois).
+    /// Returns a point near the zero of the velocity, by the Illinois variant of the secant method.
     fn turn_between(&mut self, mut a: PhasePoint, mut b: PhasePoint) -> PhasePoint {
         let slow = SLOW * a.v.abs().max(b.v.abs());
         let (mut va, mut vb) = (a.v, b.v);
@@ -210,10 +210,9 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         a
     }
 
-    /// Components at a time on the way.
+    /// Writes the components at time `due` of the leap into `y`.
     ///
-    /// Position (m), velocity (m/s) and the work put in (J); all other components are those of the state,
-    /// which nothing in such an interval changes.
+    /// Only position (m), velocity (m/s) and input work (J) differ from the state.
     fn fill(&mut self, state: &State, due: f64, to: PhasePoint, y: &mut [f64]) {
         let place = if due < to.t { self.swing.at(due) } else { to };
         y.copy_from_slice(&state.y);
@@ -221,14 +220,15 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         y[self.setting.layout.input()] = self.input_at(&place);
     }
 
-    /// Work put in until a place on the way, J: counted from where the leap began, however often it was cut.
+    /// Returns the input work at a point of the leap, J. It counts from the start of the leap, even across
+    /// interruptions.
     fn input_at(&self, place: &PhasePoint) -> f64 {
         self.takeoff.unwrap_or(0.0) + self.swing.work(place)
     }
 
-    /// Moves the state to a place; memories stay behind. Counts one step where an interval `ends`.
+    /// Moves the state to a point of the leap; the slip memories stay behind. If the interval `ends`, counts one step.
     ///
-    /// Fails where place or velocity is not finite.
+    /// Fails if position or velocity is not finite.
     fn land(&mut self, state: &mut State, to: PhasePoint, ends: bool) -> Result<(), RunError> {
         if let Some(i) = beyond(&[to.x, to.v]) {
             return Err(self.setting.model.not_finite(to.t, i));
@@ -236,7 +236,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         state.y[self.setting.layout.input()] = self.input_at(&to);
         (state.y[0], state.y[1]) = (to.x, to.v);
         state.t = to.t;
-        // One chord to the event, as if nobody had looked on the way.
+        // The slip memories commit one straight path at the event, whatever interrupted the leap.
         self.ledger.booked.books = Books::Behind;
         if ends {
             self.takeoff = None;
@@ -246,10 +246,10 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         Ok(())
     }
 
-    /// Moves the memories of those contacts whose guards fell to where the state is, at a corner those of all. The others go on
-    /// along their pieces: one chord to their own next event is the same as many.
+    /// Commits the contacts with a zero crossing, at a corner all contacts.
     ///
-    /// Fails where a contact refuses its path.
+    /// For the others, one straight path to their own next event is equivalent to many. Fails if a contact refuses its
+    /// path.
     fn remember(&mut self, state: &mut State, is_corner: bool) -> Result<(), RunError> {
         if is_corner || self.watch.fired.len() == self.interval.closed.len() {
             self.trace_closed(state);
@@ -260,12 +260,12 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         self.ledger.commit((self.setting.model, self.setting.layout), state.t, state)
     }
 
-    /// The guards that end the motion: all edges turn at once; of pieces those that are used up, or as good as.
+    /// Collects the zero crossings that end the leap: all reversals, or all memory pieces that are used up.
     ///
-    /// As good as used up is a piece whose rest is within the nearness of its guard of the least one.
+    /// A piece counts as used up if its remaining length exceeds the smallest one by at most the nearness.
     fn collect_reached(&mut self, state: &State) {
         let steady = self.interval.closed.iter();
-        // One slider, one follower: all contacts stop sliding at the same moment.
+        // With one slider and one follower, all contacts stop sliding together.
         if self.swing.turns {
             self.watch.fired.extend(steady.map(|steady| Fallen::Contact(steady.index, Guard::Drag)));
             return;
@@ -275,7 +275,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
             let motion = steady.motion(state.t, |_| state.y[0], |_| state.y[1]);
             steady.guard(Guard::Piece, &motion)
         };
-        // Twins close their loops at once; rounding must not make two events of them.
+        // Equal contacts close their loops together; rounding must not make two events of them.
         let least = pieces.clone().map(left).fold(f64::INFINITY, f64::min);
         let reached = pieces.filter(|steady| {
             let u = steady.displacement(state.t, |_| state.y[0]);

@@ -1,4 +1,4 @@
-//! The solver of a run between located events.
+//! Integrator of a run with located events.
 
 use super::allowance::differences;
 use super::{Located, Room, Setting};
@@ -13,32 +13,32 @@ use stickslip_stepper::{
     DOP853_ORDER, DormandPrince, NYSTROM_ORDER, One, Paired, RADAU_ORDER, Radau, StepLimits,
 };
 
-/// Strongest shortening of an implicit step at once.
-// Where a follower turns, the first step that sees what settles there is a millionth of the one before.
+/// Smallest factor by which a rejected implicit step is shortened at once.
 const SHRINK: f64 = 0.1;
 
-/// A run between located events, by the method of the scene's intervals without a closed form: where no force depends on a
-/// velocity, one that spares a third of the evaluations.
+/// Run with located events, by the integrator for its intervals without a closed-form solution.
+///
+/// Where no force depends on a velocity, a Runge–Kutta–Nyström method saves a third of the evaluations.
 pub(in crate::run) enum LocatedRun<'a> {
-    /// A single free coordinate.
+    /// Runge–Kutta–Nyström with a single free coordinate.
     One(Box<Located<'a, Paired<One>>>),
-    /// Several.
+    /// Runge–Kutta–Nyström with several free coordinates.
     Many(Box<Located<'a, Paired>>),
-    /// With dampers, varying loads or growth.
+    /// Dormand–Prince, for dampers, varying loads and contacts growing in full stick.
     General(Box<Located<'a, DormandPrince>>),
-    /// With something stiff among them.
+    /// Radau IIA, for stiff models.
     Stiff(Box<Located<'a, Radau>>),
 }
 
-/// Order of a solver, for step control, and what its steps may do.
+/// Order of an integrator for step control, and limits of its steps.
 type Steps = (u32, StepLimits);
 
-/// Of explicit methods.
+/// Returns order and step limits of an explicit method.
 fn explicit(order: u32) -> Steps {
     (order, StepLimits::default())
 }
 
-/// Of the implicit one.
+/// Returns order and step limits of the implicit method.
 fn implicit() -> Steps {
     (RADAU_ORDER, StepLimits { shrink: SHRINK, ..StepLimits::default() })
 }
@@ -52,7 +52,8 @@ impl<'a> LocatedRun<'a> {
         let layout = model.layout();
         let setting = Setting { model, layout, tolerance, method: stepping(&SceneTraits::of(model)).0 };
         match (setting.method, layout.free) {
-            // The work put in is the only integral: nothing dissipates but contacts, which book for themselves.
+            // The input work is the only integral, because only contacts dissipate, and they commit their own friction
+            // work.
             (Method::Nystrom, 1) => {
                 let solver = Paired::one(layout.total());
                 Self::One(Box::new(Located::new(setting, plan, solver, explicit(NYSTROM_ORDER))))
@@ -72,7 +73,7 @@ impl<'a> LocatedRun<'a> {
     }
 }
 
-/// Rooms of runs between located events, by the kind of their solver: runs of one shape take turns in one of them.
+/// Storage for runs with located events, by integrator. Consecutive runs of the same shape share it.
 #[derive(Default)]
 pub(in crate::run) struct Workspace {
     one: Option<Room<Paired<One>>>,
@@ -81,7 +82,7 @@ pub(in crate::run) struct Workspace {
 }
 
 impl Workspace {
-    /// Moves a state that has begun to the end of its plan; `way` is room for what is put down with it.
+    /// Runs a started state to the end of its plan. `way` is storage for the run data of the state.
     pub(in crate::run) fn run(
         &mut self,
         (model, plan, tolerance): (&Model, &Plan, f64),
@@ -101,7 +102,7 @@ impl Workspace {
                 let solver = || Paired::new(free, 1, layout.total());
                 Room::run(&mut self.many, (setting, plan, explicit(NYSTROM_ORDER)), solver, to, record)
             }
-            // Its solver holds differences of one model: no room is kept.
+            // The integrator contains finite differences of one model, so its storage is not kept.
             (Method::Radau, _) => {
                 Room::run(&mut None, (setting, plan, implicit()), || radau(model, layout), to, record)
             }
@@ -113,7 +114,7 @@ impl Workspace {
     }
 }
 
-/// One method of whichever run it is.
+/// Calls one method of the run inside any variant.
 macro_rules! each {
     ($located:expr, $run:ident => $call:expr) => {
         match $located {
@@ -126,12 +127,12 @@ macro_rules! each {
 }
 
 impl LocatedRun<'_> {
-    /// Takes up a state: begins a run there, or goes on with one.
+    /// Starts or continues a run at a state.
     pub(in crate::run) fn set_out(&mut self, state: &mut State, opening: Opening, record: &mut dyn Record) {
         each!(self, run => run.set_out(state, opening, record));
     }
 
-    /// Goes as far as a goal says, and puts down in the state what its future depends on.
+    /// Advances the state to a goal and saves in it everything that the next step depends on.
     pub(in crate::run) fn go(
         &mut self,
         state: &mut State,
@@ -141,27 +142,27 @@ impl LocatedRun<'_> {
         each!(self, run => run.go(state, goal, record))
     }
 
-    /// Tells the range of a watched body so far.
+    /// Passes the extents of the watched bodies to the record.
     pub(in crate::run) fn hand_over(&mut self, record: &mut dyn Record) {
         each!(self, run => run.hand_over(record));
     }
 
-    /// Turning points of contacts made or given up.
+    /// Returns the number of reversals added to or removed from slip memories.
     pub(in crate::run) fn touched(&self) -> u64 {
         each!(self, run => run.touched())
     }
 
-    /// How many turning points a contact remembers.
+    /// Returns the largest number of reversals that a slip memory keeps.
     pub(in crate::run) fn remembers(&self) -> usize {
         each!(self, run => run.remembers())
     }
 
-    /// Brings memories that wait for an event to where the state is.
+    /// Commits the slip memories that wait for an event.
     pub(in crate::run) fn settle_books(&mut self, state: &mut State) {
         each!(self, run => run.settle_books(state));
     }
 
-    /// Writes the row of where the run stopped.
+    /// Writes the current state as a row.
     pub(in crate::run) fn write_now(&mut self, state: &State, record: &mut dyn Record) {
         each!(self, run => run.write_now(state, record));
     }

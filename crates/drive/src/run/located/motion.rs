@@ -1,8 +1,7 @@
-//! The solver and what steers it.
+//! Integrator of a run with located events, and its step length.
 //!
-//! [`Motion`] tries steps and knows how long they may be; whether one is accepted is not its choice
-//! ([`step`](super::step)), nor when the next event is ([`aim`](super::aim)). [`Pace`] is what one step
-//! leaves to the next; at an event it begins anew.
+//! [`Motion`] attempts steps and limits their length. The module [`step`](super::step) accepts or rejects them, and
+//! [`aim`](super::aim) predicts the next event. [`Pace`] holds what one step passes to the next; an event resets it.
 
 use super::Setting;
 use super::aim::{Aim, SHRINK, reach, start};
@@ -16,55 +15,52 @@ use crate::record;
 use crate::state::{Ahead, Gait, Grip, State, Whereabouts};
 use stickslip_stepper::{Attempt, End, Grade, Target};
 
-/// Velocities this small, relative to the natural ones, are rounding: some hundred of their last places.
-// With 1e-12 a growing power law ends elsewhere by a tenth of its error; with 1e-14 nothing differs.
+/// Largest velocity that counts as rest, relative to the natural velocity; several hundred rounding errors.
 const REST: f64 = 1e-13;
-/// Largest product of step and rate at rest. Long steps multiply rounding by their many large coefficients.
-// With 0.1 P1 on a sine has five times the error at 1e-6; with 10 nothing is saved.
+/// Largest product of step length and rate at rest. Longer steps amplify rounding errors, because the method has large
+/// coefficients.
 const REST_REACH: f64 = 1.0;
-/// How often a step is tried again to end nearer to its singular moment.
-// Without any the books of a sine drive at 1e-9 are 25 times worse; more than two change only how a ball bounces that is set
-// down without damping.
+/// Largest number of repetitions of a step that bring its end closer to a singular moment.
 const CORRECTIONS: u32 = 2;
 
-/// What rounding leaves of the books, relative to all that is in them.
+/// Rounding error of the energy balance, relative to the size of its terms.
 const ROUNDING: f64 = 32.0 * f64::EPSILON;
 
-/// The solver and what steers it.
+/// Integrator and step length.
 pub(super) struct Motion<A> {
-    /// One step at a time, with its dense output.
+    /// Integrator, which takes one step at a time, with its dense output.
     pub(super) solver: A,
     pub(super) whereabouts: Whereabouts,
     pub(super) allowance: Allowance,
     pub(super) pace: Pace,
-    /// Whether something may fade several times within a step: of that the dense output is off by far more than the ends of steps.
+    /// Whether a motion may decay within a step. The dense output is then far less accurate than the end of the step.
     pub(super) fades: bool,
-    /// Where the law has kinks that end no step: room for the channels of a moment, by whose books steps are judged as well.
+    /// Scratch for the energy balance of a step, if the force law has kinks that end no step.
     books: Option<Vec<f64>>,
 }
 
-/// How long steps may be.
+/// Limits of the step length.
 pub(super) struct Pace {
-    /// Longest step, s: a fraction of the period of the fastest smooth waveform.
+    /// Longest time step, s: a quarter of the shortest wave of any waveform; ∞ without waves.
     pub(super) longest: f64,
-    /// What takes its place at the start of a run where there is none, s.
+    /// Longest time step at the start of a run without waves, s.
     first: f64,
-    /// Longest step, s, of few stages, for what something near will end; 0 where the method has no other.
+    /// Longest time step with few stages, taken shortly before an expected event, s; 0 if the method has none.
     pub(super) short: f64,
-    /// Longest graded step, as a part of an even one.
+    /// Longest graded step, as a fraction of an even one.
     pub(super) reach: f64,
-    /// Longest graded step from a touch, in radians of the swing that the touch begins.
+    /// Longest graded step from a touch, in radians of the oscillation that the touch starts.
     pub(super) start: f64,
-    /// How near to a singular moment a step must end, as a part of it.
+    /// Largest distance from a singular moment at which a step may end, as a fraction of the step.
     pub(super) closeness: f64,
-    /// How much must be left before such a moment for its law to matter, in natural lengths.
+    /// Smallest remaining length of a law at which its singular end requires a graded step, in natural lengths.
     pub(super) resolved: f64,
-    /// What one step leaves to the next.
+    /// Data that one step passes to the next.
     pub(super) gait: Gait,
 }
 
 impl<A> Motion<A> {
-    /// Nothing is started yet: the solver is behind until it is told of a state.
+    /// Creates an integrator that has no start yet.
     pub(super) fn new(setting: &Setting<'_>, solver: A, scale: Vec<f64>) -> Self {
         let (model, tolerance) = (setting.model, setting.tolerance);
         let pace = Pace {
@@ -85,17 +81,17 @@ impl<A> Motion<A> {
 }
 
 impl<A: for<'e> Attempt<Equations<'e>>> Motion<A> {
-    /// Puts the solver where the state is.
+    /// Restarts the integrator at the current state.
     pub(super) fn start(&mut self, eq: &Equations<'_>, state: &State) {
         self.whereabouts = Whereabouts::Here;
         self.solver.start(eq, state.t, &state.y);
     }
 
-    /// Tries a step; one that ends at a singular moment again, until that moment is met well enough.
+    /// Attempts a step and returns its error in units of the allowed error; 1 is just allowed.
     ///
-    /// Gives the error in units of the allowance; 1 is just allowed. `aim` is moved to the end of the last
-    /// attempt, which is at most `CORRECTIONS` after the first: each is a Newton step of the guard's own
-    /// value and rate at the end, and all stages are evaluated again.
+    /// A step to a singular moment is repeated up to [`CORRECTIONS`] times until it ends close enough. Each repetition
+    /// is a Newton step of the event function at the end, and all stages are evaluated again. `aim` is set to the end
+    /// of the last attempt.
     #[inline(always)]
     pub(super) fn attempt(&mut self, eq: &Equations<'_>, t: f64, aim: &mut Aim, corner: f64) -> f64 {
         let target = Target { end: aim.target, grade: aim.grade };
@@ -108,10 +104,10 @@ impl<A: for<'e> Attempt<Equations<'e>>> Motion<A> {
             let motion = eq.motion(contact, aim.target, |i| end[i]);
             let value = guard.value(contact, eq.law(c), &motion);
             let rate = guard.rate(contact, &eq.modes[c], &motion, (0.0, 0.0));
-            // The guards that end a singular law are of displacements: their rates ask for no acceleration.
+            // These event functions are lengths; their rates need no accelerations.
             let missed = -value / rate;
             let to = aim.target + missed + 0.5 * self.pace.closeness * h;
-            // Beyond these the moment was foreseen badly: the attempt stands or falls as it is.
+            // Outside these limits the prediction was poor, and the attempt is not repeated.
             let fits = to - t > SHRINK * h && to - t < aim.most && to < corner;
             if !(rate < 0.0 && error < 1.0 && missed.abs() > self.pace.closeness * h && fits) {
                 break;
@@ -124,7 +120,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Motion<A> {
         error
     }
 
-    /// The error of the last attempt, from time t to where a guard falls, of which it tells so much.
+    /// Returns the error of a step from time t to a zero of an event function. `told` is the integrator's estimate.
     fn judged_at_end(
         &self,
         eq: &Equations<'_>,
@@ -145,10 +141,9 @@ impl<A: for<'e> Attempt<Equations<'e>>> Motion<A> {
         })
     }
 
-    /// The error of the last attempt where it would be accepted: the larger of the solver's own and of what the books of the step miss.
+    /// Returns the larger of the integrator's error and the error of the energy balance, for an acceptable step.
     ///
-    /// Across a kink the solver's stages and the weights by which it tells its error see nearly the same: of a row of 16 springs at
-    /// 1e-8 the work put in was wrong by thousands of tolerances.
+    /// Across a kink of the force law, the embedded estimate can be too small by orders of magnitude.
     #[inline(always)]
     pub(super) fn with_books(&mut self, eq: &Equations<'_>, state: &State, t: f64, error: f64) -> f64 {
         if self.books.is_none() || error.is_nan() || error > 1.0 {
@@ -158,7 +153,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Motion<A> {
         }
     }
 
-    /// What the books of a step from a state to time t miss, in units of what is allowed of the work put in.
+    /// Returns the error of the energy balance in a step to time t, in units of the allowed error of the input work.
     #[inline(never)]
     fn missed(&mut self, eq: &Equations<'_>, state: &State, t: f64) -> f64 {
         let Some(row) = &mut self.books else { return 0.0 };
@@ -170,16 +165,13 @@ impl<A: for<'e> Attempt<Equations<'e>>> Motion<A> {
         (after - before).abs() / (allowed + ROUNDING * size)
     }
 
-    /// Longest step from here, s. Where something holds, a swing below the tolerance must die away instead of being
-    /// nursed up to it, and one of the size of rounding must not be fed by more of it.
+    /// Returns the longest time step from time t, s.
     ///
-    /// `fastest` is the largest |λ| of the motions with all contacts stuck, 1/s. Sticking, a step is at most
-    /// the limit of stability over it; at rest, [`REST_REACH`] over it; where nothing swings nothing binds but the
-    /// waveforms.
+    /// `fastest` is the largest |λ| of the motions with all contacts stuck, 1/s. In stick the step is below the
+    /// stability limit, so that no oscillation grows. At rest it is at most [`REST_REACH`]/`fastest`, so that no
+    /// rounding error grows. In gross slip only waveforms limit it.
     pub(super) fn longest_now(&self, t: f64, fastest: f64) -> f64 {
-        // Undamped, a long step feeds a swing below the tolerance up to it; what is at rest stays so only
-        // within these.
-        // An implicit method lets it die in steps of any length.
+        // An implicit method is stable at any step length.
         let reach = match self.pace.gait.grip {
             Grip::Slips => return self.longest(t),
             _ if self.solver.stability_limit() == f64::INFINITY => return self.longest(t),
@@ -189,17 +181,17 @@ impl<A: for<'e> Attempt<Equations<'e>>> Motion<A> {
         self.longest(t).min(reach / fastest)
     }
 
-    /// Longest step from time t whatever holds, s; finite.
+    /// Returns the longest time step from time t without regard to stick, s; finite.
     ///
-    /// Where no wave bounds a step it is as long as the run so far, and at first as the longest waveform takes: none may depend
-    /// on when the run will end.
+    /// Without waves it is the duration of the run so far, and at first the longest duration of a waveform. It does not
+    /// depend on the end of the run.
     pub(super) fn longest(&self, t: f64) -> f64 {
         if self.pace.longest < f64::INFINITY { self.pace.longest } else { t.abs().max(self.pace.first) }
     }
 
-    /// Looks whether all that is free is at rest.
+    /// Updates whether all free coordinates are at rest, and returns it.
     ///
-    /// In gross slip the answer is given and the grip stays.
+    /// In gross slip the grip does not change.
     pub(super) fn rest(&mut self, model: &Model, state: &State) -> bool {
         let rests = self.is_at_rest(model, state);
         self.pace.gait.grip = match self.pace.gait.grip {
@@ -210,11 +202,10 @@ impl<A: for<'e> Attempt<Equations<'e>>> Motion<A> {
         rests
     }
 
-    /// Whether all that is free is at rest but for rounding: velocities that some step has left, and accelerations that
-    /// will not make more of them.
+    /// Whether all free coordinates are at rest within rounding: velocities are small and accelerations keep them
+    /// small.
     ///
-    /// For each free coordinate |v| ≤ 1e-13 of its natural speed, and |v̇|·length ≤ 1e-13 of the square of
-    /// that speed.
+    /// For each coordinate |v| ≤ 1e-13 of its natural speed, and |v̇|·length ≤ 1e-13 of the square of that speed.
     fn is_at_rest(&self, model: &Model, state: &State) -> bool {
         let velocity = |i: usize| model.free.len() + i;
         let still = |(i, free): (usize, &Free)| {
@@ -224,9 +215,9 @@ impl<A: for<'e> Attempt<Equations<'e>>> Motion<A> {
         model.free.iter().enumerate().all(still)
     }
 
-    /// Component `i` at a time inside the step; before its end by the dense output.
+    /// Returns component `i` at a time inside the step, from the dense output.
     ///
-    /// At the end itself the value is the step's own, to the last bit; the polynomial rounds.
+    /// At the end of the step it is the integrator's own value, without the rounding error of the interpolant.
     #[inline]
     pub(super) fn component(&self, i: usize, t: f64) -> f64 {
         if t == self.solver.span().end_time { self.solver.span().end[i] } else { self.solver.value(i, t) }
@@ -234,17 +225,16 @@ impl<A: for<'e> Attempt<Equations<'e>>> Motion<A> {
 }
 
 impl Pace {
-    /// After an event nothing is known of what is ahead.
+    /// Forgets the last steps after an event.
     pub(super) fn restart(&mut self) {
         (self.gait.proven, self.gait.ahead) = (0.0, Ahead::Clear);
     }
 
-    /// How the step after an accepted one of length `h` shrinks. On the way to a singular moment an even step has the same
-    /// error as the one before where it is the same part of what is left.
+    /// Returns the factor by which the next step is shortened before a singular moment.
     ///
-    /// `singular` is the time to that moment from the start of the step just made, s; the factor is 1 -
-    /// h/singular, not below
-    /// [`SHRINK`], and only after a step on this way has been refused.
+    /// Even steps keep the same error if each is the same fraction of the time left. `h` is the length of the accepted
+    /// step; `singular` is the time from its start to the singular moment, s. The factor is 1 - h/singular, but at
+    /// least [`SHRINK`]. It is 1 unless a step towards that moment has been rejected.
     pub(super) fn nearing(&self, h: f64, singular: f64) -> f64 {
         match self.gait.ahead {
             Ahead::Clear => 1.0,
@@ -252,11 +242,10 @@ impl Pace {
         }
     }
 
-    /// What a refused step tells.
+    /// Records a rejected step.
     ///
-    /// A graded one that was too long proves no length for the next; an even one on the way to a singular
-    /// moment says that such steps must shorten. Before, a fifth of all attempts under a vibrating foot at a
-    /// tolerance of 1e-9 was thrown away.
+    /// A graded step proves no length for the next one. An even step towards a singular moment shortens the next ones,
+    /// see [`Self::nearing`].
     pub(super) fn refuse(&mut self, aim: &Aim) {
         if aim.closes.is_some() {
             self.gait.proven = 0.0;
@@ -264,53 +253,55 @@ impl Pace {
         self.gait.ahead = if aim.singular.is_finite() { Ahead::Shortens } else { Ahead::Clear };
     }
 
-    /// The error by which a step is judged. From a singular moment it falls with the root of the length as that of an even
-    /// step with the length.
-    /// Without the square control took the error to fall faster than it does: at the touch of an impact three
-    /// attempts in a row were thrown away.
+    /// Returns the error by which step control judges a step.
+    ///
+    /// The error of a graded step from a singular moment depends on the square root of its length. An error above 1 is
+    /// therefore squared.
     pub(super) fn judged(error: f64, grade: Grade) -> f64 {
         if grade == Grade::Start && error > 1.0 { error * error } else { error }
     }
 }
 
-/// Whether a walk goes by the whole law of a row of springs, whose force bends wherever a spring slips and no step ends.
+/// Whether a quasi-static run follows the full force law of a spring row, whose kinks end no step.
 fn is_kinked(model: &Model) -> bool {
     let bends = |contact: &Contact| !contact.inert && contact.engine.springs() > 0 && !contact.has_lulls();
     model.free.is_empty() && model.contacts.iter().any(bends)
 }
 
-/// Longest step, s, that leaps over no smooth wave; ∞ where there is none.
+/// Returns the longest time step that resolves every smooth wave, s; ∞ without waves.
 fn longest(model: &Model) -> f64 {
     model.waveforms.iter().map(Waveform::resolution).fold(f64::INFINITY, f64::min)
 }
 
-/// Period of the fastest swing with all contacts stuck, s; 1 ms where nothing swings.
+/// Returns the period of the fastest oscillation with all contacts stuck, s; 1 ms without oscillation.
 fn natural(model: &Model) -> f64 {
     let period = std::f64::consts::TAU / model.fastest;
     if period.is_normal() { period } else { 1e-3 }
 }
 
-/// That, or the longest time that a waveform takes, s.
+/// Returns the longest duration of a waveform, at least the period of the fastest oscillation, s.
 fn scene_time(model: &Model) -> f64 {
     let extents = model.waveforms.iter().map(Waveform::extent).filter(|extent| extent.is_finite());
     extents.fold(natural(model), f64::max)
 }
 
-/// How near to a singular moment a step must end, as a part of it. What is missed of a force that goes with a power 3/2 of
-/// the time counts with the power 5/2, of the damping of the stuck springs with the power 3/2.
+/// Returns how close to a singular moment a step must end, as a fraction of the step.
 ///
-/// With tolerance^{2/5} and tolerance^{2/3} both misses are of the size of the tolerance; a tenth of it is
-/// asked for.
+/// A force with the power 3/2 of time causes an error with the power 5/2 of the missed time. The damping force of stuck
+/// springs causes an error with the power 3/2 of the missed time. A missed part of tolerance^{2/5} or tolerance^{2/3}
+/// thus causes an error of the size of the tolerance. The result is a tenth of that part.
 fn closeness(model: &Model, tolerance: f64) -> f64 {
     let damped = model.contacts.iter().any(|contact| contact.interface.damping() > 0.0);
     0.1 * math::powf(tolerance, if damped { 2.0 / 3.0 } else { 0.4 })
 }
 
-/// What the estimate of a method of few stages tells of a swing of the natural amplitude, error · θ^-power after a step of θ rad, and
-/// the longest step, rad, up to which swings do not grow, or by less than 1e-5 of a radian.
+/// Returns the constants of the error estimate of a method with few stages.
 ///
-/// Of Dormand and Prince's: what its embedded polynomial of stability lacks of the fifth power, 1097/120000 - 1/120. Of Nyström's:
-/// 35/336 of what the acceleration of its last stage differs from that at the end, at its largest.
+/// After a step of θ rad of an oscillation with natural amplitude, the estimate is error · θ^power. Up to the step
+/// `stable`, rad, oscillations do not grow, or grow by less than 1e-5 per radian.
+///
+/// Dormand and Prince: deviation of the fifth power in the embedded stability polynomial, 1097/120000 - 1/120. Nyström:
+/// 35/336 of the largest difference between the accelerations of the last stage and of the end.
 const fn estimate(method: Method) -> Option<Estimate> {
     match method {
         Method::Brief => Some(Estimate { error: 8.1e-4, power: 5.0, stable: 0.9 }),
@@ -319,14 +310,16 @@ const fn estimate(method: Method) -> Option<Estimate> {
     }
 }
 
-/// An estimate of few stages.
+/// Constants of the error estimate of a method with few stages, see [`estimate`].
 struct Estimate {
     error: f64,
     power: f64,
     stable: f64,
 }
 
-/// Longest step of few stages, s: there it meets the tolerance for the fastest swing; none where nothing swings.
+/// Returns the longest time step with few stages, s, which meets the tolerance for the fastest oscillation.
+///
+/// The result is 0 if the method has no such step or nothing oscillates.
 fn short(method: Method, model: &Model, tolerance: f64) -> f64 {
     let Some(Estimate { error, power, stable }) = method.brief(model, tolerance).and_then(estimate) else {
         return 0.0;

@@ -1,7 +1,6 @@
-//! The room that a run between located events works in, kept for the next one.
+//! Storage of a run with located events, kept for the next run.
 //!
-//! Nothing of a run is in it but lists that have grown: whoever takes it over fills them anew, so that a run does not depend on
-//! which others were there before.
+//! It contains only buffers, which every run fills again. A run does not depend on earlier ones.
 
 use super::turning::Turning;
 use super::watch::Watch;
@@ -17,12 +16,12 @@ use crate::state::{Layout, LocatedWay, State, Window};
 use crate::{Plan, RunError};
 use stickslip_stepper::{Attempt, Hand, StepLimits};
 
-/// Room of a run by one solver.
+/// Storage for runs with one integrator.
 pub(super) struct Room<A> {
-    /// What the solver has room for.
+    /// Layout for which the integrator was created.
     layout: Layout,
     pub(super) solver: A,
-    /// Absolute errors allowed.
+    /// Allowed absolute errors.
     pub(super) scale: Vec<f64>,
     pub(super) interval: Interval<'static>,
     pub(super) swing: Swing<'static>,
@@ -31,12 +30,12 @@ pub(super) struct Room<A> {
     pub(super) turning: Turning,
     pub(super) output: Output,
     pub(super) windows: Vec<Window>,
-    /// What is put down with the state at the end.
+    /// Storage for the run data of the state.
     pub(super) way: Option<Box<LocatedWay>>,
 }
 
 impl<A> Room<A> {
-    /// Room that has yet to grow.
+    /// Creates empty storage.
     pub(super) fn of(solver: A, layout: Layout) -> Self {
         let nothing = Model::blank();
         Self {
@@ -56,7 +55,7 @@ impl<A> Room<A> {
 }
 
 impl<A: for<'e> Attempt<Equations<'e>>> Room<A> {
-    /// Moves a state that has begun to the end of its plan, in a room that may be there already.
+    /// Runs a started state to the end of its plan, in existing storage if it fits.
     pub(super) fn run(
         room: &mut Option<Self>,
         (setting, plan, control): (Setting<'_>, &Plan, (u32, StepLimits)),
@@ -74,7 +73,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Room<A> {
 }
 
 impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
-    /// Moves a state to the end of its plan.
+    /// Runs a state to the end of its plan.
     fn finish(&mut self, state: &mut State, plan: &Plan, record: &mut dyn Record) -> Result<(), RunError> {
         let model = self.setting.model;
         state.check_inputs(model, plan.duration)?;
@@ -90,7 +89,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         outcome
     }
 
-    /// Leaves its room to another run.
+    /// Returns the storage for another run.
     fn leave(mut self) -> Room<A> {
         self.motion.solver.set_hand(Hand::default());
         Room {

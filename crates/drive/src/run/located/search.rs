@@ -1,12 +1,14 @@
-//! Finding the first guard that falls inside a step.
+//! Location of the first event in a step.
 //!
-//! An event is the first instant of the half-open interval (t₀, t₁] at which a guard falls through zero by more than its
-//! deadband; t₀ never belongs to the step that begins there, so that the event just handled does not fire again. A guard
-//! that is down at the end of the step has fallen; one that is up at both ends may have dipped: of a function that its values
-//! and rates at both ends tell, the lowest point of the cubic through them is looked at, of any other one three moments
-//! inside. The moment itself is a bracketed root on the dense output, which costs no evaluation once that is there.
+//! An event is the first time in the half-open interval (t₀, t₁] at which an event function falls below zero by more
+//! than its deadband. The start t₀ belongs to the previous step, so the event there does not occur again.
 //!
-//! What falls at the same moment, or is as good as down there, is one event: all of it fires before any law is chosen.
+//! An event function that is negative at the end of the step has crossed zero. If it is positive at both ends, it may
+//! be negative in between. Where values and rates at both ends describe it, the minimum of the cubic Hermite
+//! interpolant is evaluated. Other functions are evaluated at three times inside the step.
+//!
+//! The event time is a bracketed root on the dense output, without force evaluations. Event functions that are negative
+//! or near zero at that time belong to the same event. All of them are collected before any law is chosen.
 
 mod meeting;
 mod reading;
@@ -20,46 +22,46 @@ use crate::interval::Closed;
 use arrayvec::ArrayVec;
 use stickslip_stepper::{Attempt, Bracket, Completion, Cubic, Point, root, root_near};
 
-/// A guard that falls inside the step just attempted, and when, s.
+/// Event function that crosses zero in the attempted step, and the time of the crossing, s.
 #[derive(Clone, Copy)]
 pub(super) struct Fall<'e> {
     pub(super) t: f64,
     watched: Watched<'e>,
 }
 
-/// What is looked through: the step tried, and the contacts at both its ends.
+/// Attempted step that is searched for events, with the contacts at both ends.
 struct Search<'r, 'e, A> {
     from: &'r [Moving],
     to: &'r [Moving],
     tolerance: f64,
     solver: &'r mut A,
     eq: &'r Equations<'e>,
-    /// Whether it ends where it was cut: slopes are not known there.
+    /// Whether the step has been cut. The slopes at its end are then unknown.
     is_cut: bool,
-    /// What was seen of the contact under way inside the step.
+    /// Motions of the current contact inside the step that have been computed.
     seen: ArrayVec<Seen, { LOOKS.len() + side::EARLY.len() }>,
 }
 
-/// The motion of a contact at a part of the step.
+/// Motion of a contact at a fraction of the step.
 struct Seen {
     contact: usize,
     part: f64,
     motion: Motion,
 }
 
-/// Places inside a step at which guards are looked at whose course is no polynomial of low degree.
-// Seven looks or one see the same but for a few events of contacts that grow under a sine of load.
+/// Fractions of a step at which event functions are evaluated that no polynomial of low degree describes.
 const LOOKS: [f64; 3] = [0.25, 0.5, 0.75];
-/// A guard that is up at both ends is looked at inside the step where the cubic comes below this part of the lower one.
+/// Largest minimum of the cubic that is checked on the dense output, as a fraction of the smaller end value.
 const DIPS_TO: f64 = 0.1;
-/// How often a step is halved in search of a moment at which a guard that rested at its start is armed.
+/// Largest number of bisections in search of a time at which an event function near zero is armed.
 const HALVINGS: u32 = 40;
-/// How often an earlier fall is looked for from an end that was found. Two guards of whose values only rounding is left lead each other
-/// back by a last place of t at a time, in a scene of extreme numbers thousands of times.
+/// Largest number of searches for an earlier event.
+///
+/// The limit ends an endless loop between two event functions that contain only rounding errors.
 const EARLIER: u32 = 64;
 
 impl Watch {
-    /// The earliest fall in the step just attempted, on its dense output.
+    /// Returns the earliest event in the attempted step, from the dense output.
     #[inline(always)]
     pub(super) fn first_fall<'e, A: for<'q> Attempt<Equations<'q>>>(
         &mut self,
@@ -73,11 +75,13 @@ impl Watch {
         search.first_fall(near)
     }
 
-    /// Ends the step where a guard falls, or where one does that is up at both ends of the step but down there, such as that of a
-    /// piece of memory that an edge has used up before it turns back: that one came first. Collected are the guard that ends the
-    /// step, whatever its last bit says, and all others that are down or as good as down there: simultaneous events are one.
+    /// Ends the step at an event and collects all event functions that belong to it.
     ///
-    /// Where something fades within steps, errors are allowed of it, and the cut is met as exactly as an end.
+    /// An event function that is already negative there, but positive at both ends of the attempted step, gives an
+    /// earlier event. An example is a memory piece that is used up before a reversal. The collected functions are the
+    /// one that ends the step and all others that are negative or near zero there.
+    ///
+    /// If motions may decay within a step, `fading` has the allowed errors. The cut is then as accurate as an end.
     pub(super) fn end_at<'e, A: for<'q> Attempt<Equations<'q>>>(
         &mut self,
         (solver, fading): (&mut A, Option<&Vec<f64>>),
@@ -98,7 +102,7 @@ impl Watch {
                 Search { from, to, tolerance: *tolerance, solver, eq, is_cut: true, seen: ArrayVec::new() };
             fired.clear();
             fired.push(fall.watched.fallen());
-            // Of many contacts hardly ever another one is: then this one look at them is all.
+            // With many contacts there is hardly ever a second event function, and this check is the only cost.
             if !search.has_company(fall, near) {
                 return;
             }
@@ -120,7 +124,7 @@ impl Watch {
 }
 
 impl<'e, A: for<'q> Attempt<Equations<'q>>> Search<'_, 'e, A> {
-    /// Puts down which contacts of closed form have to be looked at: see [`is_far`](Self::is_far).
+    /// Collects the contacts with closed-form forces that must be checked, see [`is_far`](Self::is_far).
     #[inline(always)]
     fn gather(&self, near: &mut Vec<usize>) {
         near.clear();
@@ -133,9 +137,10 @@ impl<'e, A: for<'q> Attempt<Equations<'q>>> Search<'_, 'e, A> {
         }
     }
 
-    /// Whether all guards of a contact of closed form stay up through the step, farther from zero than counts as there: its edge goes on
-    /// dragging, as the control points of the speed's cubic show, and its piece of memory outlasts the step. `third` of the step, s.
-    // Of many contacts nearly all are, at nearly every step; guard by guard they are asked three times as much.
+    /// Whether all event functions of a contact with a closed-form force stay positive and away from zero in the step.
+    ///
+    /// The control points of the velocity cubic show that the slip edge does not stop. The memory piece must outlast
+    /// the step. `third` is a third of the step, s.
     #[inline(always)]
     fn is_far(&self, steady: &Closed<'_>, third: f64) -> bool {
         let (from, to) = (&self.from[steady.index], &self.to[steady.index]);
@@ -149,7 +154,7 @@ impl<'e, A: for<'q> Attempt<Equations<'q>>> Search<'_, 'e, A> {
             && steady.margin(to.motion.u) > close
     }
 
-    /// The earliest fall in the step just attempted, on its dense output.
+    /// Returns the earliest event in the attempted step, from the dense output.
     #[inline(always)]
     fn first_fall(&mut self, near: &[usize]) -> Option<Fall<'e>> {
         let mut first: Option<Fall<'e>> = None;
@@ -173,18 +178,19 @@ impl<'e, A: for<'q> Attempt<Equations<'q>>> Search<'_, 'e, A> {
         first
     }
 
-    /// Whether a guard that is down at the time `low` is still up at `t`, where another one falls: its own moment is nobody's
-    /// business then. Of many contacts most guards go that way.
+    /// Whether an event function that is negative at time `low` is still positive at `t`, where another event occurs.
+    ///
+    /// Its own crossing is then not needed.
     fn comes_later(&self, watched: Watched<'e>, low: f64, t: f64) -> bool {
         t < low && self.inside(watched, t) > self.bands(watched).1
     }
 
-    /// Whether a guard with the value `g` later in the step has fallen below its deadband.
+    /// Whether an event function with the value `g` has fallen below its deadband in the step.
     fn has_fallen(&self, watched: Watched<'_>, g: f64) -> bool {
         g < -self.bands(watched).0 && g < self.at_begin(watched)
     }
 
-    /// The earliest fall of any other guard before that which ends the step.
+    /// Returns the earliest zero crossing of other event functions before the event that ends the step.
     fn before(&self, last: Fall<'e>, near: &[usize]) -> Option<Fall<'e>> {
         let mut first: Option<Fall<'e>> = None;
         Watched::each(self.eq, near, |watched| {
@@ -199,7 +205,7 @@ impl<'e, A: for<'q> Attempt<Equations<'q>>> Search<'_, 'e, A> {
         first
     }
 
-    /// A guard that falls and returns inside the step: the time and value of its lowest point found.
+    /// Returns time and value of the minimum of an event function that is positive at both ends, if it is negative.
     #[inline(always)]
     fn dip(&mut self, watched: Watched<'e>, g1: f64) -> Option<(f64, f64)> {
         if let Watched::Contact(index, contact, Guard::Side) = watched {
@@ -212,7 +218,7 @@ impl<'e, A: for<'q> Attempt<Equations<'q>>> Search<'_, 'e, A> {
             return self.looks(watched);
         }
         match watched {
-            // It rises again only after the edge has turned, and then that comes first.
+            // The remaining length increases only after a reversal, which is then the earlier event.
             Watched::Closed(_, Guard::Piece) | Watched::Contact(_, _, Guard::Piece) => return None,
             _ => {}
         }
@@ -228,7 +234,7 @@ impl<'e, A: for<'q> Attempt<Equations<'q>>> Search<'_, 'e, A> {
         Some(low).filter(|(_, g)| *g < -self.bands(watched).0)
     }
 
-    /// The first of some moments inside the step at which a guard has fallen, and its value there.
+    /// Returns the first evaluated time inside the step at which an event function has crossed zero, and its value.
     fn looks(&mut self, watched: Watched<'e>) -> Option<(f64, f64)> {
         let (t0, h) = (self.solver.span().time, self.solver.span().end_time - self.solver.span().time);
         let mut looks = LOOKS.into_iter().map(|share| match watched {
@@ -242,37 +248,39 @@ impl<'e, A: for<'q> Attempt<Equations<'q>>> Search<'_, 'e, A> {
         self.has_fallen(watched, g).then_some((t, g))
     }
 
-    /// A moment inside the step and the value of a guard there.
+    /// Returns a time inside the step and the value of an event function there.
     fn look(&mut self, watched: Watched<'e>, t: f64) -> (f64, f64) {
         self.solver.complete(self.eq, Completion::Dense);
         (t, self.inside(watched, t))
     }
 
-    /// The moment at which a guard falls, between the start of the step and a time at which it is below zero.
+    /// Returns the time at which an event function crosses zero, between the start of the step and a time with a
+    /// negative value.
     ///
-    /// By the dense output, which is there.
+    /// Requires the dense output.
     #[inline(never)]
     fn fall(&self, watched: Watched<'e>, (low, below): (f64, f64)) -> f64 {
         let (t0, g0) = (self.solver.span().time, self.at_begin(watched));
         let (_, near) = self.bands(watched);
-        // What starts as good as down rests until it has left its deadband.
+        // An event function near zero at the start must first leave its deadband.
         if g0 < near {
             return self.leave(watched, Point { x: t0, y: g0 }, Point { x: low, y: below });
         }
-        // A moment missed by this much leaves its guard far nearer to zero than the laws on both sides can tell.
+        // With this error in time, the event function is far closer to zero than its nearness.
         let tolerance = (0.1 * NEARNESS * self.tolerance * (low - t0)).max(4.0 * f64::EPSILON * low.abs());
         let guess = self.guess(watched, (g0, low, below));
         let value = |t: f64| {
             let value = self.inside(watched, t);
-            // As good as there.
+            // Values near zero count as zero.
             if value.abs() < near { 0.0 } else { value }
         };
         let bracket = Bracket { from: Point { x: t0, y: g0 }, to: Point { x: low, y: below } };
         root_near(value, bracket, guess, tolerance)
     }
 
-    /// About where a guard falls between the start of the step and a time, as a fraction of the way: by the cubic through
-    /// both ends of the step where its rates are known there.
+    /// Returns an estimate of the zero crossing, as a fraction of the time to the negative value.
+    ///
+    /// Where rates are known at both ends of the step, the estimate is the root of the cubic Hermite interpolant.
     fn guess(&self, watched: Watched<'_>, (g0, low, below): (f64, f64, f64)) -> f64 {
         if self.is_cut || low < self.solver.span().end_time || watched.is_sampled() {
             return 0.5;
@@ -282,10 +290,10 @@ impl<'e, A: for<'q> Attempt<Equations<'q>>> Search<'_, 'e, A> {
         Cubic { y0: g0, dy0: rates[0], y1: below, dy1: rates[1], h }.root()
     }
 
-    /// The moment of a guard that rests at the start of the step, having just fallen or as good as down: it rises out of its
-    /// deadband, is armed there and falls, or it leaves on the other side.
+    /// Returns the event time of an event function that is near zero at the start of the step.
     ///
-    /// Either way there lies an excursion larger than rounding between two events of one guard.
+    /// It either rises above its deadband, is armed there and then crosses zero, or it leaves the deadband downwards.
+    /// Two events of one function are therefore always separated by an excursion larger than rounding.
     fn leave(&self, watched: Watched<'_>, from: Point, low: Point) -> f64 {
         let (g, dead) = (|t: f64| self.inside(watched, t), self.bands(watched).0);
         let tolerance = 4.0 * f64::EPSILON * low.x.abs();
@@ -305,7 +313,7 @@ impl<'e, A: for<'q> Attempt<Equations<'q>>> Search<'_, 'e, A> {
         root(|t| g(t) - level, Bracket { from: above(from), to: above(low) }, tolerance)
     }
 
-    /// Whether any other guard than that which ends the step has come as near to zero there as to be as good as down.
+    /// Whether another event function is near zero at the event that ends the step.
     fn has_company(&self, last: Fall<'e>, near: &[usize]) -> bool {
         let mut found = false;
         Watched::each(self.eq, near, |watched| {
@@ -314,15 +322,14 @@ impl<'e, A: for<'q> Attempt<Equations<'q>>> Search<'_, 'e, A> {
         found
     }
 
-    /// Whether a guard is down or about as good as down at the end of the step, and lower than at its start.
-    // In this order: of many contacts nothing is asked as often, and most stand far from any event.
+    /// Whether an event function is negative or near zero at the end of the step, and lower than at the start.
     #[inline(always)]
     fn comes_near(&self, watched: Watched<'_>) -> bool {
         let end = self.at_end(watched);
         end < self.own_bands(watched).1 && end < self.at_begin(watched)
     }
 
-    /// Whether a guard is down at the end of the step, or as good as down.
+    /// Whether an event function crosses zero together with the event at the end of the step.
     #[inline(always)]
     fn falls_too(&self, watched: Watched<'_>) -> bool {
         if !self.comes_near(watched) {
@@ -330,7 +337,8 @@ impl<'e, A: for<'q> Attempt<Equations<'q>>> Search<'_, 'e, A> {
         }
         let (g0, g) = (self.at_begin(watched), self.at_end(watched));
         let (dead, near) = self.bands(watched);
-        // What was as good as down all along idles: a contact at rest reverses at nobody else's events.
+        // A function that is near zero all the time belongs to a contact at rest, for which events of others mean
+        // nothing.
         let rises =
             || self.rates(watched)[0] * (self.solver.span().end_time - self.solver.span().time) > near;
         g < -dead || g0 >= near || rises()

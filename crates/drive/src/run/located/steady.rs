@@ -1,7 +1,7 @@
-//! The early end of a run whose steps have become constant.
+//! End of a run as soon as the step length of the drive is constant.
 //!
-//! Until the run ends it is the same run to the last bit as one that was not asked to end: ends of periods
-//! are looked up on the dense output and no step is shortened to meet them.
+//! Up to its end the run has the same bits as a run without that option. Period ends are read from the dense output,
+//! and no step is cut there.
 
 use super::Located;
 use crate::equations::Equations;
@@ -9,8 +9,9 @@ use crate::state::State;
 use stickslip_stepper::{Attempt, Completion};
 
 impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
-    /// Takes the steps of the drive that the attempt just made brings to their end; the one with which they are constant
-    /// ends the run. Until then nothing is changed: the places are read off the dense output.
+    /// Evaluates all period ends in the attempted step, from the dense output.
+    ///
+    /// Ends the run at the period end with which the step length of the drive is constant. Otherwise nothing changes.
     #[inline(never)]
     pub(super) fn take_steps(&mut self, state: &State) {
         let (t, i) = (self.motion.solver.span().end_time, self.horizon.steps.coordinate);

@@ -1,8 +1,8 @@
-//! One attempt, and what belongs to an accepted step.
+//! Attempt of a step, and processing of an accepted step.
 //!
-//! The order is the invariant: nothing of the state moves before a step is accepted, rows and looks are
-//! written of the step while its dense output is there, then the state moves to its end, then all memories
-//! together, then laws. A step that is refused leaves a shorter wish and one more count.
+//! The order is an invariant. The state does not change before a step is accepted. Rows and snapshots are written while
+//! the dense output exists. Then the state moves to the end of the step, all slip memories commit, and laws change. A
+//! rejected step only shortens the next one and is counted.
 
 use super::aim::Aim;
 use super::motion::Pace;
@@ -17,23 +17,23 @@ use crate::run::horizon::Progress;
 use crate::state::{Books, State, Whereabouts, beyond};
 use stickslip_stepper::{Attempt, Completion, Grade, Rejection, StepControl, StepHistory, Verdict};
 
-/// How a step ends.
+/// End of an accepted step.
 #[derive(Clone, Copy, PartialEq)]
 enum Ending {
-    /// Where it was aimed at, and neither of the others.
+    /// At the target, without event or corner.
     Smooth,
-    /// Where a guard fell or a period ended, before its target.
+    /// Before the target: at an event or at the end of the run.
     Event,
-    /// Where a waveform turns.
+    /// At a waveform corner.
     Corner,
 }
 
 impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
-    /// A leap to the next event or, where that is not possible, one attempt and, if it succeeds, everything that belongs to
-    /// an accepted step: attempt → locate → accept → commit → next law.
+    /// Advances to the next event by a leap, or attempts one step and processes it if it is accepted.
     ///
-    /// Fails where the step would be too small, a value is not finite, a contact or block refuses its path,
-    /// or a limit is reached. The state is then that of the last step accepted.
+    /// The order is attempt, locate, accept, commit, next law. Fails if the step would be too small, a value is not
+    /// finite, a contact or block refuses its path, or a limit is reached. The state is then that of the last accepted
+    /// step.
     pub(super) fn step(&mut self, state: &mut State, record: &mut dyn Record) -> Result<Progress, RunError> {
         let tells_rows = self.output.rows.any() && record.wants_events();
         if tells_rows {
@@ -43,7 +43,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
             None => self.step_smoothly(state, record),
             Some(detour) => self.step_whole(state, detour, record),
         };
-        // A step that a limit ends is made.
+        // Also after an error, because the step itself may have been taken.
         if tells_rows {
             self.tell_rows(state, record);
         }
@@ -53,7 +53,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         }
     }
 
-    /// The same between located events.
+    /// Advances by a leap or a step between located events.
     #[inline(always)]
     fn step_smoothly(&mut self, state: &mut State, record: &mut dyn Record) -> Result<Progress, RunError> {
         if let Some(progress) = self.leap(state, record)? {
@@ -64,7 +64,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         }
         let corner = self.horizon.next();
         let mut aim = self.aim(state, corner);
-        // Rounding of t has swallowed the step.
+        // The step is smaller than the rounding of t.
         if aim.target <= state.t {
             return Err(RunError::StepTooSmall { t: state.t, step: state.step });
         }
@@ -86,19 +86,18 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
             self.end_here(state);
         }
         let h = aim.target - state.t;
-        // The length that was judged, even if an event cuts it: it is what the law bore.
+        // The attempted length counts even if an event has cut it, because its error was acceptable.
         self.motion.pace.gait.proven = self.motion.pace.gait.proven.max(h);
         let ending = self.ending(&aim);
         let wished = self.wished(state, ending, (h, verdict.next));
         state.tally.step(self.method(&aim));
         self.accept(state, record, self.moves(ending))?;
         state.step = match ending {
-            // Only what goes on smoothly knows how its error falls; after a corner or an event control begins
-            // with caution.
+            // The error is predictable only without an event; after events and corners step control is cautious.
             Ending::Smooth => self.motion.pace.nearing(h, aim.singular) * wished,
             Ending::Event | Ending::Corner => self.control.after_event(wished),
         };
-        // What turns with an input turns when its caller has said where to.
+        // An input moves on at its corner only if its next piece has been supplied.
         let turns = ending == Ending::Corner && !state.waits_for_input(self.setting.model);
         if turns || !self.watch.fired.is_empty() {
             self.pass_event(state, turns, record)?;
@@ -121,13 +120,13 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         }
     }
 
-    /// The step that comes to be wished for after one of length `h`, its control having proposed another, s.
+    /// Returns the length of the next step, s, after a step of length `h` for which step control proposes `next`.
     ///
-    /// A step that was shorter than control had wished for, because of an event or a corner ahead, takes
-    /// nothing from that wish; one that an event cut adds nothing to it.
+    /// A step shortened by an event or corner ahead does not reduce the planned length. A step that an event has cut
+    /// does not increase it.
     fn wished(&self, state: &State, ending: Ending, (h, next): (f64, f64)) -> f64 {
         match (ending == Ending::Event, h < state.step) {
-            // The next law has not earned a longer step yet.
+            // A coasting step says nothing about step lengths under the next law.
             _ if self.motion.solver.coasts() => state.step,
             (true, false) => h.min(next),
             (true, true) => state.step,
@@ -136,8 +135,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         }
     }
 
-    /// The method of the step just made.
-    /// For the tally alone: nothing is decided by it.
+    /// Returns the method of the accepted step, for statistics only.
     fn method(&self, aim: &Aim) -> Method {
         match aim.grade {
             _ if self.interval.is_constant() && self.setting.layout.free > 0 => Method::Parabola,
@@ -147,8 +145,9 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         }
     }
 
-    /// Takes back nothing, since nothing was done: shortens the wish, renews what rounding is allowed, and
-    /// fails where the wish falls to a few last places of t.
+    /// Processes a rejected step: shortens the next one and updates the allowance for rounding.
+    ///
+    /// Fails if the next step would be only a few rounding errors of t.
     #[inline(never)]
     fn reject(
         &mut self,
@@ -157,17 +156,17 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         record: &mut dyn Record,
     ) -> Result<(), RunError> {
         if aim.closes.is_some() {
-            // The next attempt is an even one: nothing follows from both errors together.
+            // The next attempt is an even step, whose error cannot be compared with that of a graded step.
             let rejected = Some(Rejection { step: aim.target - state.t, log_error: f64::INFINITY });
             self.control.set_history(StepHistory { rejected, ..self.control.history() });
         }
         self.motion.pace.refuse(aim);
         state.counts.rejected += 1;
-        // That few stages do not do says nothing about all of them.
+        // A rejection with few stages says nothing about all stages.
         if aim.grade != Grade::Few {
             state.step = verdict.next;
         }
-        // Perhaps rounding has grown above what was allowed for it.
+        // Rounding errors may have grown since the allowed errors were set.
         self.motion.allowance.set(self.setting.model, state);
         if verdict.next > 4.0 * f64::EPSILON * state.t.abs() && verdict.next > f64::MIN_POSITIVE {
             return self.bounds.step(state, record);
@@ -175,10 +174,10 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         Err(RunError::StepTooSmall { t: state.t, step: verdict.next })
     }
 
-    /// Whose memories move at the end of the step just located.
+    /// Returns which slip memories commit at the end of the located step.
     ///
-    /// All where laws of contacts may change whose own guards have not fallen: at corners, at events of blocks, whose signals
-    /// may be what bodies follow, and where places without mass are solved for from them.
+    /// All commit where laws of contacts without an event may change. This is the case at corners, at events of blocks,
+    /// and in models with quasi-static coordinates.
     fn moves(&self, ending: Ending) -> Moves {
         let others = self.watch.fired.iter().any(|fallen| matches!(fallen, Fallen::Block(..)));
         if ending == Ending::Corner || others || !self.setting.model.balanced.is_empty() {
@@ -190,11 +189,10 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         }
     }
 
-    /// Rows and looks inside the step, then the commit of all contacts that move, then time moves on.
+    /// Accepts a step: writes the output inside it, moves the state to its end and commits contacts and blocks.
     ///
-    /// Memories of other contacts of closed form stay where they are, and the ledger says
-    /// so. Fails where a component is not finite, before anything of the state has moved, or where a commit
-    /// is refused.
+    /// Other contacts with closed-form forces do not commit, and the ledger records that. Fails if a commit is refused,
+    /// or, before the state has changed, if a component is not finite.
     fn accept(&mut self, state: &mut State, record: &mut dyn Record, moves: Moves) -> Result<(), RunError> {
         let t = self.motion.solver.span().end_time;
         self.trace_step(state, t, moves);
@@ -203,11 +201,11 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
             self.write(state, t, record);
         }
         let end = self.motion.solver.span().end;
-        // Checked on the whole of the end: a value that is not finite must not reach a memory.
+        // A value that is not finite must not reach a slip memory.
         if let Some(i) = beyond(end) {
             return Err(self.setting.model.not_finite(t, i));
         }
-        // Some solvers carry the work put in as their only integral; the rest of y is not theirs.
+        // Some integrators carry the input work as their only integral; other components stay.
         state.y[..end.len()].copy_from_slice(end);
         state.t = t;
         state.counts.steps += 1;
@@ -217,10 +215,10 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         if self.setting.model.blocks.is_empty() { Ok(()) } else { self.ledger.commit_blocks(scene, state) }
     }
 
-    /// The end of a step is the start of the next one.
+    /// Makes the end of the step the start of the next one.
     ///
-    /// Places without mass are solved for from where the memories are, which have moved: they are looked at anew, as a run that is
-    /// taken up here does.
+    /// Quasi-static coordinates depend on the committed slip memories. Their contacts are computed again, as in a
+    /// continued run.
     fn go_on(&mut self, state: &State) {
         if self.setting.model.balanced.is_empty() {
             self.watch.go_on();
@@ -229,10 +227,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         }
     }
 
-    /// Takes away what rounding has left of the velocities: it would add up over a long rest.
-    ///
-    /// A slider under 0.9 μF_N that starts in equilibrium stays within a few last places of u_c for ever;
-    /// without this its velocities would ring on in their last bit.
+    /// Sets all velocities to zero at rest, so that rounding errors do not accumulate.
     fn stop(&mut self, state: &mut State) {
         let free = self.setting.layout.free;
         if state.y[free..2 * free].iter().any(|v| *v != 0.0) {
@@ -242,10 +237,10 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
     }
 }
 
-/// Tries a step and, if its error allows, looks for the first event in it and ends it there.
+/// Attempts a step and ends it at the first event inside it.
 ///
-/// The guards are looked at only where the error allows the step. All that fall together with the first are
-/// collected: one moment, one choice.
+/// Event functions are evaluated only if the error is allowed. All that cross zero together with the first are
+/// collected as one event.
 #[inline(always)]
 fn attempt<A: for<'e> Attempt<Equations<'e>>>(
     (motion, watch, control): (&mut Motion<A>, &mut Watch, &mut StepControl),
@@ -258,8 +253,8 @@ fn attempt<A: for<'e> Attempt<Equations<'e>>>(
     let error = motion.with_books(eq, state, target, error);
     let verdict = control.propose(Pace::judged(error, aim.grade), target - state.t);
     if verdict.accepted {
-        // Rates of guards at the end need its slopes; the dense output is asked for only where a guard may
-        // have fallen.
+        // Rates of event functions at the end need its slopes. The dense output is computed only where an event is
+        // possible.
         motion.solver.complete(eq, Completion::EndSlopes);
         watch.arrive(eq, &motion.solver);
         watch.fired.clear();

@@ -1,5 +1,4 @@
-//! Memories that move at their own events only, against the same run with all of them brought along after every step; forces laid
-//! out for many coordinates against the general equations.
+//! Tests of slip memories that commit at their own events only, and of the force kernel for many coordinates.
 
 use super::LocatedRun;
 use crate::equations::Equations;
@@ -28,7 +27,7 @@ fn named<T>(name: &str, part: T) -> Named<T> {
     Named { name: name.to_owned(), part }
 }
 
-/// A foot on a wave with sliders, no two alike, that hang on each other by springs; `damping` (s) of every contact.
+/// Returns a foot on a waveform with different sliders, connected by springs; `damping` (s) applies to every contact.
 fn chain(shape: Shape, (contacts, damping): (&[usize], f64)) -> Option<Scene> {
     let steel = Pair::new(Material::new(210e9, 0.3).ok()?, Material::new(210e9, 0.3).ok()?);
     let mut scene = Scene {
@@ -73,8 +72,9 @@ fn chain(shape: Shape, (contacts, damping): (&[usize], f64)) -> Option<Scene> {
     Some(scene)
 }
 
-/// The state after every step, memories brought along where `all` says so, and at the end in any case; how often a step left
-/// one behind.
+/// Returns times and components after every step, the final state, and how often a memory lagged behind a step.
+///
+/// If `all`, the slip memories commit after every step, otherwise at events and at the end.
 fn run(model: &Model, all: bool) -> Option<(Vec<f64>, State, usize)> {
     let plan = PLAN;
     let mut state = model.start(&plan).ok()?;
@@ -130,7 +130,7 @@ fn memories_that_move_at_their_own_events_only_come_to_the_same() {
         };
         assert!(left > 0 && none == 0, "{name}: {left} left behind");
         assert_eq!(own.len(), all.len(), "{name}: steps");
-        // Only the lengths of what a memory has been told differ, and with them the last bits of what it makes of it.
+        // Only the division of the memory's path differs, which changes its last bits.
         let size = |i: usize| own.iter().skip(i % (at_own.y.len() + 1)).step_by(at_own.y.len() + 1);
         for (i, (a, b)) in own.iter().zip(&all).enumerate() {
             let scale = size(i).fold(0.0_f64, |most, y| most.max(y.abs()));
@@ -151,7 +151,7 @@ fn memories_that_move_at_their_own_events_only_come_to_the_same() {
     }
 }
 
-/// A chain with a damper, a preload, and springs to the foot and to the ground.
+/// Returns a chain with a damper, a preload, and springs to the foot and to the ground.
 fn tied(shape: Shape) -> Option<Scene> {
     let mut scene = chain(shape, (&[1, 2, 1, 1, 3, 1], 0.0))?;
     let spring = scene.springs.first()?.part;

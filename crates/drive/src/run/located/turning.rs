@@ -1,8 +1,8 @@
-//! What waveforms do at a corner.
+//! Waveforms at a corner.
 //!
-//! A corner ends a step exactly: the pieces on both of its sides are smooth, and no step sees both. Here
-//! pieces turn and jumps are booked; what contacts do after the corner is chosen in [`laws`](super::laws),
-//! from the velocities to its right.
+//! A corner ends a step exactly: the pieces on both sides are smooth, and no step contains parts of both. Here
+//! waveforms change their pieces, and the works of jumps are added up. Afterwards [`laws`](super::laws) chooses the
+//! contact laws from the velocities after the corner.
 
 use super::Located;
 use crate::RunError;
@@ -16,19 +16,19 @@ use crate::state::{Books, State};
 use stickslip_contact::Segment;
 use stickslip_stepper::Attempt;
 
-/// What waveforms do at a corner.
+/// Scratch for waveform corners.
 #[derive(Debug, Default)]
 pub(super) struct Turning {
     jumps: Jumps,
-    /// Modes before the corner.
+    /// Contact laws before the corner.
     pub(super) before: Vec<Mode>,
-    /// Waveforms that turned.
+    /// Waveforms that have reached a corner, and the kind of event.
     turned: Vec<(usize, EventKind)>,
-    /// Of each block whether it has another law, or reads one that has: room.
+    /// For each block, whether its own law or the law of an input has changed.
     pub(super) bent: Vec<bool>,
 }
 
-/// Whether any waveform jumps: only then is the energy before a corner asked for.
+/// Whether any waveform jumps. Only then is the energy before a corner computed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 enum Jumps {
     #[default]
@@ -49,17 +49,16 @@ impl Turning {
 }
 
 impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
-    /// Moves every waveform whose piece ends now to its next piece, and books jumps. Events are noted when all of it
-    /// has happened: the state after them is whole.
+    /// Moves every waveform whose piece has ended to its next piece, and handles jumps.
     ///
-    /// Fails where a load has jumped beyond what balances it.
+    /// Events are reported afterwards, with the complete state. Fails if a load jumps beyond the largest force that can
+    /// balance it.
     pub(super) fn turn_corners(
         &mut self,
         state: &mut State,
         record: &mut dyn Record,
     ) -> Result<(), RunError> {
-        // The energy of all contacts costs a preview of each: corners are many, and most waveforms never
-        // jump.
+        // The energy requires a preview of every contact, and most waveforms never jump.
         let before = match self.turning.jumps {
             Jumps::Possible => (stored(&self.setting.plain(state), state), self.laden(state)),
             Jumps::Never => (0.0, 0.0),
@@ -68,12 +67,12 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         let turned = &mut self.turning.turned;
         turned.clear();
         for (w, waveform) in self.setting.model.waveforms.iter().enumerate() {
-            // Several pieces may end in the rounding of one moment.
+            // Several pieces may end at the same rounded time.
             while state.pieces[w].end <= state.t {
                 let piece = state.pieces[w];
                 let Some(next) = state.next_piece(w, waveform) else { break };
                 state.pieces[w] = next;
-                // Of the piece that ends: the next one has a jump of its own.
+                // The jump at the end of this piece; the next piece has its own.
                 let jump = waveform.jump_between(&piece, &next) != 0.0;
                 turned.push((w, if jump { EventKind::Jump } else { EventKind::Corner }));
             }
@@ -84,7 +83,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         for i in 0..self.turning.turned.len() {
             let (w, kind) = self.turning.turned[i];
             self.note(state, Source::Waveform(w), kind, record);
-            // What a jump has led blocks to comes after it, and once.
+            // Events of blocks that the jump has caused follow it once.
             if kind == EventKind::Jump {
                 for i in 0..self.ledger.led.len() {
                     let (k, kind) = self.ledger.led[i];
@@ -96,9 +95,9 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         Ok(())
     }
 
-    /// Turns what an input has been given, or a generator told, since the run stopped here.
+    /// Begins the pieces of inputs and the commands of generators that were given since the run stopped here.
     ///
-    /// Memories that wait for an event come to where the state is first: their paths bend here.
+    /// Slip memories that wait for an event commit first, because their paths bend here.
     pub(super) fn turn_due(&mut self, state: &mut State, record: &mut dyn Record) -> Result<(), RunError> {
         if state.supplied.is_empty() && state.generators.is_empty() {
             return Ok(());
@@ -115,13 +114,13 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         self.pass_event(state, true, record)
     }
 
-    /// Blocks follow first, and bodies that follow a waveform or a block that passes jumps on jump: a straight path of every contact in no time. The work of the jump is what
-    /// the elastic energy, `before` until now, gains and friction takes.
+    /// Moves all contacts along a jump, on a straight path in zero time.
     ///
-    /// Free coordinates stay where they are: in no time no finite force moves a mass. Links and contacts with
-    /// dampers are refused by the model where something they join jumps.
+    /// Blocks jump first, then bodies that follow a waveform or a block. Free coordinates stay, because no finite force
+    /// moves a mass in zero time. The model refuses dampers between parts that jump.
     ///
-    /// Fails where nothing balances what has jumped, and where it leads a contact out of its row or its table.
+    /// The work of the jump is the gain of elastic energy plus the friction work; `before` is the energy before the
+    /// jump. Fails if a quasi-static body has no equilibrium after the jump, or if a contact leaves its row or table.
     fn jump(&mut self, state: &mut State, (before, laden): (f64, f64)) -> Result<(), RunError> {
         let mut friction = 0.0;
         self.ledger.jump_blocks((self.setting.model, self.setting.layout), state)?;
@@ -129,8 +128,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         for (c, contact) in self.setting.model.contacts.iter().enumerate() {
             let to = self.setting.plain(state).motion(contact, state.t, |i| state.y[i]).apex();
             let from = state.memories[c].apex();
-            // Friction of the whole path, for contacts that integrate theirs too: no time passes to integrate
-            // over.
+            // Friction of the whole path, also where the run integrates it: there is no time to integrate over.
             let work = contact.count
                 * state.memories[c]
                     .commit(&contact.interface, Segment::Jump(to))
@@ -138,7 +136,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
             self.ledger.note(self.setting.model, state, c, Segment::Jump(to));
             state.friction[c] += work;
             friction += work;
-            // The law follows the way of the jump; a contact that the jump did not move keeps its own.
+            // The law follows the direction of the jump. Contacts that have not moved keep theirs.
             if let (Some(branching), true) = (state.memories[c].branching(), to != from) {
                 let course = branching.course(&contact.interface, to.d - from.d, to.u - from.u);
                 let at = Motion { d: to.d, u: to.u, dd: to.d - from.d, du: to.u - from.u };
@@ -147,14 +145,15 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         }
         state.jumps += stored(&self.setting.plain(state), state) - before + friction;
         if !self.setting.model.balanced.is_empty() {
-            // Read off the places, the work of loads has jumped already.
+            // The work of loads follows from the positions and has jumped already.
             state.jumps -= self.laden(state) - laden;
         }
         Ok(())
     }
 
-    /// Puts the contacts of balanced bodies on the whole law of their memories: a jump may close or open whatever it likes,
-    /// and its end is where that law balances.
+    /// Sets the contacts of quasi-static bodies to the full force law, because a jump may open or close any of them.
+    ///
+    /// Fails if a quasi-static body has no equilibrium after the jump.
     fn balance_jump(&self, state: &mut State) -> Result<(), RunError> {
         let model = self.setting.model;
         if model.balanced.is_empty() {
@@ -169,7 +168,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         }
     }
 
-    /// Work of loads on balanced coordinates that is read off their places, J.
+    /// Returns the work of loads on quasi-static coordinates that follows from their positions, J.
     fn laden(&self, state: &State) -> f64 {
         if self.setting.model.balanced.is_empty() {
             return 0.0;

@@ -1,7 +1,7 @@
-//! What a run puts down with the state, and takes up again.
+//! Run data that are saved in the state and restored from it.
 //!
-//! All else is scratch and follows from the state: what is known of the interval, the slopes at the start of the next step,
-//! the contacts there, the swing of a leap.
+//! Everything else is scratch and follows from the state. Examples are the interval, the contacts at the start of the
+//! next step, and the motion of a leap.
 
 use super::Located;
 use crate::equations::Equations;
@@ -10,13 +10,13 @@ use crate::state::{LocatedWay, State, Takeoff, Underway, Whereabouts};
 use stickslip_stepper::Attempt;
 
 impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
-    /// Puts down all that the next step depends on, and what the work done so far came to.
+    /// Saves everything that the next step depends on and adds the evaluations to the counts.
     pub(super) fn put_down(&mut self, state: &mut State) {
         let solver = &self.motion.solver;
-        // With and without output the same count.
+        // The count does not depend on output.
         state.counts.evaluations += solver.evaluations() - self.output.evaluations;
         self.output.evaluations = solver.evaluations();
-        // Into the room of the one before, where that was of this kind.
+        // Reuses the storage of earlier data of the same kind.
         let mut way = match state.underway.take() {
             Some(Underway::Located(way)) => way,
             _ => self.spare.take().unwrap_or_else(|| Box::new(LocatedWay::BLANK)),
@@ -24,7 +24,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         way.tolerance = self.setting.tolerance;
         (way.whereabouts, way.hand) = (self.motion.whereabouts, solver.hand());
         way.slopes.clear();
-        // Whether there are any is another matter from run to run; the room is the same.
+        // The capacity does not depend on whether there are slopes.
         way.slopes.reserve(self.setting.layout.total());
         if way.whereabouts == Whereabouts::Here {
             solver.first_slopes(&mut way.slopes);
@@ -40,7 +40,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         state.underway = Some(Underway::Located(way));
     }
 
-    /// Goes on from what another run put down.
+    /// Restores what an earlier run has saved.
     pub(super) fn take_up(&mut self, state: &State, way: &LocatedWay) {
         self.control.set_history(way.history);
         self.motion.pace.gait = way.gait;
@@ -64,11 +64,11 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
             self.swing_from(leap.from);
             self.takeoff = Some(leap.input);
         }
-        // They were counted when they were made first.
+        // These evaluations have been counted before.
         self.output.evaluations = self.motion.solver.evaluations();
     }
 
-    /// Finds the event of a swing from where that began; false where it has no closed form.
+    /// Finds the event of the closed-form motion that begins at `from`. Returns false if there is no closed form.
     #[inline(always)]
     pub(super) fn swing_from(&mut self, from: PhasePoint) -> bool {
         let [slider] = &self.setting.model.free[..] else { return false };

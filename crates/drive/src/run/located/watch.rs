@@ -1,9 +1,9 @@
-//! The contacts at both ends of a step, and the guards that fell at its end.
+//! Contacts at both ends of a step, and the zero crossings at its end.
 //!
-//! Motion and accelerations of all contacts at both ends of a step are read once, so that guards have values and rates there
-//! however often they are asked. [`search`](super::search) looks between the ends. A
-//! step's end becomes the next one's start by an exchange of both; whatever makes slopes jump sets the start
-//! anew.
+//! Motions and accelerations of all contacts are computed once for each end. Event functions and their rates are then
+//! cheap. The module [`search`](super::search) evaluates times between the ends.
+//!
+//! A swap makes the end of a step the start of the next one. After a jump of slopes, the start is computed again.
 
 use crate::contact::{Contact, Guard, Mode, Motion};
 use crate::equations::{Components, Equations};
@@ -12,31 +12,29 @@ use crate::model::{Measure, Model};
 use stickslip_contact::Memory;
 use stickslip_stepper::{End, Span, Step};
 
-/// What is left of a piece of memory in last places of the places of its bodies, below which no step waits for its end.
-// Without it a stage that rides on its foot, 4 μm from its start, took steps of 17 ps, which moved no place by a last bit, for
-// the rest of its period; any of 0.5 to 8 ends that. 4 moves an event of a climber at a tolerance of 1e-12.
+/// Smallest remaining length of a memory piece for which a step waits, in rounding errors of its bodies' positions.
 const LAST_PLACES: f64 = 2.0;
 
-/// A contact at one end of a step.
+/// Contact at one end of a step.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Moving {
     /// d, u and their rates; m, m/s.
     pub(super) motion: Motion,
-    /// d̈ and ü, m/s²; what a waveform does to the indentation otherwise than by moving a body is left out.
+    /// d̈ and ü, m/s². A waveform that presses the contact directly is not included.
     pub(super) second: (f64, f64),
 }
 
-/// A component and its guard that fell.
+/// Component with a zero crossing, and its event function.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Fallen {
-    /// The contact at this place, and its guard.
+    /// Index of a contact, and its event function.
     Contact(usize, Guard),
-    /// The block at this place, and its guard.
+    /// Index of a block, and its event function.
     Block(usize, usize),
 }
 
 impl Fallen {
-    /// Whether both are of one component.
+    /// Whether both belong to the same component.
     pub(super) fn is_of(&self, other: &Self) -> bool {
         match (self, other) {
             (Self::Contact(a, _), Self::Contact(b, _)) | (Self::Block(a, _), Self::Block(b, _)) => a == b,
@@ -45,21 +43,23 @@ impl Fallen {
     }
 }
 
-/// The contacts at both ends of a step, and the guards that fell at its end.
+/// Contacts at both ends of a step, and the zero crossings at its end.
 #[derive(Debug, Default)]
 pub(super) struct Watch {
-    /// At its start.
+    /// Contacts at the start of the step.
     pub(super) from: Vec<Moving>,
-    /// At its end.
+    /// Contacts at the end of the step.
     pub(super) to: Vec<Moving>,
-    /// Places of those contacts of closed form any guard of which may fall in the step, or come near to that.
+    /// Positions of contacts with closed-form forces whose event functions may come near zero in the step.
     pub(super) near: Vec<usize>,
-    /// Guards that fell at the end of the step.
+    /// Zero crossings at the end of the step.
     pub(super) fired: Vec<Fallen>,
-    /// Of the plan; guards count as fallen or near in units of it.
+    /// Tolerance of the plan, which scales the nearness of event functions.
     pub(super) tolerance: f64,
-    /// Whether nothing but works is integrated. No weight of the method but the first lies in the first quarter of a step: what an edge
-    /// does there that has only just turned, at a crest where the power is 0, no estimate tells.
+    /// Whether only works are integrated, because no coordinate is free.
+    ///
+    /// In the first quarter of a step the method has only one weight. The error estimate does not show what happens
+    /// there to a slip edge that has just reversed.
     integrates_works: bool,
 }
 
@@ -77,20 +77,22 @@ impl Watch {
         Self { tolerance, integrates_works: model.free.is_empty(), ..self }
     }
 
-    /// The contacts at the start of the next step, after anything that makes slopes jump.
+    /// Computes the contacts at the start of the next step, after a jump of slopes.
     pub(super) fn set_out(&mut self, eq: &Equations<'_>, solver: &impl Step) {
         let span = solver.span();
         follow(eq, &mut self.from, (span.time, span.begin), |i| solver.slope(i, End::Start));
     }
 
-    /// The contacts at the end of the step.
+    /// Computes the contacts at the end of the step.
     pub(super) fn arrive(&mut self, eq: &Equations<'_>, solver: &impl Step) {
         let span = solver.span();
         follow(eq, &mut self.to, (span.end_time, span.end), |i| solver.slope(i, End::End));
     }
 
-    /// The same where the step was cut: slopes are not known there, and no guard's rate is asked for. Of contacts of closed form that are
-    /// far from any event nothing is asked at all.
+    /// Computes the contact motions at the end of a cut step.
+    ///
+    /// Slopes are unknown there, and no rates are needed. Contacts with closed-form forces far from any event are
+    /// skipped.
     pub(super) fn arrive_at_cut(&mut self, eq: &Equations<'_>, solver: &impl Step) {
         let (Some(interval), Span { end_time: t, end: y, .. }) = (eq.interval, solver.span()) else { return };
         let n = eq.layout.free;
@@ -103,14 +105,14 @@ impl Watch {
         }
     }
 
-    /// The end of a step is the start of the next one.
-    /// Nothing is evaluated again: both ends are one moment of one law.
+    /// Makes the end of the step the start of the next one, without evaluation.
     pub(super) fn go_on(&mut self) {
         std::mem::swap(&mut self.from, &mut self.to);
     }
 
-    /// Motion of contact `c` at the end of the step or leap, at time t and components y. A leap watches no contact: of one of
-    /// closed form it is read off these.
+    /// Returns the motion of contact `c` at the end of a step or leap, at time t with components y.
+    ///
+    /// For a contact with a closed-form force it is computed from t and y, because a leap does not watch contacts.
     pub(super) fn motion_at_end(&self, interval: &Interval<'_>, c: usize, (t, y): (f64, &[f64])) -> Motion {
         match interval.closed_form(c) {
             Some(steady) => {
@@ -122,7 +124,7 @@ impl Watch {
     }
 }
 
-/// The contacts at time t and components y, with the slopes of its velocities.
+/// Computes the contacts at time t with components y and the slopes of their velocities.
 #[inline(always)]
 fn follow(
     eq: &Equations<'_>,
@@ -143,9 +145,7 @@ fn follow(
     }
 }
 
-/// d̈ and ü of a contact from the slopes of the velocities.
-///
-/// From the slopes that the solver has at the ends of its step anyway.
+/// Returns d̈ and ü of a contact, m/s², from the slopes of the velocities.
 fn second(
     eq: &Equations<'_>,
     contact: &Contact,
@@ -158,7 +158,7 @@ fn second(
 }
 
 impl Watch {
-    /// When the first contact will turn or leave full stick as it moves now, s from the start of the step.
+    /// Returns when the first contact is expected to reverse or to leave full stick, s from the start of the step.
     pub(super) fn turn(&self, eq: &Equations<'_>) -> f64 {
         let Some(interval) = eq.interval else { return f64::INFINITY };
         let falls = |value: f64, rate: f64| {
@@ -182,10 +182,10 @@ impl Watch {
         closed.chain(open).fold(f64::INFINITY, f64::min)
     }
 
-    /// When the first contact of closed form will have used up its piece of memory, and its place among the contacts, s from the
-    /// start of the step, which stands at components `begin`.
+    /// Returns the contact with a closed-form force that is expected to use up its memory piece first, and when.
     ///
-    /// None where no edge will reach the end of its piece as it moves now.
+    /// The time counts in s from the start of the step, which has the components `begin`. `None` if no slip edge
+    /// reaches the end of its piece with the current motion.
     #[inline(always)]
     pub(super) fn expected_of_closed(&self, closed: &[Closed<'_>], begin: &[f64]) -> Option<(usize, f64)> {
         let mut first = None;
@@ -201,7 +201,7 @@ impl Watch {
             let speed = guard(Guard::Drag);
             let speed = if self.integrates_works { speed.max(f64::MIN_POSITIVE) } else { speed };
             let when = reached(left, speed, pull);
-            // Of many contacts only those are looked at twice that come first.
+            // Only the earliest contacts are checked for rounding.
             if when < soonest && !is_rounding(left, steady.contact, |i| begin[i]) {
                 (first, soonest) = (Some((steady.index, when)), when);
             }
@@ -209,9 +209,11 @@ impl Watch {
         first
     }
 
-    /// The same of any other contact.
+    /// Returns when a contact without a closed-form force is expected to use up its memory piece, s.
     ///
-    /// ∞ where it drags no edge, or its edge will not get there as it moves now.
+    /// For a spring row it is the next change of a spring.
+    ///
+    /// The result is ∞ if no slip edge reaches the end of its piece with the current motion.
     pub(super) fn expected_of(&self, eq: &Equations<'_>, c: usize, solver: &impl Step) -> f64 {
         let (contact, mode) = (&eq.model.contacts[c], &eq.modes[c]);
         let Moving { motion, second } = self.from[c];
@@ -219,19 +221,19 @@ impl Watch {
             return lull_end(contact, eq.law(c), &motion, second);
         }
         let Mode::Slip(branch) = mode else { return f64::INFINITY };
-        // Gross slip has no end, and does not hide those of others.
+        // Gross slip has no end and must not hide the ends of other contacts.
         if branch.is_gross() {
             return f64::INFINITY;
         }
         let left = branch.margin(motion.d, motion.u);
-        // Where a load comes back to its crest the last bits of u stand still long before it: no step should wait for them.
+        // Where a load returns to its maximum, u stops within rounding long before. No step waits for that end.
         let rests = contact.balanced && left < Guard::Piece.bands(contact, self.tolerance, motion.u).1;
         if rests || is_rounding(left, contact, |i| solver.span().begin[i]) {
             return f64::INFINITY;
         }
         let speed = Guard::Drag.value(contact, eq.law(c), &motion);
-        // An edge that has only just turned drags at nothing but rounding: where the damping of a contact gives way no step may leap
-        // over that moment, and no estimate tells that it did.
+        // An edge that has just reversed has a speed of zero within rounding. A step must not miss the loss of damping
+        // there, and no error estimate shows it.
         let turns = (contact.is_damped() || self.integrates_works) && branch.ends_in_the_centre();
         let speed = if turns { speed.max(f64::MIN_POSITIVE) } else { speed };
         let pull = Guard::Drag.rate(contact, mode, &motion, second);
@@ -239,13 +241,15 @@ impl Watch {
     }
 }
 
-/// Whether what is left of a piece of memory (m) is less than the places show whose difference u is: [`LAST_PLACES`] of them. `x`
-/// reads places of free coordinates. No step waits for such an end; it is found inside whatever step comes.
+/// Whether the remaining length of a memory piece (m) is below [`LAST_PLACES`] rounding errors of the positions behind
+/// u.
+///
+/// `x` returns a free coordinate. No step waits for such an end; a later step finds it.
 fn is_rounding(left: f64, contact: &Contact, x: impl Fn(usize) -> f64) -> bool {
     left < LAST_PLACES * f64::EPSILON * contact.u.travel(x)
 }
 
-/// When the first spring of a row will touch, part or slip, s from now.
+/// Returns when the first spring of a row is expected to touch, separate or slip, s from now.
 fn lull_end(contact: &Contact, law: (&Memory, &Mode), at: &Motion, (bend, pull): (f64, f64)) -> f64 {
     let slope = contact.interface.stick_slope();
     let of = |guard: Guard, pull: f64| {
@@ -260,13 +264,14 @@ fn lull_end(contact: &Contact, law: (&Memory, &Mode), at: &Motion, (bend, pull):
     ends.into_iter().fold(f64::INFINITY, f64::min)
 }
 
-/// When what is left (m) will be used up at a speed (m/s) and its rate (m/s²): left = speed t + pull t²/2.
+/// Returns the time t after which a length `left` (m) has been covered: left = speed t + pull t²/2.
 ///
-/// The root 2·left/(speed + √(speed² + 2·pull·left)), which loses no digits where the pull is small or slows
-/// it down.
+/// The speed is in m/s, the acceleration `pull` in m/s².
+///
+/// The root is 2·left/(speed + √(speed² + 2·pull·left)), which has no cancellation.
 #[inline(always)]
 fn reached(left: f64, speed: f64, pull: f64) -> f64 {
-    // A slowing edge may never get there.
+    // A decelerating edge may stop before.
     let reaches = speed * speed + 2.0 * pull * left;
     if speed > 0.0 && reaches > 0.0 && left > 0.0 {
         2.0 * left / (speed + reaches.sqrt())

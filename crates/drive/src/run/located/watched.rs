@@ -1,12 +1,14 @@
-//! The guards that can end an interval.
+//! Event functions that can end an interval.
 
 use super::watch::Fallen;
 use crate::contact::{Contact, Guard};
 use crate::equations::Equations;
 use crate::interval::Closed;
 
-/// A guard that is watched: of a contact of closed form a straight function of the state, of any other one a function of its motion,
-/// of a block whatever that says.
+/// Event function of a component.
+///
+/// For a contact with a closed-form force it is a linear function of the state. For another contact it is a function of
+/// its motion; a block defines its own.
 #[derive(Clone, Copy)]
 pub(super) enum Watched<'e> {
     Closed(&'e Closed<'e>, Guard),
@@ -15,7 +17,9 @@ pub(super) enum Watched<'e> {
 }
 
 impl<'e> Watched<'e> {
-    /// Does something with the guards of all components that can end the step: of contacts of closed form those at the places `near`.
+    /// Calls `act` for the event functions of all components that can end the step.
+    ///
+    /// Of the contacts with closed-form forces, only those at the positions `near` are included.
     #[inline(always)]
     pub(super) fn each(eq: &Equations<'e>, near: &[usize], mut act: impl FnMut(Self)) {
         let Some(interval) = eq.interval else { return };
@@ -36,7 +40,7 @@ impl<'e> Watched<'e> {
         }
     }
 
-    /// What falls with it.
+    /// Returns component and event function as a [`Fallen`].
     pub(super) fn fallen(self) -> Fallen {
         match self {
             Self::Closed(steady, guard) => Fallen::Contact(steady.index, guard),
@@ -45,7 +49,7 @@ impl<'e> Watched<'e> {
         }
     }
 
-    /// Whether its course inside a step is no polynomial of low degree that its rates at both ends would tell.
+    /// Whether values and rates at both ends of a step do not describe the function inside it.
     pub(super) fn is_sampled(self) -> bool {
         match self {
             Self::Closed(..) => false,

@@ -1,13 +1,16 @@
-//! Where events accumulate: the whole law, kinks included, for a part of a natural period.
+//! Step doubling on the full force law, where events accumulate.
 //!
-//! Some motions have no next smooth interval: both edges of a contact stand still at once, it opens and closes within rounding,
-//! ringing fades along a line on which the law changes sides. Nothing is wrong with them, and steps that do not look for events
-//! go through. So that is what is done: every contact goes by the whole law of its memory for a part of the natural period of
-//! the one whose events accumulate, under error control by halved steps, since embedded estimates see neither kinks nor growth.
-//! Then events are located again. The state counts how often; a detour always moves on, so that no run can loop in them.
+//! Some motions have no next smooth interval: both slip edges of a contact stop together, or it opens and closes within
+//! rounding. A motion may also slide along a line on which stick and slip alternate. Steps without event location pass
+//! through such motions.
 //!
-//! A step h by the classical Runge–Kutta method is compared with two of h/2, the memory moved in between. Across a kink both are
-//! of second order: a third of the difference is the error of the halves.
+//! For a part of the natural period of the contact whose events accumulate, all contacts follow the full force law of
+//! their slip memories. Then events are located again. The state counts the intervals of step doubling. Every interval
+//! advances the time, so a run always ends.
+//!
+//! A step h of the classical Runge–Kutta method is compared with two half steps, between which the slip memories
+//! commit. Embedded estimates would detect neither kinks nor growth. Across a kink both results are of second order,
+//! and a third of the difference is the error of the half steps.
 
 mod blocks;
 mod ends;
@@ -28,45 +31,47 @@ use stickslip_contact::{Memory, Segment, Timed};
 use stickslip_stepper::{Attempt, FixedStep, Rk4, Stepping, System};
 use way::Way;
 
-/// Part of the step that would just meet the tolerance.
+/// Safety factor of the step length.
 const SAFETY: f64 = 0.8;
-/// What of the difference of a step and its halves is the error of the halves.
+/// Error of the half steps, as a fraction of their difference from the full step.
 const THIRD: f64 = 1.0 / 3.0;
-/// Longest step, rad of the fastest swing: a longer one and its halves may agree by accident.
+/// Longest time step, rad of the fastest oscillation. A longer step may agree with its halves by chance.
 const LONGEST: f64 = 0.1;
-/// Where another swing is far faster than that of the contact whose events accumulate, a step may be this part of the detour: its
-/// error tells then, and not the swing.
+/// Step length that [`LONGEST`] does not limit, as a fraction of the interval of step doubling.
+///
+/// It matters if another oscillation is far faster than the contact. The error of the step then shows that oscillation.
 const PART: f64 = 0.125;
-/// Shortest step, as a part of the detour: where that is too long there is no way on …
+/// Shortest step, as a fraction of the interval of step doubling; a shorter step ends the run.
 const SHORTEST: f64 = 1e-10;
-/// … but where damped springs stick and slip in turn the law itself jumps, and the motion slides along the jump: no shorter step
-/// agrees better with its halves, and what both err is taken.
+/// Step below which its error is accepted in a sliding mode, as a fraction of the interval of step doubling.
+///
+/// With contact damping the law jumps between stick and slip, and shorter steps agree no better with their halves.
 const SLIDING: f64 = 1e-4;
 
-/// What rounding leaves of the books, relative to all that is in them.
+/// Rounding error of the energy balance, relative to the size of its terms.
 const ROUNDING: f64 = 32.0 * f64::EPSILON;
 
-/// Room for the steps of a detour, made when the first one begins.
+/// Storage for the steps of step doubling.
 pub(super) struct Halves {
     stepper: Rk4,
-    /// The end by one step; the middle and the end by two.
+    /// Components: end of the full step (`one`), middle (`half`) and end (`two`) of the half steps.
     one: Vec<f64>,
     half: Vec<f64>,
     two: Vec<f64>,
-    /// What the contacts remember in the middle.
+    /// Slip memories in the middle of the step.
     memories: Vec<Memory>,
-    /// Components at the start, and slopes at both ends of a half that is read inside.
+    /// Components at the start of the step (`start`), and slopes at both ends of a half step (`slopes`).
     start: Vec<f64>,
     slopes: [Vec<f64>; 2],
-    /// The same of the second half, where both are looked at.
+    /// Slopes at both ends of the second half step.
     later: [Vec<f64>; 2],
-    /// What a block remembers, for what it would lose on the way.
+    /// Scratch for the memory of a block.
     kept: Vec<f64>,
-    /// The channels of a moment, for the books.
+    /// Scratch for the channels in the energy balance.
     row: Vec<f64>,
 }
 
-/// A step under way: its start, its middle and its end, s.
+/// Start, middle and end of a step, s.
 #[derive(Clone, Copy)]
 struct Times {
     from: f64,
@@ -79,14 +84,15 @@ impl Times {
         Self { from, middle: from + 0.5 * (to - from), to }
     }
 
-    /// Whether numbers tell its middle from its ends.
+    /// Whether the middle differs from both ends in spite of rounding.
     fn moves_on(self) -> bool {
         self.from < self.middle && self.middle < self.to
     }
 }
 
 impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
-    /// Puts every contact on its whole law. The solver stays behind: steps by halves have no use for it.
+    /// Sets all contacts to the full force law. The integrator stays behind the state, because half steps do not use
+    /// it.
     pub(super) fn take_whole(&mut self, state: &mut State) {
         self.motion.whereabouts = Whereabouts::Behind;
         state.modes.fill(Mode::Whole { sense: 0.0 });
@@ -94,7 +100,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         self.takeoff = None;
     }
 
-    /// One attempt by the whole law and, if its halves agree with it, all that belongs to the step.
+    /// Attempts a step on the full force law and processes it if its half steps agree.
     pub(super) fn step_whole(
         &mut self,
         state: &mut State,
@@ -118,7 +124,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         let (error, times, fall) = self.try_up_to_fall(&mut halves, state, (times, slides))?;
         let outcome = if error <= 1.0 || slides && error.is_finite() {
             state.counts.missed += u64::from(error > 1.0);
-            // What a block has cut adds nothing to the wish, and takes nothing from it.
+            // A step that a block has cut leaves the next step length unchanged.
             if fall.is_none() {
                 detour.step = h * (SAFETY * math::powf(error.max(1e-6), -1.0 / 3.0)).clamp(1.0, 4.0);
             }
@@ -135,7 +141,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         self.bounds.step(state, record).map(|()| Progress::Made)
     }
 
-    /// To a corner or an end that is a last place of t or two away: one instant, in which nothing moves.
+    /// Advances to a corner or end that is only one or two rounding errors of t away, without motion.
     fn step_instant(
         &mut self,
         state: &mut State,
@@ -154,7 +160,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         self.bounds.step(state, record).map(|()| Progress::Made)
     }
 
-    /// What the waveforms do where a step ends at a corner, and what blocks do there and where their guards have fallen.
+    /// Handles waveforms and blocks at the end of a step.
     fn turn_in_detour(&mut self, state: &mut State, record: &mut dyn Record) -> Result<(), RunError> {
         let corner = state.t == self.horizon.corner && !state.waits_for_input(self.setting.model);
         if corner {
@@ -184,8 +190,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         }
     }
 
-    /// The next step: at most the one wished for, and up to no more than the end of the detour, a corner, or where the run
-    /// is to stop.
+    /// Returns the next step: at most the planned length, and not beyond the interval, a corner or the goal.
     fn times(&self, state: &State, detour: &Detour) -> Times {
         let from = state.t;
         let bound = detour.end.min(self.horizon.next());
@@ -199,7 +204,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         Times::halved(from, to)
     }
 
-    /// Tries a step and its halves; gives the error of the halves in units of what is allowed.
+    /// Attempts a step and its half steps. Returns the error of the half steps in units of the allowed error.
     fn try_halves(&mut self, halves: &mut Halves, state: &mut State, times: Times) -> Result<f64, RunError> {
         let Times { from, middle, to } = times;
         let Halves { stepper, one, half, two, memories, row, kept, .. } = halves;
@@ -228,14 +233,14 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         if !self.setting.model.blocks.is_empty() {
             friction += self.ledger.would_lose(&eq, [(middle, half), (to, two)], kept)?;
         }
-        // Books that do not close tell of what places and velocities do not: work of friction on a way that bends.
+        // The energy balance shows errors of the friction work on a curved path, which positions do not show.
         let books = record::balance(&eq, state, to, &|i| two[i], row).0 - friction - before;
         state.counts.evaluations += stepper.evaluations() - spent;
         let scale = &self.motion.allowance.allowed.scale;
         let off = |i: usize| THIRD * (one[i] - two[i]).abs() / scale[i];
         let books = books.abs() / (scale[self.setting.layout.input()] + ROUNDING * size);
         let components = (0..one.len()).filter(|i| scale[*i] > 0.0);
-        // Not a number must not be lost in a maximum.
+        // The maximum must keep a NaN.
         let most = components
             .map(off)
             .chain([books])
@@ -243,7 +248,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         Ok(most)
     }
 
-    /// Shortens the wish; fails where it is as short as can be, and where not even the shortest leads to a number.
+    /// Shortens the next step. Fails if it would be too short, or if even the shortest step has no finite result.
     fn refuse_halves(
         &self,
         state: &mut State,
@@ -263,7 +268,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         Ok(())
     }
 
-    /// Rows of the step, then both halves one after the other, then what waveforms and blocks do at its end.
+    /// Accepts a step: writes its output, takes both half steps, and handles waveforms and blocks at its end.
     fn take_halves(
         &mut self,
         halves: &mut Halves,
@@ -292,20 +297,20 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         }
         state.counts.steps += 1;
         state.tally.step(Method::Whole);
-        // The run may have ended before it.
+        // The run may have ended earlier.
         if state.t < to {
             self.watch.fired.clear();
         }
         self.turn_in_detour(state, record)
     }
 
-    /// Whether anything is read of a half that ends at t before its end.
+    /// Whether output or a period end lies inside a half step that ends at time t.
     fn is_read_inside(&self, t: f64) -> bool {
         let watches = self.output.turns.watches();
         watches || self.output.reads(t) || t > self.horizon.end || self.horizon.steps.due(t).is_some()
     }
 
-    /// The slopes at both ends of a half, whose memories are those of its start.
+    /// Computes the slopes at both ends of a half step with the slip memories at its start.
     fn fill_slopes(&self, state: &State, ends: [(f64, &[f64]); 2], slopes: &mut [Vec<f64>; 2]) {
         let eq = self.setting.plain(state);
         for ((t, y), slopes) in ends.into_iter().zip(slopes) {
@@ -313,7 +318,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         }
     }
 
-    /// One half: its rows, its end, and the memories of all contacts with it.
+    /// Takes a half step: writes its output, commits all contacts and moves the state.
     fn take_half(
         &mut self,
         state: &mut State,
@@ -365,7 +370,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         self.ledger.commit_blocks((self.setting.model, self.setting.layout), state)
     }
 
-    /// The steps of the drive that are over in a half; the one with which they are constant ends the run.
+    /// Evaluates the period ends in a half step. A constant step length of the drive ends the run.
     fn take_periods(&mut self, state: &State, half: &Way<'_>) {
         while let Some(due) = self.horizon.steps.due(half.to.0) {
             let i = self.horizon.steps.coordinate;
@@ -377,7 +382,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
     }
 }
 
-/// The straight way of a contact to a time and components.
+/// Returns the straight path of a contact to time t with components y.
 fn chord(eq: &Equations<'_>, contact: &Contact, t: f64, y: impl Fn(usize) -> f64) -> Segment {
     Segment::Straight(eq.motion(contact, t, y).apex())
 }

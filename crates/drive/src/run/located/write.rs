@@ -1,7 +1,7 @@
-//! What is written of a step: rows and looks on its dense output.
+//! Rows and snapshots inside a step, from its dense output.
 //!
-//! Output never changes the trajectory: what is written is read off a step already accepted, memories are
-//! shown as copies, and the evaluations that the dense output costs are taken off the run's count.
+//! Output does not change the trajectory. It is read from an accepted step, snapshots are copies, and evaluations for
+//! the dense output are not counted in the run.
 
 use super::path::Growth;
 use super::{Located, Motion};
@@ -13,13 +13,12 @@ use stickslip_contact::{ContactError, Memory, Segment};
 use stickslip_stepper::{Attempt, Completion};
 
 impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
-    /// Rows and looks that are due up to the end of the step. Kept out of the way of steps without any.
+    /// Writes the output that is due up to time `t`, s, the end of the step.
     ///
-    /// `t` is the end of the step, s, which an event may have cut; a row that falls on an event is the state
-    /// at the event.
+    /// An event may have cut the step. A row at the time of an event shows the state there.
     #[inline(never)]
     pub(super) fn write(&mut self, state: &State, t: f64, record: &mut dyn Record) {
-        // By the general law: a row shows every contact, those of closed form, too.
+        // Without closed forms: a row shows every contact.
         let eq = self.setting.plain(state);
         let turns = self.output.turns.watches() && self.turns_by(&eq, state, t);
         if turns || self.output.reads(t) {
@@ -33,7 +32,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         }
     }
 
-    /// Turns of u at the corner just passed.
+    /// Reports turning points of u at the corner that has just been passed.
     #[inline(never)]
     pub(super) fn tell_corner_turns(&mut self, state: &State, record: &mut dyn Record) {
         let eq = self.setting.plain(state);
@@ -41,17 +40,17 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         self.output.tell_turns(&eq, state, state.t, |i, _| state.y[i], record);
     }
 
-    /// Whether some u turns in the step.
+    /// Whether u of any watched contact turns in the step.
     fn turns_by(&mut self, eq: &Equations<'_>, state: &State, t: f64) -> bool {
         let end = self.motion.solver.span().end;
         self.output.turns.notice(eq, (state.t, &state.y), (t, |i| end[i]), self.setting.tolerance)
     }
 
-    /// What is due inside the step.
+    /// Writes the output that is due inside the step.
     fn read(&mut self, eq: &Equations<'_>, state: &State, t: f64, record: &mut dyn Record) {
         let asked = self.motion.solver.evaluations();
         self.motion.solver.complete(&self.setting.equations(state, &self.interval), Completion::Dense);
-        // Integrals of the state that this run has no need to integrate stay as they are.
+        // Integrals of the state that the integrator does not carry stay unchanged.
         let known = self.motion.solver.span().end.len();
         let mut visited = std::mem::take(&mut self.output.components);
         visited[known..].copy_from_slice(&state.y[known..]);
@@ -77,12 +76,13 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
             let memories = self.memories_at(eq, state, due, |i| self.motion.component(i, due));
             self.output.looks.show(memories.as_deref().ok(), record);
         }
-        // What output asks for is no part of the run.
+        // Evaluations for output do not belong to the run.
         self.output.evaluations += self.motion.solver.evaluations() - asked;
     }
 
-    /// All components of the solver at a time inside the step: by its dense output, or as exactly as at its end where something fades
-    /// within steps, of which the dense output is off by far more.
+    /// Writes all components of the integrator at time t inside the step into `out`.
+    ///
+    /// They come from the dense output. Where motions may decay within a step, they come from a separate step to t.
     fn visit(&mut self, state: &State, t: f64, out: &mut [f64]) {
         let eq = self.setting.equations(state, &self.interval);
         let Motion { solver, allowance, fades, .. } = &mut self.motion;
@@ -92,11 +92,10 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         }
     }
 
-    /// The memories of all contacts at a time inside the step, as if it ended there; `y` reads the components. Kept out of the way of rows.
+    /// Returns copies of the slip memories at time t inside the step, as if the step ended there.
     ///
-    /// Displacements in them are counted from where the bodies started. Fails where a contact cannot be
-    /// followed to that moment, because it outgrows its row or is not finite; the look is then left out, and
-    /// the run goes on until its own commit fails.
+    /// `y` returns a component at time t. Displacements count from where the bodies started. Fails if a contact cannot
+    /// follow to that time because it leaves its row or is not finite; the snapshot is then omitted.
     #[inline(never)]
     pub(super) fn memories_at(
         &self,
@@ -116,7 +115,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
             } else {
                 path.push(Segment::Straight(motion.apex()));
             }
-            // A copy for every look: what is shown must not move what is.
+            // Every snapshot is a copy and does not change the state.
             let mut memory = memory.clone();
             path.drain(..).try_for_each(|piece| memory.commit(&contact.interface, piece).map(drop))?;
             memory.shift(state.shift(contact));

@@ -1,6 +1,6 @@
-//! Rows at moments that a record asks for itself, and how far bodies have moved between them.
+//! Sample rows at times that a record requests, and the extents of body motions between them.
 //!
-//! They are read off steps as rows are, but for the record's own figures: so that these do not depend on where rows lie.
+//! Both are read from time steps like rows, but do not depend on the interval of the rows.
 
 use crate::Model;
 use crate::equations::Equations;
@@ -9,46 +9,46 @@ use crate::record::{self, Extent, Record};
 use crate::scene::Axis;
 use crate::state::State;
 
-/// A moment this near before the one asked for, relative to the time, is it: ends of periods are rounded.
+/// Largest relative distance from the requested time that counts as rounding.
 pub(in crate::run) const SAME: f64 = 4.0 * f64::EPSILON;
 
-/// Time (s), place (m) and velocity (m/s) of a body.
+/// Time (s), position (m) and velocity (m/s) of a body.
 pub(in crate::run) type Point = [f64; 3];
 
-/// The marks ahead, and how far bodies went since the last one.
+/// Next sample row, and the extents of the watched bodies since the last one.
 pub(in crate::run) struct Marks {
-    /// The next moment, s; infinite where none is left.
+    /// Time of the next sample row, s; ∞ if there is none.
     due: f64,
-    /// From when on a moment is as good as that, s.
+    /// Time from which on `due` counts as reached, s.
     nearly: f64,
-    /// The free coordinates whose extents are asked for.
+    /// Free coordinates whose extents the record requests.
     watched: [Option<Watched>; 2],
     row: Vec<f64>,
 }
 
-/// A free coordinate whose extent is asked for.
+/// Free coordinate whose extent the record requests.
 #[derive(Clone, Copy)]
 struct Watched {
     coordinate: usize,
-    /// Where it was read last inside the present step.
+    /// Last point read inside the current step.
     inside: Option<Point>,
-    /// Its extent since the last mark, counted from the coordinate's origin.
+    /// Extent since the last sample row, including the shift of the origin.
     extent: Extent,
 }
 
 impl Marks {
-    /// Before a run: nobody has asked yet.
+    /// Creates a state without any request, before a run.
     pub(in crate::run) const fn none() -> Self {
         let never = f64::INFINITY;
         Self { due: never, nearly: never, watched: [None; 2], row: Vec::new() }
     }
 
-    /// None, in the room there is.
+    /// Returns marks without any request, in the storage of these.
     pub(in crate::run) fn renewed(self) -> Self {
         Self { row: self.row, ..Self::none() }
     }
 
-    /// Asks for the first moment after the state's, and takes one that is at hand. Of a run that is `resumed` that has been taken.
+    /// Requests the first sample row and writes those that are due now. A resumed run does not write them again.
     pub(in crate::run) fn begin(
         &mut self,
         equations: &Equations<'_>,
@@ -75,19 +75,19 @@ impl Marks {
         self.end_step();
     }
 
-    /// The next moment, if it lies at `t` or before it; `t` itself where it is as good as there.
+    /// Returns the time of the next sample row if it is at or before `t`; `t` itself if both agree within rounding.
     #[inline(always)]
     pub(in crate::run) fn due(&self, t: f64) -> Option<f64> {
         (t >= self.nearly).then(|| self.due.min(t))
     }
 
-    /// Whether the extent of a coordinate is asked for: then every step is read.
+    /// Whether the record requests any extent; then every step is read.
     #[inline(always)]
     pub(in crate::run) fn watches(&self) -> bool {
         self.watched.iter().any(Option::is_some)
     }
 
-    /// Hands over the row at a moment of the present step, and asks for the next.
+    /// Passes the sample row at time t in the current step to the record and requests the next one.
     pub(in crate::run) fn write(
         &mut self,
         equations: &Equations<'_>,
@@ -110,7 +110,7 @@ impl Marks {
         self.ask(record);
     }
 
-    /// Takes the motion up to a point of the present step, at whose start the state is; `point` reads a coordinate there.
+    /// Extends the extents to a point in the current step, which starts at the state. `point` reads a coordinate.
     pub(in crate::run) fn pass(&mut self, state: &State, point: impl Fn(usize) -> Point) {
         for watched in self.watched.iter_mut().flatten() {
             let (i, to) = (watched.coordinate, point(watched.coordinate));
@@ -120,12 +120,12 @@ impl Marks {
         }
     }
 
-    /// The present step is over.
+    /// Ends the current step.
     pub(in crate::run) fn end_step(&mut self) {
         self.watched.iter_mut().flatten().for_each(|watched| watched.inside = None);
     }
 
-    /// Hands over the extents so far.
+    /// Passes the extents so far to the record and resets them.
     pub(in crate::run) fn hand_over(&mut self, record: &mut dyn Record) {
         let take = |watched: &mut Option<Watched>| {
             watched
@@ -138,7 +138,7 @@ impl Marks {
         }
     }
 
-    /// Moments that do not ascend end the marks.
+    /// Requests the next sample row. A time that is not later than the last one ends the sample rows.
     fn ask(&mut self, record: &mut dyn Record) {
         let next = record.next_mark().unwrap_or(f64::INFINITY);
         self.due = if next > self.due { next } else { f64::INFINITY };
@@ -146,14 +146,14 @@ impl Marks {
     }
 }
 
-/// The extent of the cubic that has positions and velocities of both points.
+/// Returns the extent of the cubic through positions and velocities of two points.
 fn extent([t0, x0, v0]: Point, [t1, x1, v1]: Point) -> Extent {
     let ends = || Extent::at(x0, t0).join(Extent::at(x1, t1));
     let h = t1 - t0;
     if h.is_nan() || h <= 0.0 {
         return ends();
     }
-    // Slopes of one sign, none above thrice the mean one: it rises or falls all the way (Fritsch and Carlson 1980).
+    // Sufficient condition for a monotone cubic (Fritsch and Carlson 1980).
     let mean = (x1 - x0) / h;
     if mean != 0.0
         && (0.0..=3.0 * mean.abs()).contains(&(v0 * mean.signum()))
@@ -165,7 +165,7 @@ fn extent([t0, x0, v0]: Point, [t1, x1, v1]: Point) -> Extent {
     let (slope, rise) = (h * v0, x1 - x0);
     let (b, c) = (3.0 * rise - 2.0 * slope - h * v1, slope + h * v1 - 2.0 * rise);
     let root = (b * b - 3.0 * c * slope).sqrt();
-    // Either root without the difference of two nearly equal numbers.
+    // Both roots without cancellation.
     let q = -(b + root.copysign(b));
     let [mut first, mut second] = [q / (3.0 * c), slope / q];
     if second < first {
@@ -182,7 +182,7 @@ mod tests {
 
     #[test]
     fn a_cubic_has_its_turning_points() {
-        // x = t³ - 3t turns at -1 and 1, with 2 and -2.
+        // x = t³ - 3t has the extrema 2 at t = -1 and -2 at t = 1.
         let (x, v) = (|t: f64| t.powi(3) - 3.0 * t, |t: f64| 3.0 * t * t - 3.0);
         let ends = |from, to| {
             let Extent { least: [least, _], most: [most, _], fall, rise } = extent(from, to);
@@ -192,7 +192,7 @@ mod tests {
         assert_eq!(between(-1.5, 1.5), [-2.0, 2.0, 4.0, 2.0 - x(-1.5)]);
         assert_eq!(between(0.0, 1.5), [-2.0, 0.0, 2.0, x(1.5) + 2.0]);
         assert_eq!(between(1.5, 2.0), [x(1.5), 2.0, 0.0, 2.0 - x(1.5)]);
-        // A parabola, thrown at 1 m/s against 2 m/s², a straight way, and rest.
+        // A parabola, a straight line, and rest.
         assert_eq!(ends([0.0, 0.0, 1.0], [1.0, 0.0, -1.0]), [0.0, 0.25, 0.25, 0.25]);
         assert_eq!(ends([0.0, 1.0, 2.0], [1.0, 3.0, 2.0]), [1.0, 3.0, 0.0, 2.0]);
         assert_eq!(ends([0.0, 1.0, 0.0], [1.0, 1.0, 0.0]), [1.0, 1.0, 0.0, 0.0]);

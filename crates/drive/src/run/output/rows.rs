@@ -1,8 +1,8 @@
-//! Rows of springs that come to slip as a whole, or to stick again.
+//! Gross slip of spring rows, reported to the record.
 //!
-//! Steps end at changes of single springs, or at none, and no such change is an event. That the last spring gives way is told to the
-//! record all the same; the run does not know of it. Under a normal that moves it is told at its moment, under a constant one at the end
-//! of the step in which it comes.
+//! Changes of single springs are no events, even where they end steps. The start and the end of gross slip of a whole
+//! row are reported to the record; the run does not use them. Under a varying normal force they are reported at their
+//! own times, under a constant one at the end of the step.
 
 use crate::contact::{Contact, Mode};
 use crate::event::{EventKind, Source};
@@ -10,42 +10,42 @@ use crate::model::Model;
 use crate::state::State;
 use stickslip_contact::{Memory, SpringRow, SpringState};
 
-/// The rows of a run, and whether each of them slips as a whole.
+/// Spring rows of a run, each with its contact and whether it is in gross slip.
 #[derive(Debug, Default)]
 pub(in crate::run) struct Rows(Vec<(usize, bool)>);
 
 impl Rows {
-    /// The same room with nothing to watch.
+    /// Returns an empty list in the same storage.
     pub(super) fn renewed(mut self) -> Self {
         self.0.clear();
         self
     }
 
-    /// Watches the rows of a model.
+    /// Selects the spring rows of a model.
     pub(super) fn begin(&mut self, model: &Model) {
         self.0.clear();
         let rows = model.contacts.iter().filter(|contact| !contact.inert && !contact.engine.branches());
         self.0.extend(rows.map(|contact| (contact.place, false)));
     }
 
-    /// Looks at them before a step.
-    // And not only after the one before: a run that is taken up here knows no more than the state.
+    /// Stores the slip states of all rows before a step.
+    // Read from the state, because a continued run has no earlier step.
     pub(in crate::run) fn look(&mut self, model: &Model, state: &State) {
         self.0.iter_mut().for_each(|(c, slipping)| *slipping = slips(&model.contacts[*c], state));
     }
 
-    /// Whether there are any.
+    /// Whether the model has spring rows.
     #[inline(always)]
     pub(in crate::run) fn any(&self) -> bool {
         !self.0.is_empty()
     }
 
-    /// How many there are.
+    /// Returns the number of spring rows.
     pub(in crate::run) fn count(&self) -> usize {
         self.0.len()
     }
 
-    /// What the row at place `k` has come to in the step.
+    /// Returns the event of row `k` in the step: start or end of gross slip.
     pub(in crate::run) fn news(
         &mut self,
         k: usize,
@@ -63,7 +63,8 @@ impl Rows {
         Some((Source::Contact(c), kind))
     }
 
-    /// What an event in the step is called of a row that slips as a whole until then.
+    /// Returns the kind under which an event is reported. A reversal of a row in gross slip is reported as the end of
+    /// its gross slip.
     pub(in crate::run) fn told(&mut self, source: Source, kind: EventKind) -> EventKind {
         let row = self.0.iter_mut().find(|(c, slips)| *slips && source == Source::Contact(*c));
         match (row, kind) {
@@ -76,12 +77,12 @@ impl Rows {
     }
 }
 
-/// Whether every spring that touches slips in the sense in which the row is led.
+/// Whether every closed spring of the contact slips in the sliding direction.
 fn slips(contact: &Contact, state: &State) -> bool {
     let law = &contact.interface;
     match (&state.modes[contact.place], &state.memories[contact.place]) {
         (Mode::Lull { lull, .. }, _) => lull.sense() != 0.0 && lull.stiffness(law) == 0.0,
-        // Where it turns all are at their limits still.
+        // At a reversal all springs are still at their limits.
         (Mode::Whole { sense }, Memory::Row(SpringRow { row, springs })) => match row.lowest(springs, law) {
             SpringState::SlipForward => *sense >= 0.0,
             SpringState::SlipBackward => *sense <= 0.0,

@@ -1,10 +1,11 @@
-//! Turns of u that end no law.
+//! Turning points of u that end no contact law.
 //!
-//! Under a constant normal force u turns at events: reversals and ends of gross slip. Where the indentation varies, edges of
-//! slip and not u decide what the law is: u turns in full stick without any event, and while the contact shrinks the edge that
-//! drags turns later than u. A record that watches a body is told of these turns, too; the run does not know of them.
-//! They are looked for by the sign of u̇ at both ends of a step: two turns within one step are not seen. At a tolerance of 1e-5 a
-//! slider of the tests has such a pair, at 1e-7 none.
+//! Under a constant normal force, u turns at events: reversals and ends of gross slip. Under a varying normal force,
+//! the velocities of the slip edges determine the law. Then u turns without an event in full stick. In a shrinking
+//! contact, u turns before the slip edge.
+//!
+//! These turning points are reported to a record that watches a body; the run does not use them. They are detected by
+//! the sign of u̇ at both ends of a step. Two turning points within one step are missed.
 
 use crate::contact::{Contact, Guard};
 use crate::equations::Equations;
@@ -13,31 +14,31 @@ use crate::scene::Axis;
 use stickslip_contact::Engine;
 use stickslip_stepper::{Bracket, Point, root};
 
-/// How near to its turn the moment told lies, in parts of the step.
+/// Accuracy of the time of a turning point, as a fraction of the step.
 const NEAR: f64 = 1e-12;
 
-/// The contacts of a watched body that turn unseen, and their turns within a step.
+/// Contacts of a watched body whose u may turn without an event, and their turning points in a step.
 #[derive(Debug, Default)]
 pub(in crate::run) struct Turns {
     contacts: Vec<usize>,
-    /// Rates of u, m/s, in the order of the contacts: at the end of the last step, or before a corner.
+    /// Velocities u̇ of the contacts at time `at`, m/s: at the end of the last step or before a corner.
     rates: Vec<f64>,
-    /// When that was, s.
+    /// Time of `rates`, s.
     at: f64,
-    /// Moments, s, and contacts, in the order of time; moments are not known before they are located.
+    /// Times (s) and contacts of the turning points, sorted by time; times are NaN until they are located.
     found: Vec<(f64, usize)>,
     next: usize,
 }
 
 impl Contact {
-    /// Whether u may turn without an event: slip spreads on the curve, under a normal that varies.
+    /// Whether u may turn without an event: contact with a memory curve under a varying normal force.
     pub(crate) fn turns_unseen(&self) -> bool {
         !self.inert && !self.is_constant() && matches!(self.engine, Engine::Curve)
     }
 }
 
 impl Turns {
-    /// The same room with nothing to watch.
+    /// Returns an empty list in the same storage.
     pub(in crate::run) fn renewed(mut self) -> Self {
         self.contacts.clear();
         self.at = f64::NAN;
@@ -45,7 +46,7 @@ impl Turns {
         self
     }
 
-    /// Watches the contacts of a body, by its place in the scene.
+    /// Selects the contacts of a body, given by its index in the model.
     pub(super) fn begin(&mut self, model: &Model, body: Option<usize>) {
         self.contacts.clear();
         self.at = f64::NAN;
@@ -65,13 +66,13 @@ impl Turns {
         !self.contacts.is_empty()
     }
 
-    /// Forgets what was found.
+    /// Removes all turning points found.
     fn forget(&mut self) {
         self.found.clear();
         self.next = 0;
     }
 
-    /// Whether some u turns between two moments, with the components there.
+    /// Finds the contacts whose u turns between two times with given components. Returns whether there are any.
     pub(in crate::run) fn notice(
         &mut self,
         eq: &Equations<'_>,
@@ -80,7 +81,7 @@ impl Turns {
         tolerance: f64,
     ) -> bool {
         self.forget();
-        // A step begins where the last one ended.
+        // Usually the step begins where the last one ended.
         if self.at != from {
             self.stand(eq, from, before);
         }
@@ -88,7 +89,7 @@ impl Turns {
         !self.found.is_empty()
     }
 
-    /// Finds those that turn until a moment; their rates there are the next to compare with.
+    /// Finds the contacts whose u̇ has changed sign up to time t, and stores the velocities there.
     fn compare(&mut self, eq: &Equations<'_>, (t, y): (f64, impl Fn(usize) -> f64), tolerance: f64) {
         for (&c, rate) in self.contacts.iter().zip(&mut self.rates) {
             let contact = &eq.model.contacts[c];
@@ -104,14 +105,14 @@ impl Turns {
         self.at = t;
     }
 
-    /// Rates at a moment, to compare with.
+    /// Stores the velocities u̇ at time t.
     fn stand(&mut self, eq: &Equations<'_>, t: f64, y: &[f64]) {
         self.rates.clear();
         self.rates.extend(self.contacts.iter().map(|c| eq.slide(&eq.model.contacts[*c], t, |i| y[i]).rate));
         self.at = t;
     }
 
-    /// Finds the moments of those just noticed between two moments; `y` reads a component at a moment.
+    /// Computes the times of the turning points found between two times. `y` returns a component at a time.
     pub(in crate::run) fn locate(
         &mut self,
         eq: &Equations<'_>,
@@ -128,19 +129,19 @@ impl Turns {
         self.found.sort_unstable_by(|a, b| a.0.total_cmp(&b.0));
     }
 
-    /// The next turn up to a moment, s, and its contact.
+    /// Returns the next turning point up to time `until`, s: its time and its contact.
     pub(in crate::run) fn take(&mut self, until: f64) -> Option<(f64, usize)> {
         let found = self.found.get(self.next).copied().filter(|(t, _)| *t <= until)?;
         self.next += 1;
         Some(found)
     }
 
-    /// Before a corner at t, s.
+    /// Stores the velocities u̇ before a corner at time t, s.
     pub(in crate::run) fn near_corner(&mut self, eq: &Equations<'_>, t: f64, y: &[f64]) {
         self.stand(eq, t, y);
     }
 
-    /// After it: those that turned there.
+    /// Finds the contacts whose u̇ has changed sign at a corner at time t, s.
     pub(in crate::run) fn pass_corner(&mut self, eq: &Equations<'_>, (t, y): (f64, &[f64]), tolerance: f64) {
         self.forget();
         self.compare(eq, (t, |i| y[i]), tolerance);
@@ -148,8 +149,7 @@ impl Turns {
     }
 }
 
-/// Whether a rate changes its sign; what stands still has the sign of what rises, so that a turn at the very end of a step
-/// counts once.
+/// Whether a velocity changes sign. Zero counts as positive, so that a turning point at a step end counts once.
 fn turns([before, after]: [f64; 2]) -> bool {
     (before >= 0.0) != (after >= 0.0)
 }

@@ -1,4 +1,4 @@
-//! Generators as words, and back. None where they are not what a generator of this model could be doing.
+//! Serialisation of generators. Reading returns none for values that a generator of this model cannot have.
 
 use super::write::Page;
 use crate::state::Generating;
@@ -53,7 +53,7 @@ fn command(of: &Generator, words: &mut Words<'_>) -> Option<Command> {
     of.takes(&command).then_some(command)
 }
 
-/// Cycles that turn within their period, with a stroke that may be commanded.
+/// Reads cycles that turn within their period and have an allowed stroke.
 fn span(of: &Generator, words: &mut Words<'_>) -> Option<Span> {
     let [origin, period, top, stroke] = [words.finite()?, words.finite()?, words.finite()?, words.finite()?];
     let (low, high) = of.strokes;

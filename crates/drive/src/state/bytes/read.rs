@@ -1,4 +1,4 @@
-//! A state from words, in the order in which [`write`](super::write) puts them. None where they are not of this model.
+//! Reading of a state, in the order of [`write`](super::write). Returns none for words that are not of this model.
 
 use super::FIXED;
 use super::generated::generating;
@@ -13,7 +13,7 @@ use crate::{Piece, Waveform};
 use stickslip_contact::{Branch, Interface, Lull, Memory, Words};
 use stickslip_stepper::{Hand, Rejection, StepHistory};
 
-/// Most numbers that a block remembers.
+/// Largest number of memory values of a block.
 const MOST_OF_A_MEMORY: usize = 1 << 24;
 
 pub(super) fn state(model: &Model, words: &mut Words<'_>) -> Option<State> {
@@ -61,7 +61,7 @@ pub(super) fn state(model: &Model, words: &mut Words<'_>) -> Option<State> {
     })
 }
 
-/// Numbers; each may be infinite.
+/// Reads numbers, which may be infinite.
 fn numbers<const N: usize>(words: &mut Words<'_>) -> Option<[f64; N]> {
     let mut numbers = [0.0; N];
     for number in &mut numbers {
@@ -92,7 +92,7 @@ fn mode(law: &Interface, words: &mut Words<'_>) -> Option<Mode> {
     })
 }
 
-/// A memory is as long as at the start: a block indexes it.
+/// Reads a block; its memory must have its initial length, as the block indexes it.
 fn block(model: &Model, wired: &Wired, words: &mut Words<'_>) -> Option<BlockState> {
     let law = usize::try_from(words.word()?).ok().filter(|law| *law < wired.block().laws())?;
     let (_, start) = wired.block().start(&model.signals().first_inputs(wired));
@@ -100,7 +100,7 @@ fn block(model: &Model, wired: &Wired, words: &mut Words<'_>) -> Option<BlockSta
     Some(BlockState { law, memory: reals(words, count)? })
 }
 
-/// Present and supplied pieces, and what generates others.
+/// Present pieces, supplied pieces and states of generators.
 type Pieces = (Vec<Piece>, Vec<Option<Piece>>, Vec<Option<Generating>>);
 
 fn pieces(model: &Model, words: &mut Words<'_>) -> Option<Pieces> {
@@ -218,12 +218,12 @@ fn fixed(model: &Model, layout: Layout, t: f64, words: &mut Words<'_>) -> Option
     })
 }
 
-/// Whether a run in these steps can stand at time t, between the last moment of the grid and the next. A step that goes back or
-/// never ends would be made of any other.
+/// Whether a fixed-step run can be at time t: between the last time of the grid and the next. Otherwise a step would be negative
+/// or endless.
 fn is_on(Grid { start, step, count }: Grid, t: f64) -> bool {
     let [last, next] = [count, count + 1.0].map(|count| start + count * step);
     let whole = count >= 0.0 && count.fract() == 0.0 && step > 0.0;
-    // By more than all rounding; a step is cut off long before that of t is as long.
+    // Allows for rounding of times.
     let slack = 1e-6 * step + 8.0 * f64::EPSILON * t;
     whole && next.is_finite() && last <= t + slack && next >= t - slack
 }

@@ -1,4 +1,4 @@
-//! A state into words, in the order in which [`read`](super::read) takes them.
+//! Writing of a state, in the order of [`read`](super::read).
 
 use super::FIXED;
 use crate::contact::Mode;
@@ -8,7 +8,7 @@ use crate::state::{Booked, Detour, FixedWay, Gait, LocatedWay, State, Stepped, T
 use crate::{Piece, Waveform};
 use stickslip_stepper::StepHistory;
 
-/// The words so far.
+/// Words written so far.
 pub(super) struct Page<'a>(&'a mut Vec<u64>);
 
 pub(super) fn state(state: &State, model: &Model, words: &mut Vec<u64>) {
@@ -82,7 +82,7 @@ impl Page<'_> {
         }
     }
 
-    /// Its index; of an input's or a generator's, which have none, where it leads from and to.
+    /// Writes the index of a piece. For inputs and generators, whose pieces have no index, writes its ends.
     fn piece(&mut self, waveform: &Waveform, piece: &Piece) {
         match (waveform.interpolation(), waveform.generator()) {
             (None, None) => self.0.push(piece.index),
@@ -148,7 +148,7 @@ impl Page<'_> {
     }
 
     fn fixed(&mut self, way: &FixedWay) {
-        // By its letters: there are few.
+        // Compared as text, because there are few.
         let stepper = FIXED.iter().position(|name| *name == way.stepper);
         self.0.push(stepper.unwrap_or(0) as u64);
         self.reals([way.grid.start, way.grid.step, way.grid.count]);

@@ -1,4 +1,4 @@
-//! Chirp: a sine whose frequency goes linearly from one value to another, once.
+//! Chirp: a sine with a linear frequency sweep, once.
 
 use super::Way;
 use crate::waveform::corners::{Corners, Leg};
@@ -7,33 +7,34 @@ use crate::waveform::error::{finite, smooth, within};
 use crate::waveform::{Sample, Timing, WaveformError};
 use std::f64::consts::TAU;
 
-/// A sine swept linearly: offset + amplitude sin(phase + 2π(from s + (to - from) s²/(2 duration))), s from 0 to the duration.
+/// Sine with a linear frequency sweep: offset + amplitude sin(phase + 2π(from s + (to - from) s²/(2 duration))), s from 0 to the
+/// duration.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Sweep {
-    /// Half of peak to peak.
+    /// Amplitude, half of the peak-to-peak value.
     pub amplitude: f64,
     /// Mean value.
     pub offset: f64,
-    /// Phase at the start, rad.
+    /// Initial phase, rad.
     pub phase: f64,
-    /// Frequency at the start, Hz, at least 0.
+    /// Initial frequency, Hz, at least 0.
     pub from: f64,
-    /// Frequency at the end, Hz, at least 0, not 0 like that at the start.
+    /// Final frequency, Hz, at least 0; not both frequencies may be 0.
     pub to: f64,
-    /// How long, s, above 0.
+    /// Duration, s, above 0.
     pub duration: f64,
 }
 
 impl Sweep {
-    /// Turns after `s` (s), without the phase.
+    /// Returns the number of turns after `s` (s), without the phase.
     fn turns(&self, s: f64) -> f64 {
         s * (self.from + 0.5 * (self.to - self.from) * (s / self.duration))
     }
 
-    /// Value and derivatives `s` (s) after the start.
+    /// Returns value and derivatives at `s` (s) after the start.
     pub(super) fn at(&self, s: f64) -> Sample {
         let turns = self.turns(s);
-        // Whole turns are taken off before the multiplication by 2π, whose rounding they would magnify.
+        // Whole turns are removed first, because 2π would magnify their rounding.
         let (sin, cos) = math::sin_cos(TAU * (turns - turns.floor()) + self.phase);
         let omega = TAU * (self.from + (self.to - self.from) * (s / self.duration));
         let growth = TAU * ((self.to - self.from) / self.duration);
@@ -44,7 +45,7 @@ impl Sweep {
         }
     }
 
-    /// One smooth piece; its end is a corner.
+    /// Returns one smooth piece that ends with a corner.
     pub(super) fn course(self, timing: &Timing) -> Result<Course, WaveformError> {
         timing.check_single()?;
         let Self { amplitude, offset, phase, from, to, duration } = self;
@@ -78,10 +79,10 @@ impl Sweep {
         })
     }
 
-    /// Largest and smallest value: those of the sine if it comes by them, else of an end.
+    /// Returns the extreme values: those of the sine if it reaches them, otherwise those of the ends.
     fn range(&self) -> (f64, f64) {
         let size = self.amplitude.abs();
-        // Of a negative amplitude the crests are half a turn later.
+        // A negative amplitude shifts the extremes by half a turn.
         let start = self.phase / TAU + if self.amplitude < 0.0 { 0.5 } else { 0.0 };
         let (first, last) = (self.at(0.0).value, self.at(self.duration).value);
         let comes_by = |crest: f64| (start - crest).ceil() - (start - crest) <= self.turns(self.duration);

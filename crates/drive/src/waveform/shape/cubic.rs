@@ -1,11 +1,11 @@
-//! Cubic: between two corners by their values and rates.
+//! Cubic segments between two corners, given by values and rates.
 
 use crate::waveform::Sample;
 
-/// A way whose value is a polynomial of degree three, told by the rates at its ends (per s).
+/// Cubic segment, given by the rates at its ends (per s).
 ///
-/// With h the time and Δ the mean rate, value₀ + s(r₀ + s(c + s d)), c = (3Δ - 2r₀ - r₁)/h, d = (r₀ + r₁ - 2Δ)/h²
-/// (Hermite). A constant acceleration is the case r₀ + r₁ = 2Δ, a constant jerk is 6d.
+/// With the duration h and the mean rate Δ it is value₀ + s(r₀ + s(c + s d)), c = (3Δ - 2r₀ - r₁)/h, d = (r₀ + r₁ - 2Δ)/h²
+/// (Hermite). The acceleration is constant if r₀ + r₁ = 2Δ; the jerk is 6d.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(in crate::waveform) struct Cubic {
     pub(super) rates: (f64, f64),
@@ -16,13 +16,13 @@ impl Cubic {
         Self { rates: (first, last) }
     }
 
-    /// Gone the other way round in time.
+    /// Returns the segment reversed in time.
     pub(super) fn reversed(self) -> Self {
         Self { rates: (-self.rates.1, -self.rates.0) }
     }
 
-    /// Value and derivatives at `t`, s. Each half counts from its own end: values there are exact, and where it falls to 0
-    /// with a rate of 0 no rounding carries it to the other side.
+    /// Returns value and derivatives at `t` (s). Each half is evaluated from its own end, so values there are exact and rounding
+    /// does not change a sign near 0.
     pub(super) fn at(self, from: (f64, f64), to: (f64, f64), t: f64) -> Sample {
         let (first, last) = self.rates;
         let time = to.0 - from.0;

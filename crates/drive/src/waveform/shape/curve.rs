@@ -1,9 +1,9 @@
-//! Curve: points that cubics join, or that come again and again.
+//! Shape-preserving cubics through points, once or repeated.
 //!
-//! The cubics keep the shape of the points: between two of them the value stays between theirs, and where these rise or fall
-//! without turning so does it. Rates at the points are weighted harmonic means of the two slopes beside them (Fritsch and
-//! Butland, SIAM J. Sci. Stat. Comput. 5, 300, 1984), those at the ends of three-point differences held within the slope
-//! (Moler, Numerical Computing with MATLAB, 2004, section 3.6). Only the second derivative jumps at a point.
+//! Between two points the value stays between theirs, and is monotonic where the points are. Rates at the points are weighted
+//! harmonic means of the adjacent slopes (Fritsch and Butland, SIAM J. Sci. Stat. Comput. 5, 300, 1984). Rates at the ends are
+//! limited three-point differences (Moler, Numerical Computing with MATLAB, 2004, section 3.6). Only the second derivative jumps
+//! at a point.
 
 use super::cubic::Cubic;
 use super::{Way, table};
@@ -12,7 +12,7 @@ use crate::waveform::course::{Chain, Course};
 use crate::waveform::error::smooth;
 use crate::waveform::{Timing, WaveformError};
 
-/// Pieces between points; two points at one time are a jump.
+/// Returns pieces between points; two points at one time are a jump.
 pub(super) fn course(
     points: &[(f64, f64)],
     smoothed: bool,
@@ -60,13 +60,13 @@ pub(super) fn course(
     })
 }
 
-/// When it runs, where it comes again and again: the period is that of the points, the first at its start.
+/// Returns the timing of repeated points: their duration is the period, the first point the start.
 pub(super) fn timing(points: &[(f64, f64)], given: &Timing) -> Timing {
     let [first, last] = [points.first(), points.last()].map(|end| end.map_or(0.0, |point| point.0));
     Timing { period: last - first, delay: given.delay + first, ..*given }
 }
 
-/// Rates at the start and the end of each way, per s; zeros for a jump.
+/// Returns the rates at start and end of each segment, per s; zeros for a jump.
 fn rates(points: &[(f64, f64)], closed: bool) -> Vec<(f64, f64)> {
     let mut rates = vec![(0.0, 0.0); points.len().saturating_sub(1)];
     let mut first = 0;
@@ -83,7 +83,7 @@ fn rates(points: &[(f64, f64)], closed: bool) -> Vec<(f64, f64)> {
     rates
 }
 
-/// Rates at the points of a run without a jump; one that closes goes on where it began.
+/// Returns the rates at points without a jump, periodic if `closed`.
 fn of_run(run: &[(f64, f64)], closed: bool) -> Vec<f64> {
     let ways: Vec<(f64, f64)> = run
         .windows(2)
@@ -102,7 +102,7 @@ fn of_run(run: &[(f64, f64)], closed: bool) -> Vec<f64> {
     [start].into_iter().chain(inner).chain([end]).collect()
 }
 
-/// Rate between two ways (time, slope); 0 at an extreme.
+/// Returns the rate between two segments (duration, slope); 0 at an extreme.
 fn between(left: (f64, f64), right: (f64, f64)) -> f64 {
     if left.1 * right.1 <= 0.0 {
         return 0.0;
@@ -111,7 +111,7 @@ fn between(left: (f64, f64), right: (f64, f64)) -> f64 {
     (first + last) / (first / left.1 + last / right.1)
 }
 
-/// Rate at the end of a way beside another: never against its slope, and at most three times that.
+/// Returns the rate at the end of a segment next to another, with the sign of its slope and at most three times as large.
 fn at_end(own: (f64, f64), other: (f64, f64)) -> f64 {
     let rate = ((2.0 * own.0 + other.0) * own.1 - own.0 * other.1) / (own.0 + other.0);
     if rate * own.1 <= 0.0 {

@@ -1,4 +1,4 @@
-//! Cycloid: like the sawtooth, at rest and without acceleration at both ends of each way.
+//! Cycloid: a sawtooth with zero velocity and acceleration at both ends of each stroke.
 
 use super::Way;
 use super::flyback::Flyback;
@@ -7,14 +7,14 @@ use crate::waveform::error::smooth;
 use crate::waveform::{Sample, Timing, WaveformError};
 use std::f64::consts::{PI, TAU};
 
-/// Curved pieces, two in a period; one, and a jump, without a flyback.
+/// Returns curved pieces, two per period; one and a jump without a flyback.
 pub(super) fn course(stroke: f64, flyback: f64, timing: &Timing) -> Result<Course, WaveformError> {
     let ways = Flyback::new(stroke, flyback, timing)?;
     smooth("stroke", stroke, stroke / ways.shortest * (TAU / ways.shortest))?;
     Ok(ways.course(Way::Cycloid, ways.shortest, timing))
 }
 
-/// A way between two corners by the cycloidal law: value₀ + Δ(τ - sin(2πτ)/2π), τ = (t - t₀)/(t₁ - t₀).
+/// Cycloidal segment: value₀ + Δ(τ - sin(2πτ)/2π), τ = (t - t₀)/(t₁ - t₀).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(in crate::waveform) struct Cycloid {
     from: (f64, f64),
@@ -33,7 +33,7 @@ impl Cycloid {
         }
         let (time, rise) = (self.to.0 - self.from.0, self.to.1 - self.from.1);
         let part = (t - self.from.0) / time;
-        // Half angles: 1 - cos 2πτ = 2 sin² πτ loses nothing where the motion starts.
+        // Half angles: 1 - cos 2πτ = 2 sin² πτ avoids cancellation at the start.
         let (sin, cos) = math::sin_cos(PI * part);
         let mean = rise / time;
         Sample {

@@ -1,23 +1,23 @@
-//! Up to the stroke and back in the flyback that ends the period: what sawtooth and cycloid share.
+//! Forward stroke and flyback, common to sawtooth and cycloid.
 
 use super::Way;
 use crate::waveform::corners::{Corners, Leg};
 use crate::waveform::course::{Chain, Course};
 use crate::waveform::{Timing, WaveformError};
 
-/// Both ways of one period.
+/// Both strokes of one period.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Flyback {
-    /// Peak to peak, any sign.
+    /// Peak-to-peak value, of any sign.
     pub(super) stroke: f64,
-    /// Time of the way up, s.
+    /// Duration of the forward stroke, s.
     pub(super) rise: f64,
-    /// Duration of the shorter way, s.
+    /// Duration of the shorter stroke, s.
     pub(super) shortest: f64,
 }
 
 impl Flyback {
-    /// Refuses a flyback that is negative or leaves no time for the way up.
+    /// Checks the flyback. Fails if it is negative or leaves no time for the forward stroke.
     pub(super) fn new(stroke: f64, flyback: f64, timing: &Timing) -> Result<Self, WaveformError> {
         timing.check_period()?;
         let period = timing.period;
@@ -28,7 +28,7 @@ impl Flyback {
         Ok(Self { stroke, rise, shortest: if flyback > 0.0 { flyback.min(rise) } else { rise } })
     }
 
-    /// Its course with ways of this kind, the shortest wave lasting `wave` (s).
+    /// Returns its chain with segments of this kind; `wave` is the duration of the shortest wave (s).
     pub(super) fn course(&self, way: Way, wave: f64, timing: &Timing) -> Course {
         let Self { stroke, rise, .. } = *self;
         let legs =

@@ -1,93 +1,90 @@
-//! Generator: cycles made inside, whose stroke, frequency, heading and number a caller commands while they run.
+//! Generator: cycles whose stroke, frequency, direction and number a caller commands during the run.
 //!
-//! A frame of a control loop is longer than a flyback: what is fed from outside piece by piece cannot carry it. A generator
-//! makes its cycles itself, corners exact, and only their parameters come from outside. Each cycle takes those that are in
-//! force when it begins and keeps them to its end.
+//! Frames of a control loop are longer than a flyback, so its corners cannot be supplied as an input. A generator makes exact
+//! cycles itself. Each cycle uses the parameters at its start until its end.
 
 use crate::waveform::corners::{Corners, Leg};
 use crate::waveform::course::{Chain, Course};
 use crate::waveform::error::{finite, within};
 use crate::waveform::{Timing, WaveformError};
 
-/// A waveform of cycles that a caller commands.
+/// Waveform of commanded cycles.
 ///
-/// A cycle begins and ends at 0 and reaches its stroke between: the value stays in [0, stroke] and is continuous, whatever is
-/// commanded. With nothing to do (no steps left, no frequency, no stroke) it rests at 0, and a command begins a cycle at once.
+/// A cycle begins and ends at 0 and reaches its stroke in between. The value is continuous and within [0, stroke]. Without steps,
+/// frequency or stroke it rests at 0; a command then begins a cycle at once.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Generator {
     /// Form of a cycle.
     pub cycle: Cycle,
-    /// In force from t = 0 on. In a run without a caller the waveform is the sawtooth, or triangle, of these numbers.
+    /// Command from t = 0. Without a caller the waveform is the sawtooth or triangle of these parameters.
     pub initial: Command,
-    /// Smallest and largest stroke that may be commanded, in the unit of what is driven; any sign. What is checked before a run
-    /// holds for all of them.
+    /// Smallest and largest stroke that may be commanded, in the unit of the driven quantity, of any sign. Checks before a run
+    /// cover the whole range.
     pub strokes: (f64, f64),
-    /// Smallest and largest frequency that may be commanded, Hz; at least 0, and with room for the flyback.
+    /// Smallest and largest frequency that may be commanded, Hz; at least 0, and small enough for the flyback.
     pub frequencies: (f64, f64),
 }
 
 /// Form of a cycle.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Cycle {
-    /// From 0 straight to the stroke, straight back in the flyback; backward the other way round in time.
+    /// Linear from 0 to the stroke, linear back in the flyback; reversed in time for the backward direction.
     Sawtooth {
-        /// Time of the fast way, s, above 0 and below the shortest period.
+        /// Duration of the fast stroke, s, above 0 and below the shortest period.
         flyback: f64,
     },
-    /// From 0 straight to the stroke in half a period, straight back: the same in both headings.
+    /// Linear from 0 to the stroke in half a period, linear back; the same in both directions.
     Triangle,
 }
 
-/// What a generator does from its next cycle on.
+/// Parameters of a generator from its next cycle on.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Command {
-    /// Peak to peak, in the unit of what is driven; 0 is rest.
+    /// Peak-to-peak value, in the unit of the driven quantity; 0 means rest.
     pub stroke: f64,
-    /// Hz; 0 is rest.
+    /// Frequency, Hz; 0 means rest.
     pub frequency: f64,
-    /// Which way a slider is carried.
+    /// Direction of motion of a slider.
     pub heading: Heading,
-    /// How many cycles begin.
+    /// Number of cycles to begin.
     pub steps: Steps,
 }
 
-/// Which way in time a cycle runs.
+/// Direction of a cycle in time.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Heading {
-    /// Slowly up, fast back.
+    /// Slow forward stroke, fast return.
     #[default]
     Forward,
-    /// The cycle reversed in time: fast up, slowly back.
-    ///
-    /// Refused was the cycle with its sign changed: it would leave [0, stroke], the window that the electronics have.
+    /// Reversed in time: fast forward stroke, slow return. The value stays within [0, stroke], unlike with a reversed sign.
     Backward,
 }
 
-/// How many cycles are still to begin.
+/// Number of cycles to begin.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Steps {
-    /// One after the other.
+    /// Unlimited.
     #[default]
     Endless,
-    /// So many, then rest.
+    /// This number, then rest.
     Left(u64),
 }
 
 impl Command {
-    /// Whether no cycle comes of it. A frequency whose period is beyond all numbers is none.
+    /// Whether it causes no cycle: no steps, no stroke, or an infinite period.
     pub(crate) fn is_idle(&self) -> bool {
         let none = self.steps == Steps::Left(0);
         none || self.stroke == 0.0 || !self.period().is_finite()
     }
 
-    /// s; infinite at rest.
+    /// Returns the period, s; infinite at rest.
     pub(crate) fn period(&self) -> f64 {
         self.frequency.recip()
     }
 }
 
 impl Cycle {
-    /// When after its start a cycle turns, s.
+    /// Returns the time from the start of a cycle to its turning point, s.
     pub(crate) fn top(self, command: &Command) -> f64 {
         let period = command.period();
         match (self, command.heading) {
@@ -97,7 +94,7 @@ impl Cycle {
         }
     }
 
-    /// The shorter way of a cycle of this frequency (Hz), s.
+    /// Returns the duration of the shorter stroke at this frequency (Hz), s.
     fn shortest(self, frequency: f64) -> f64 {
         let period = frequency.recip();
         match self {
@@ -108,18 +105,18 @@ impl Cycle {
 }
 
 impl Generator {
-    /// Whether a command is within its ranges. What is not a number is in none.
+    /// Whether a command is within its ranges; NaN is not.
     pub(crate) fn takes(&self, command: &Command) -> bool {
         let within = |value: f64, (low, high): (f64, f64)| value >= low && value <= high;
         within(command.stroke, self.strokes) && within(command.frequency, self.frequencies)
     }
 
-    /// The range of its values, whatever is commanded.
+    /// Returns the range of its values for all commands.
     fn range(&self) -> (f64, f64) {
         (self.strokes.0.min(0.0), self.strokes.1.max(0.0))
     }
 
-    /// When it runs without a caller.
+    /// Returns its timing without a caller.
     pub(super) fn timing(&self) -> Timing {
         let cycles = match self.initial.steps {
             Steps::Endless => None,
@@ -128,7 +125,7 @@ impl Generator {
         Timing { cycles, ..Timing::every(self.initial.period()) }
     }
 
-    /// What it does without a caller: the cycles of the initial command, or rest.
+    /// Returns its chain without a caller: cycles of the initial command, or rest.
     pub(super) fn course(&self, timing: &Timing) -> Result<Course, WaveformError> {
         timing.check_supplied()?;
         self.check()?;
@@ -162,11 +159,11 @@ impl Generator {
         }
         let (low, high) = self.range();
         let steepest = (high - low) / self.cycle.shortest(highest);
-        within("range", high - low, "strokes that are reached at a finite rate", steepest.is_finite())
+        within("range", high - low, "strokes reached at a finite rate", steepest.is_finite())
     }
 }
 
-/// A value in a range that is one.
+/// Checks a range and a value in it.
 fn bounds(key: &'static str, value: f64, (low, high): (f64, f64)) -> Result<(), WaveformError> {
     finite(key, value)?;
     finite(key, low)?;

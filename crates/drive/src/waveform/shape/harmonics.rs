@@ -1,4 +1,4 @@
-//! Harmonics: Σ amplitude sin(order ωt + phase).
+//! Sum of sines: Σ amplitude sin(order ωt + phase).
 
 use super::Sines;
 use super::turn::Turn;
@@ -7,18 +7,18 @@ use crate::waveform::error::{finite, smooth, within};
 use crate::waveform::{Sample, Timing, WaveformError};
 use std::f64::consts::TAU;
 
-/// One term of a sum of sines.
+/// Term of a sum of sines.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Harmonic {
-    /// Half of peak to peak.
+    /// Amplitude, half of the peak-to-peak value.
     pub amplitude: f64,
-    /// Multiple of the fundamental frequency, a whole number; 0 makes a constant, amplitude · sin(phase).
+    /// Multiple of the fundamental frequency, an integer; 0 gives a constant, amplitude · sin(phase).
     pub order: f64,
     /// Phase, rad.
     pub phase: f64,
 }
 
-/// Value and derivatives of the sum. Apart: a single sine, as most waveforms without corners are, needs none of its registers.
+/// Returns value and derivatives of the sum; not inlined, because single sines are more frequent.
 #[inline(never)]
 pub(super) fn at(terms: &[Harmonic], turn: Turn) -> Sample {
     terms.iter().map(|harmonic| turn.term(*harmonic)).fold(
@@ -31,7 +31,7 @@ pub(super) fn at(terms: &[Harmonic], turn: Turn) -> Sample {
     )
 }
 
-/// One smooth piece from start to stop.
+/// Returns one smooth piece from start to stop.
 pub(super) fn course(terms: &[Harmonic], timing: &Timing) -> Result<Course, WaveformError> {
     timing.check_period()?;
     check(terms, timing.curvature())?;
@@ -61,11 +61,11 @@ fn check(terms: &[Harmonic], curvature: f64) -> Result<(), WaveformError> {
     Ok(())
 }
 
-/// Most points of the grid; from order 256 on the bound grows wider instead.
+/// Largest number of grid points; above order 256 the bound becomes wider.
 const MOST_POINTS: f64 = 262_144.0;
 
-/// Bounds of a sum of sines: the extremes on a grid of spacing δ, widened by δ²/8 times the largest curvature
-/// Σ |amplitude| order², and no wider than Σ |amplitude|.
+/// Returns bounds of a sum of sines: the extremes on a grid with spacing δ, widened by δ²/8 times the largest curvature Σ
+/// |amplitude| order², at most Σ |amplitude|.
 fn range(terms: &[Harmonic]) -> (f64, f64) {
     let sum: f64 = terms.iter().map(|term| term.amplitude.abs()).sum();
     if let [_] = terms {

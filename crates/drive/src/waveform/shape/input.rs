@@ -1,23 +1,23 @@
-//! Input: what a caller gives while it runs, held or straight from value to value.
+//! Input: values that a caller supplies during the run, held or linear.
 
 use crate::waveform::course::{Chain, Course};
 use crate::waveform::error::{finite, smooth};
 use crate::waveform::{Timing, WaveformError};
 
-/// How an input goes from one value to the next.
+/// Interpolation of an input between values.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Interpolation {
-    /// The value stays until the caller gives another one, which is a jump.
+    /// The value is constant until the caller gives another one, which is a jump.
     ///
-    /// A contact moves along its path straight and in no time, and the work of that is booked. A damper would need an
-    /// infinite force: the model refuses one whose length would jump.
+    /// In a jump contacts follow a straight path in zero time, and the work counts. The model refuses dampers whose length would
+    /// jump.
     #[default]
     Held,
-    /// Straight from where it is to the value and the time that the caller gives; the value there is then held.
+    /// Linear from the present value to the value and time that the caller gives; then held.
     Linear,
 }
 
-/// Pieces that are supplied; until then the initial value is held.
+/// Returns a chain of supplied pieces with the initial value before them.
 pub(super) fn course(
     initial: f64,
     range: (f64, f64),
@@ -43,7 +43,7 @@ fn check(initial: f64, (low, high): (f64, f64)) -> Result<(), WaveformError> {
     if low > high {
         return Err(WaveformError::Range { low, high });
     }
-    // The largest jump, or rise.
+    // Largest possible jump or rise.
     smooth("range", high, high - low)?;
     if initial < low || initial > high {
         return Err(WaveformError::Initial { low, high, got: initial });

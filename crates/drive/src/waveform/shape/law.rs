@@ -1,4 +1,4 @@
-//! Laws of pieces: what a waveform is between two corners.
+//! Laws of pieces between two corners.
 
 use super::chirp::Sweep;
 use super::cubic::Cubic;
@@ -10,40 +10,39 @@ use crate::waveform::straight::Straight;
 use crate::waveform::{Sample, Timing};
 use std::f64::consts::TAU;
 
-/// Law of one piece.
+/// Law of a piece.
 ///
-/// What is more than a few numbers stays in the chain, and the piece says which of it it is: states keep a piece of every
-/// waveform, and a straight one must not grow by what others need.
+/// Laws with many parameters stay in the chain and are referred to by index, so that the pieces in states are small.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(in crate::waveform) enum Law {
-    /// Straight, or held.
+    /// Linear or constant.
     Straight(Straight),
     /// Cycloidal.
     Cycloid(Cycloid),
-    /// By the sines of the waveform itself.
+    /// Sines of the waveform.
     Sines,
-    /// By a way of the chain.
+    /// Segment of the chain.
     Leg(Placed),
 }
 
-/// A piece whose law is one of the ways of its chain.
+/// Piece whose law is a segment of its chain.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(in crate::waveform) struct Placed {
-    /// Its start and end, s, also where it is cut short.
+    /// Start and end of the uncut segment, s.
     pub(in crate::waveform) from: f64,
     pub(in crate::waveform) to: f64,
     place: u32,
 }
 
 impl Placed {
-    /// Which way of the chain.
+    /// Returns the index of the segment in the chain.
     pub(in crate::waveform) fn place(&self) -> usize {
         self.place as usize
     }
 }
 
 impl Law {
-    /// The law from one (time, value) to the other, by the way at this place of the chain.
+    /// Returns the law between two points (time, value) for the segment with this index in the chain.
     pub(in crate::waveform) fn between(way: Way, from: (f64, f64), to: (f64, f64), place: usize) -> Self {
         match way {
             Way::Straight => Self::Straight(Straight::between(from, to)),
@@ -54,7 +53,7 @@ impl Law {
         }
     }
 
-    /// Value and derivatives at `t`, s; none where they are up to the waveform.
+    /// Returns value and derivatives at `t` (s). None if the waveform must compute them.
     #[inline]
     pub(in crate::waveform) fn at(&self, t: f64) -> Option<Sample> {
         match self {
@@ -65,23 +64,23 @@ impl Law {
     }
 }
 
-/// Kind of a way between two corners.
+/// Form of a segment between two corners.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(in crate::waveform) enum Way {
     Straight,
     Cycloid,
-    /// A cubic with these rates at its start and end, per s.
+    /// Cubic with rates at its ends, per s.
     Cubic(Cubic),
-    /// A swept sine.
+    /// Sine sweep.
     Chirp(Sweep),
-    /// Whole cycles of the carrier, from its start on or back to it.
+    /// Whole cycles of the carrier, forward or reversed in time.
     Sines {
         reversed: bool,
     },
 }
 
 impl Way {
-    /// Value and derivatives at `t`, s, between (time, value) and (time, value); those at the very end are set exactly.
+    /// Returns value and derivatives at `t` (s) between two points (time, value); exact at the end.
     pub(in crate::waveform) fn at(
         self,
         from: (f64, f64),
@@ -93,7 +92,7 @@ impl Way {
             (Self::Cubic(cubic), _) => cubic.at(from, to, t),
             (Self::Chirp(sweep), _) => sweep.at(t - from.0),
             (Self::Sines { reversed }, Some(carrier)) => {
-                // At its end it is where it started, whatever rounding makes of whole cycles.
+                // After whole cycles the value is exactly that of the start.
                 let time = if t == to.0 { 0.0 } else { t - from.0 };
                 carrier.at(time, reversed)
             }
@@ -102,7 +101,7 @@ impl Way {
         }
     }
 
-    /// The same way gone the other way round in time.
+    /// Returns the form reversed in time.
     pub(super) fn reversed(self) -> Self {
         match self {
             Self::Cubic(cubic) => Self::Cubic(cubic.reversed()),
@@ -112,16 +111,16 @@ impl Way {
     }
 }
 
-/// Sines that begin anew with every run of a pattern.
+/// Sines that start anew with every run of a pattern.
 #[derive(Debug, Clone, PartialEq)]
 pub(in crate::waveform) struct Carrier {
     pub(super) sines: Sines,
-    /// s.
+    /// Period, s.
     pub(super) period: f64,
 }
 
 impl Carrier {
-    /// Value and derivatives `time` (s) after a start.
+    /// Returns value and derivatives at `time` (s) after a start.
     pub(super) fn at(&self, time: f64, reversed: bool) -> Sample {
         let timing = Timing::every(self.period);
         if !reversed {
@@ -140,7 +139,7 @@ pub(in crate::waveform) enum Sines {
 }
 
 impl Sines {
-    /// Value and derivatives at `t`, s.
+    /// Returns value and derivatives at `t` (s).
     #[inline]
     pub(in crate::waveform) fn at(&self, timing: &Timing, t: f64) -> Sample {
         let turn = Turn::at(timing, t);
@@ -150,7 +149,7 @@ impl Sines {
         }
     }
 
-    /// A bound of the third derivative, per s³: Σ |amplitude| (order ω)³, reached by a single sine.
+    /// Returns a bound of the third derivative, per s³: Σ |amplitude| (order ω)³, exact for a single sine.
     pub(in crate::waveform) fn jerk(&self, timing: &Timing) -> f64 {
         let of = |amplitude: f64, order: f64| amplitude.abs() * (order * TAU / timing.period).powi(3);
         match self {

@@ -1,8 +1,8 @@
-//! A sawtooth through a limit of the rate.
+//! Rate-limited sawtooth.
 //!
-//! What is asked for is a sawtooth that rises at s in the time T-τ and falls in the flyback τ; what comes falls at the limit r and
-//! meets it at the time u = (S - rτ)/(r + s) after the end of the period, on its way up. From then on it follows until the top.
-//! Each period but the first is so cut short by s·u, and the flyback lasts τ + u.
+//! The requested sawtooth rises at rate s in the time T-τ and falls in the flyback τ. The output falls at the limit r and meets
+//! it in the next rise, at the time u = (S - rτ)/(r + s) after the end of the period. Then it follows to the top. All periods but
+//! the first are shortened by s·u in stroke, and the flyback takes τ + u.
 
 use super::flyback::Flyback;
 use super::sawtooth;
@@ -12,8 +12,8 @@ use crate::waveform::error::{smooth, within};
 use crate::waveform::{Timing, WaveformError};
 use std::f64::consts::TAU;
 
-/// Straight pieces, two in a period. Without a phase it starts at 0 and is late only from its first flyback on; with one it
-/// starts as it goes on.
+/// Returns linear pieces, two per period. Without a phase it starts at 0 and lags from its first flyback on; with a phase it
+/// starts in its periodic form.
 pub(super) fn course(stroke: f64, flyback: f64, rate: f64, timing: &Timing) -> Result<Course, WaveformError> {
     let ways = Flyback::new(stroke, flyback, timing)?;
     within("rate", rate, "a finite rate above 0", rate > 0.0)?;
@@ -29,7 +29,7 @@ pub(super) fn course(stroke: f64, flyback: f64, rate: f64, timing: &Timing) -> R
     }
     let late = missing / (rate + up);
     let low = stroke * (late / ways.rise);
-    // Counted from the top, where the late way back begins: it ends in the period after.
+    // Counted from the top: the delayed return ends in the next period.
     let legs = [Leg::straight(0.0, (stroke, low)), Leg::straight(flyback + late, (low, stroke))];
     let phase = timing.phase - TAU * (ways.rise / timing.period);
     let corners = Corners::periodic(&legs, &Timing { phase, ..*timing });

@@ -1,8 +1,8 @@
-//! Parabola: from rest along a constant acceleration, round a turn, back along the mirror image.
+//! Parabola: constant acceleration from rest, a turn, and the mirrored motion.
 //!
-//! A foot under a constant acceleration carries a slider as long as that is below μ times the load over the mass, and reaches the
-//! largest speed that friction allows; the turn at the top, a cusp in the limit, is too fast for it. With stroke S, period T
-//! and turn τ the speed at the turn is V = 4S/T, the acceleration 2V/(T-τ), that of the turn -2V/τ.
+//! A slider sticks to the foot while the acceleration is below μF_N/m, and reaches the largest velocity that friction allows. It
+//! slips in the turn at the top, which may be a cusp. With stroke S, period T and turn τ the velocity at the turn is V = 4S/T,
+//! the acceleration 2V/(T-τ), that of the turn -2V/τ.
 
 use super::Way;
 use super::cubic::Cubic;
@@ -11,7 +11,7 @@ use crate::waveform::course::{Chain, Course};
 use crate::waveform::error::smooth;
 use crate::waveform::{Timing, WaveformError};
 
-/// Parabolic pieces, three in a period; two without a turn.
+/// Returns parabolic pieces, three per period; two without a turn.
 pub(super) fn course(stroke: f64, turn: f64, timing: &Timing) -> Result<Course, WaveformError> {
     timing.check_period()?;
     let period = timing.period;
@@ -22,7 +22,7 @@ pub(super) fn course(stroke: f64, turn: f64, timing: &Timing) -> Result<Course, 
     let shortest = if turn > 0.0 { turn.min(half) } else { half };
     let speed = 4.0 * (stroke / period);
     smooth("stroke", stroke, speed / shortest)?;
-    // ½aτ² = ½V·half: what is left of the stroke is the height of the turn, ¼Vτ.
+    // ½aτ² = ½V·half; the turn has the rest of the stroke, ¼Vτ.
     let shoulder = 0.5 * speed * half;
     let leg = |start: f64, values: (f64, f64), rates: (f64, f64)| Leg {
         start,

@@ -1,4 +1,4 @@
-//! Pattern: runs of a periodic shape and rests between them, again and again.
+//! Pattern: runs of a periodic shape and rests, repeated.
 
 use super::law::Carrier;
 use super::{Shape, Way};
@@ -7,29 +7,28 @@ use crate::waveform::course::{Chain, Course};
 use crate::waveform::error::within;
 use crate::waveform::{Timing, WaveformError};
 
-/// A run or a rest of a pattern.
+/// Run or rest of a pattern.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Section {
-    /// Whole cycles of the shape, each from its beginning.
+    /// Whole cycles of the shape.
     Run {
-        /// How many, at least 1.
+        /// Number of cycles, at least 1.
         cycles: u32,
-        /// The other way round in time: fast up and slowly back, values as before. Refused was the sign changed: values would
-        /// leave the range that a stack or its electronics have.
+        /// Reversed in time: fast forward stroke and slow return. The values stay in the same range, unlike with a reversed sign.
         reversed: bool,
     },
-    /// The value with which a cycle begins, held.
+    /// Rest at the initial value of a cycle.
     Rest {
-        /// s, above 0.
+        /// Duration, s, above 0.
         duration: f64,
     },
 }
 
-/// Most cycles of all runs together: each keeps its corners.
+/// Largest number of cycles in all runs together, as each stores its corners.
 const MOST_CYCLES: f64 = 10_000.0;
 
 impl Section {
-    /// s, with this period of the shape.
+    /// Returns its duration for this period of the shape, s.
     fn time(self, period: f64) -> f64 {
         match self {
             Self::Run { cycles, .. } => f64::from(cycles) * period,
@@ -38,13 +37,13 @@ impl Section {
     }
 }
 
-/// When it runs: its period is that of all parts, its phase counts in cycles of the shape.
+/// Returns the timing of the pattern: its period is that of all sections; its phase counts cycles of the shape.
 pub(super) fn timing(parts: &[Section], given: &Timing) -> Timing {
     let period: f64 = parts.iter().map(|part| part.time(given.period)).sum();
     Timing { period, phase: given.phase * (given.period / period), ..*given }
 }
 
-/// The pieces of all cycles; a run of sines is a single one.
+/// Returns the pieces of all cycles; a run of sines is one piece.
 pub(super) fn course(carrier: &Shape, parts: &[Section], timing: &Timing) -> Result<Course, WaveformError> {
     timing.check_period()?;
     let cycle = carrier.course(&Timing::every(timing.period))?;
@@ -98,7 +97,7 @@ fn check(parts: &[Section], has_jumps: bool) -> Result<(), WaveformError> {
                 let wanted = "1 to 10000 cycles in all runs together";
                 within("cycles", cycles, wanted, count > 0 && cycles <= MOST_CYCLES)?;
                 if reversed && has_jumps {
-                    // Its jump and that of the run before would be one after the other in no time, and make none.
+                    // Two jumps at the same time would cancel.
                     return Err(WaveformError::Reversed);
                 }
             }
@@ -107,7 +106,7 @@ fn check(parts: &[Section], has_jumps: bool) -> Result<(), WaveformError> {
     if cycles > 0.0 { Ok(()) } else { Err(WaveformError::Empty { key: "sequence" }) }
 }
 
-/// One cycle the other way round in time.
+/// Returns one cycle reversed in time.
 fn mirrored(legs: &[Leg], period: f64) -> Vec<Leg> {
     let ends = legs.iter().skip(1).map(|leg| leg.start).chain([period]);
     let mirror = |(leg, end): (&Leg, f64)| Leg {

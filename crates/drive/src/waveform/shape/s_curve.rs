@@ -1,7 +1,7 @@
-//! S-curve: like the sawtooth, each way from rest to rest with a limited jerk.
+//! S-curve: a sawtooth whose strokes are from rest to rest with limited jerk.
 //!
-//! A way of length Δ in a time L takes four phases of constant jerk J, each for the time τ, and goes at its largest speed
-//! V = Δ/(L-2τ) = Jτ² between the second and the third: J = Δ/(τ²(L-2τ)), the largest acceleration Jτ.
+//! A stroke Δ of duration L has four phases of constant jerk J, each of duration τ. Between the second and the third its velocity
+//! is V = Δ/(L-2τ) = Jτ², the largest. Hence J = Δ/(τ²(L-2τ)); the largest acceleration is Jτ.
 
 use super::Way;
 use super::cubic::Cubic;
@@ -11,10 +11,10 @@ use crate::waveform::course::{Chain, Course};
 use crate::waveform::error::{smooth, within};
 use crate::waveform::{Timing, WaveformError};
 
-/// Part of a way by which phases may be longer than it for their rounding.
+/// Relative rounding by which the phases may exceed a stroke.
 const ROUNDING: f64 = 1e-12;
 
-/// Cubic and straight pieces, five to a way; four where the phases fill it.
+/// Returns cubic and linear pieces, five per stroke; four if the phases fill it.
 pub(super) fn course(
     stroke: f64,
     flyback: f64,
@@ -41,10 +41,10 @@ pub(super) fn course(
     })
 }
 
-/// The phases of one way.
+/// Returns the segments of one stroke.
 fn way(start: f64, time: f64, (from, to): (f64, f64), tau: f64) -> [Leg; 5] {
     let speed = (to - from) / (time - 2.0 * tau);
-    // A phase goes Jτ³/6, the second one the rest of Vτ.
+    // A phase covers Jτ³/6, the second one the rest of Vτ.
     let (short, long) = (speed * tau / 6.0, speed * tau);
     let cubic = |at: f64, values: (f64, f64), first: f64, last: f64| Leg {
         start: at,

@@ -1,4 +1,4 @@
-//! Sawtooth: straight up, straight back in the flyback.
+//! Sawtooth: linear forward stroke, linear flyback.
 
 use super::Way;
 use super::flyback::Flyback;
@@ -6,7 +6,7 @@ use crate::waveform::course::Course;
 use crate::waveform::error::smooth;
 use crate::waveform::{Timing, WaveformError};
 
-/// Straight pieces, two in a period; one, and a jump, without a flyback.
+/// Returns linear pieces, two per period; one and a jump without a flyback.
 pub(super) fn course(stroke: f64, flyback: f64, timing: &Timing) -> Result<Course, WaveformError> {
     let ways = Flyback::new(stroke, flyback, timing)?;
     smooth("stroke", stroke, stroke / ways.shortest)?;

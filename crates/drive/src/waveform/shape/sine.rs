@@ -7,7 +7,7 @@ use crate::waveform::course::{Chain, Course};
 use crate::waveform::error::{finite, smooth};
 use crate::waveform::{Sample, Timing, WaveformError};
 
-/// A single sine about a mean value.
+/// Single sine about a mean value.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(in crate::waveform) struct Sine {
     pub(super) amplitude: f64,
@@ -22,7 +22,7 @@ impl Sine {
         Sample { value: self.offset + term.value, ..term }
     }
 
-    /// One smooth piece from start to stop.
+    /// Returns one smooth piece from start to stop.
     pub(super) fn course(self, timing: &Timing) -> Result<Course, WaveformError> {
         timing.check_period()?;
         let Self { amplitude, phase, offset } = self;

@@ -1,10 +1,10 @@
-//! Step: a jump from 0, once.
+//! Step: a single jump from 0.
 
 use crate::waveform::course::{Chain, Course};
 use crate::waveform::error::{finite, smooth};
 use crate::waveform::{Timing, WaveformError};
 
-/// No piece between two that are held.
+/// Returns a chain without pieces between two constant values.
 pub(super) fn course(height: f64, at: f64, timing: &Timing) -> Result<Course, WaveformError> {
     timing.check_single()?;
     finite("height", height)?;

@@ -1,11 +1,11 @@
-//! Table: straight between points, held before the first and after the last.
+//! Table: linear between points, constant before the first and after the last.
 
 use crate::waveform::corners::{Corners, Leg};
 use crate::waveform::course::{Chain, Course};
 use crate::waveform::error::{finite, smooth};
 use crate::waveform::{Timing, WaveformError};
 
-/// Straight pieces between points; two points at one time are a jump.
+/// Returns linear pieces between points; two points at one time are a jump.
 pub(super) fn course(points: &[(f64, f64)], timing: &Timing) -> Result<Course, WaveformError> {
     check(points, timing)?;
     let ends = [points.first(), points.last()].map(|end| end.copied().unwrap_or_default());
@@ -40,7 +40,7 @@ pub(super) fn check(points: &[(f64, f64)], timing: &Timing) -> Result<(), Wavefo
         let (before, got) = (pair[0].0, pair[1].0);
         let time = if got > before { got - before } else { 1.0 };
         smooth("points", pair[1].1, (pair[1].1 - pair[0].1) / time)?;
-        // Compared after the delay too: it may swallow a short interval.
+        // Compared after adding the delay, which may absorb a short interval.
         if got < before || got > before && timing.delay + got <= timing.delay + before {
             return Err(WaveformError::Times { place: i + 1, before, got });
         }

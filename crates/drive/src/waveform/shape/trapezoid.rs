@@ -1,14 +1,14 @@
-//! Trapezoid: straight to the stroke, held, straight back, at rest.
+//! Trapezoid: linear to the stroke, held, linear back, at rest.
 
 use crate::waveform::corners::{Corners, Leg};
 use crate::waveform::course::{Chain, Course};
 use crate::waveform::error::{smooth, within};
 use crate::waveform::{Timing, WaveformError};
 
-/// Part of a period by which durations may be longer than it for their rounding.
+/// Relative rounding by which the durations may exceed a period.
 const ROUNDING: f64 = 1e-12;
 
-/// Straight pieces, four in a period; fewer where rise, hold, fall or rest take no time.
+/// Returns linear pieces, four per period; fewer if rise, hold, fall or rest are zero.
 pub(super) fn course(
     stroke: f64,
     [rise, hold, fall]: [f64; 3],

@@ -1,11 +1,11 @@
-//! Triangle: straight to the stroke in half a period, straight back.
+//! Triangle: linear to the stroke in half a period, linear back.
 
 use crate::waveform::corners::{Corners, Leg};
 use crate::waveform::course::{Chain, Course};
 use crate::waveform::error::smooth;
 use crate::waveform::{Timing, WaveformError};
 
-/// Straight pieces, two in a period.
+/// Returns linear pieces, two per period.
 pub(super) fn course(stroke: f64, timing: &Timing) -> Result<Course, WaveformError> {
     timing.check_period()?;
     smooth("stroke", stroke, 2.0 * stroke / timing.period)?;

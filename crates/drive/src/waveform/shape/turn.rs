@@ -1,15 +1,15 @@
-//! How far a waveform has turned: what its sines share.
+//! Phase angle of a waveform, and its sines.
 
 use super::harmonics::Harmonic;
 use crate::waveform::{Sample, Timing};
 use std::f64::consts::TAU;
 
-/// Angle of a waveform and its rate at one time.
+/// Phase angle of a waveform and its rate at one time.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Turn {
-    /// rad, between -π and π before the phase is added.
+    /// Angle, rad, between -π and π before the phase is added.
     angle: f64,
-    /// rad/s.
+    /// Angular frequency, rad/s.
     omega: f64,
 }
 
@@ -17,11 +17,11 @@ impl Turn {
     #[inline]
     pub(super) fn at(timing: &Timing, t: f64) -> Self {
         let turns = (t - timing.delay) / timing.period;
-        // Whole turns are taken off before the multiplication by 2π, whose rounding they would magnify.
+        // Whole turns are removed first, because 2π would magnify their rounding.
         Self { angle: TAU * (turns - whole(turns)) + timing.phase, omega: TAU / timing.period }
     }
 
-    /// One sine and its derivatives.
+    /// Returns one sine and its derivatives.
     #[inline]
     pub(super) fn term(&self, harmonic: Harmonic) -> Sample {
         let order = harmonic.order;
@@ -31,15 +31,15 @@ impl Turn {
     }
 }
 
-/// 3·2⁵¹: added to a number below 2⁵¹ and taken off again it leaves the nearest whole one.
+/// 3·2⁵¹; adding and subtracting it rounds a number below 2⁵¹ to an integer.
 const WHOLE: f64 = 6_755_399_441_055_744.0;
-/// Cells of a turn, each with the sine and cosine of its middle.
+/// Number of table cells in a turn.
 const CELLS: usize = 64;
-/// π/32, the width of a cell, in two parts, the first of 33 bits: its product with a whole number below 2²⁰ is exact.
+/// π/32, the width of a cell, as a sum; the first part has 33 bits, so its product with an integer below 2²⁰ is exact.
 const CELL: [f64; 2] = [1.570_796_326_734_125_6 / 16.0, 6.077_100_506_506_192e-11 / 16.0];
-/// Beyond this angle, rad, the parts are too short.
+/// Largest angle for the table, rad.
 const FAR: f64 = 1e5;
-/// sin(kπ/32) of a quarter of a turn, rounded from 40 digits.
+/// sin(kπ/32) for a quarter of a turn, rounded from 40 digits.
 const QUARTER: [f64; 17] = [
     0.0,
     0.098_017_140_329_560_6,
@@ -59,7 +59,7 @@ const QUARTER: [f64; 17] = [
     0.995_184_726_672_196_9,
     1.0,
 ];
-/// Sine and cosine in the middle of every cell.
+/// Sine and cosine at the middle of every cell.
 static CIRCLE: [[f64; 2]; CELLS] = circle();
 
 const fn circle() -> [[f64; 2]; CELLS] {
@@ -76,16 +76,16 @@ const fn circle() -> [[f64; 2]; CELLS] {
     circle
 }
 
-/// The nearest whole number; beyond 2⁵¹ one that is near.
-// A function of the library where processors may lack the instruction: a tenth of what a sine costs.
+/// Returns the nearest integer; beyond 2⁵¹ an integer nearby.
+// Faster than a library function on processors without a rounding instruction.
 #[inline(always)]
 fn whole(x: f64) -> f64 {
     (x + WHOLE) - WHOLE
 }
 
-/// Sine and cosine of an angle, rad, within a unit of the last place of 1, and exactly 0 with the angle.
+/// Returns sine and cosine of an angle (rad), with errors below one unit in the last place of 1; exactly 0 and 1 at 0.
 ///
-/// The same bits on every machine, at a fraction of the instructions of the library's.
+/// The bits are the same on every machine.
 #[inline(always)]
 fn sin_cos(angle: f64) -> [f64; 2] {
     if angle.abs() < FAR { near(angle) } else { far(angle) }
@@ -97,18 +97,18 @@ fn far(angle: f64) -> [f64; 2] {
     math::sin_cos(angle).into()
 }
 
-/// From the middle of the nearest cell on by the theorem of addition, what is left of the angle being π/64 at most: sine and cosine of
-/// that are their series up to r⁷ and r⁸, whose next terms are below 5e-18.
+/// Returns sine and cosine by the addition theorem from the middle of the nearest cell. The rest of the angle is at most π/64;
+/// its series up to r⁷ and r⁸ have errors below 5e-18.
 #[inline(always)]
 fn near(angle: f64) -> [f64; 2] {
     const PER_RADIAN: f64 = CELLS as f64 / TAU;
-    // The nearest whole number of cells is what stands in the last bits of this sum.
+    // The last bits of the sum hold the nearest cell.
     let sum = angle * PER_RADIAN + WHOLE;
     let cells = sum - WHOLE;
     let r = (angle - cells * CELL[0]) - cells * CELL[1];
     let z = r * r;
     let sin = r + r * (z * (-1.0 / 6.0 + z * (1.0 / 120.0 - z * (1.0 / 5040.0))));
-    // Less 1, so that nothing of it is lost beside the 1.
+    // Cosine minus 1, to avoid rounding.
     let cos = z * (-0.5 + z * (1.0 / 24.0 + z * (-1.0 / 720.0 + z * (1.0 / 40320.0))));
     #[expect(clippy::cast_possible_truncation, reason = "the last six bits count")]
     let [s, c] = CIRCLE[sum.to_bits() as usize % CELLS];
@@ -121,7 +121,7 @@ mod tests {
 
     #[test]
     fn sines_are_those_of_the_library_to_the_last_place() {
-        // glibc's sin and cos are right within 0.55 units of the last place.
+        // glibc's sin and cos are accurate to 0.55 units in the last place.
         let mut angle = -40.0;
         while angle < 40.0 {
             let [sin, cos] = sin_cos(angle);

@@ -1,4 +1,4 @@
-//! Pieces by their index and pieces that are supplied.
+//! Pieces by index, and supplied pieces.
 
 use super::*;
 use Interpolation::{Held, Linear};
@@ -7,7 +7,7 @@ fn input(initial: f64, range: (f64, f64), interpolation: Interpolation) -> Wavef
     wave(Shape::Input { initial, range, interpolation }, Timing::every(1.0))
 }
 
-/// Every bit of a piece: times, place, and values and slopes at and between its ends.
+/// All bits of a piece: times, index, values and derivatives at three times.
 fn bits(wave: &Waveform, piece: &Piece) -> Vec<u64> {
     let from = if piece.start.is_finite() { piece.start } else { piece.end - 1.0 };
     let to = if piece.end.is_finite() { piece.end } else { from + 1.0 };
@@ -16,7 +16,7 @@ fn bits(wave: &Waveform, piece: &Piece) -> Vec<u64> {
     [piece.start, piece.end].into_iter().chain(values).map(f64::to_bits).chain([piece.index]).collect()
 }
 
-/// Walks from the piece at `t` and asks for each by its index; says how many there were.
+/// Compares the pieces from `t` on with those by index, and returns their number.
 fn walk(wave: &Waveform, t: f64) -> usize {
     let mut piece = wave.piece_at(t);
     for count in 1..=400 {
@@ -24,7 +24,7 @@ fn walk(wave: &Waveform, t: f64) -> usize {
         assert_eq!(same, piece);
         assert_eq!(bits(wave, &same), bits(wave, &piece), "{wave:?}");
         if piece.end == f64::INFINITY {
-            // Nothing comes after the last one, however far one asks.
+            // No piece follows the last one.
             assert_eq!(wave.piece(piece.index + 1), None, "{wave:?}");
             assert_eq!(wave.piece(u64::MAX), None, "{wave:?}");
             return count;
@@ -53,11 +53,11 @@ fn every_piece_is_given_back_by_its_index() {
             Shape::Pattern { .. } => 10,
             _ => 5,
         };
-        // The chain that a run walks, and that before a delay or a table's first point.
+        // From t = 0, and from before the delay or the first point.
         walked[kind] = walked[kind].max(walk(&wave, 0.0));
         walked[kind] = walked[kind].max(walk(&wave, -1e9));
     }
-    // Endless chains of corners go on; sines are held, run and held; a table of nine points has at most eight ways.
+    // Chains of corners are endless; sines have three pieces; a table of nine points has at most eight segments.
     assert!([0, 1, 4, 6, 7, 8, 9, 10].iter().all(|kind| walked[*kind] == 400), "{walked:?}");
     assert_eq!((walked[2], walked[3]), (3, 3));
     assert!((4..=10).contains(&walked[5]), "{walked:?}");
@@ -70,7 +70,7 @@ fn pieces_of_single_steps_and_beyond_skipped_ones_are_given_back() {
     let far = wave(Shape::Sawtooth { stroke: 1.0, flyback: 1e-13 }, Timing::every(1.0));
     assert_eq!(walk(&far, 1e4 + 0.5), 400);
     let sine = wave(Shape::Sine { amplitude: 1.0, phase: 0.0, offset: 0.0 }, Timing::every(1.0));
-    // It runs for ever: nothing is held after it.
+    // An endless sine has no piece after it.
     assert_eq!((walk(&sine, -1.0), sine.piece(2)), (2, None));
     let delayed = Timing { delay: 1.0, cycles: Some(2.0), ..Timing::every(1.0) };
     let sine = wave(Shape::Sine { amplitude: 1.0, phase: 0.0, offset: 0.0 }, delayed);
@@ -92,7 +92,7 @@ fn an_input_holds_its_initial_value_at_all_times() {
         assert_eq!((wave.period(), wave.range(), wave.resolution()), (None, (-1.0, 4.0), f64::INFINITY));
         assert_eq!((wave.is_straight(), wave.interpolation()), (true, Some(interpolation)));
         assert_eq!(wave.has_jumps(), interpolation == Held);
-        // A range of one value leaves nowhere to jump to.
+        // A range of one value allows no jump.
         assert!(!input(3.0, (3.0, 3.0), interpolation).has_jumps());
     }
     let sawtooth = wave(Shape::Sawtooth { stroke: 1.0, flyback: 0.1 }, Timing::every(1.0));
@@ -103,7 +103,7 @@ fn an_input_holds_its_initial_value_at_all_times() {
 fn supplied_pieces_jump_end_and_are_kept() {
     let wave = input(0.0, (-10.0, 10.0), Held);
     let (first, second) = (wave.piece_at(0.0), Piece::held(0.25, 4.0));
-    // Held without an end, it ends where the next one starts.
+    // A held piece ends where the next one starts.
     assert_eq!(wave.jump_between(&first, &second), 4.0);
     assert_eq!(wave.jump_between(&second, &Piece::held(0.5, -1.5)), -5.5);
     let wave = input(0.0, (-10.0, 10.0), Linear);
@@ -111,16 +111,16 @@ fn supplied_pieces_jump_end_and_are_kept() {
     assert_eq!(wave.sample(&rise, 1.0), Sample { value: -2.0, rate: 4.0, acceleration: 0.0 });
     assert_eq!(wave.sample(&rise, 1.5).value, 0.0);
     assert_eq!(wave.sample(&rise, 3.0).value, 6.0);
-    // Its value is held until the caller says more, without a jump.
+    // The final value is held without a jump.
     let kept = wave.after(&rise);
     assert_eq!((kept.start, kept.end, wave.jump_after(&rise)), (3.0, f64::INFINITY, 0.0));
     assert_eq!(wave.sample(&kept, 9.0), Sample { value: 6.0, rate: 0.0, acceleration: 0.0 });
-    // Cut short half way it has come half way.
+    // Cut at half its time, the value is half way.
     assert_eq!(wave.jump_between(&rise, &Piece::straight((2.0, 2.0), (4.0, 0.0))), 0.0);
     assert_eq!(wave.jump_between(&rise, &Piece::held(2.0, 3.0)), 1.0);
 }
 
-/// Fed from corner to corner with the numbers of a sawtooth, an input is that sawtooth to the bit.
+/// An input that is fed the corners of a sawtooth has the same bits.
 #[test]
 fn a_sawtooth_fed_piece_by_piece_has_the_same_bits() {
     let mut random = Random(5);
@@ -167,7 +167,7 @@ fn inputs_that_make_no_sense_are_refused_by_name() {
     for range in [(f64::NAN, 1.0), (0.0, f64::NAN), (f64::NEG_INFINITY, 1.0), (0.0, f64::INFINITY)] {
         assert_eq!(refuse(0.5, range, every).key(), "range");
     }
-    // Neither bound is beyond all numbers, the way between them is.
+    // Both bounds are finite, but their difference is not.
     assert!(refuse(0.0, (-1e308, 1e308), every).to_string().contains("changes at a finite rate"));
     let timings = [
         ("delay", Timing { delay: 1e-3, ..every }),

@@ -1,4 +1,4 @@
-//! The shapes beside sawtooth, triangle, sine and cycloid, each by its closed form.
+//! Other shapes than sawtooth, triangle, sine and cycloid, by closed forms.
 
 use super::*;
 
@@ -6,7 +6,7 @@ fn near(a: f64, b: f64, slack: f64) -> bool {
     (a - b).abs() <= slack
 }
 
-/// Values, rates and accelerations against a sample.
+/// Compares value, rate and acceleration with a sample.
 fn is(wave: &Waveform, t: f64, expected: [f64; 3], slack: f64) {
     let got = wave.sample(&wave.piece_at(t), t);
     let got = [got.value, got.rate, got.acceleration];
@@ -25,7 +25,7 @@ fn corners(wave: &Waveform, t: f64, count: usize) -> Vec<f64> {
         .collect()
 }
 
-/// ∫ value dt over pieces from one time to another: Simpson's rule, exact for cubics.
+/// ∫ value dt by Simpson's rule, exact for cubics.
 fn area(wave: &Waveform, from: f64, to: f64) -> f64 {
     let (mut piece, mut sum) = (wave.piece_at(from), 0.0);
     while piece.start < to {
@@ -48,7 +48,7 @@ fn parabola_goes_by_constant_accelerations() {
     is(&rounded, 2.0, [2.0, 0.0, -4.0], 1e-15);
     is(&rounded, 3.25, [0.375, -1.0, 4.0 / 3.0], 1e-15);
     assert_eq!((rounded.range(), rounded.period(), rounded.has_jumps()), ((0.0, 2.0), Some(4.0), false));
-    // Its mean: two thirds of the stroke's height under the turn, a third beside it, weighted: S/3 (1 + τ/T).
+    // Mean S/3 (1 + τ/T).
     assert!(near(area(&rounded, 0.0, 4.0), 4.0 * 2.0 / 3.0 * (1.0 + 0.25), 1e-14));
     // A cusp: ½at² up to the stroke, a = 8S/T², where the rate jumps from V to -V.
     let cusp = wave(Shape::Parabola { stroke: 2.0, turn: 0.0 }, Timing::every(4.0));
@@ -71,20 +71,20 @@ fn trapezoid_rises_holds_falls_and_rests() {
     }
     assert_eq!((whole.range(), whole.is_straight(), whole.has_jumps()), ((-3.0, 0.0), true, false));
     assert!(near(area(&whole, 0.0, 5.0), -3.0 * (0.5 + 2.0 + 0.25), 1e-14));
-    // Without rise, hold and rest it is a sawtooth that falls.
+    // Without rise, hold and rest it is a falling sawtooth.
     let saw = wave(
         Shape::Trapezoid { stroke: 1.0, rise: 0.0, hold: 0.0, fall: 2.0 },
         Timing { cycles: Some(2.0), ..Timing::every(2.0) },
     );
     assert_eq!((corners(&saw, 0.0, 2), saw.has_jumps()), (vec![2.0, 4.0], true));
     assert_eq!((value(&saw, 0.0), value(&saw, 1.5), value(&saw, 2.0)), (1.0, 0.25, 1.0));
-    // Durations whose sum is the period but for its rounding.
+    // Durations whose sum is the period up to rounding.
     let tenths = Shape::Trapezoid { stroke: 1.0, rise: 0.1, hold: 0.1, fall: 0.1 };
     let full = wave(tenths, Timing::every(0.3));
     assert!(corners(&full, 0.0, 6).windows(2).all(|pair| pair[1] - pair[0] > 0.09));
 }
 
-/// No rise is the limit of a short one: at rest, before and after as between its periods.
+/// A trapezoid without a rise is the limit of one with a short rise.
 #[test]
 fn a_trapezoid_that_jumps_is_the_limit_of_one_that_rises() {
     let shape = |rise| Shape::Trapezoid { stroke: 2.0, rise, hold: 0.25, fall: 0.5 };
@@ -102,13 +102,13 @@ fn a_trapezoid_that_jumps_is_the_limit_of_one_that_rises() {
     for (kind, of) in kinds.iter().enumerate() {
         let (jumps, rises) = (wave(of(0.0), timing), wave(of(1e-9), timing));
         for i in 0..700 {
-            // Between all corners.
+            // Between corners.
             let t = 0.01 * f64::from(i) + 0.005;
             let (got, expected) = (value(&jumps, t), value(&rises, t));
             assert!(near(got, expected, 1e-8), "{kind} {t}: {got} {expected}");
         }
         assert_eq!((value(&jumps, 0.0), value(&jumps, 9.0), jumps.range()), (0.0, 0.0, (0.0, 2.0)));
-        // Its jumps are told where it makes them: none at an end that it reaches by itself.
+        // Jumps are reported where they occur.
         let mut piece = jumps.piece_at(0.0);
         while piece.end < f64::INFINITY {
             let next = jumps.after(&piece);
@@ -133,19 +133,19 @@ fn s_curve_has_one_jerk_on_each_way() {
     is(&wave, 3.875, [-speed * 0.125 / 6.0, 0.5 * speed, -top], 1e-13);
     let down = [3.0, 3.125, 3.25, 3.75, 3.875, 4.0];
     assert_eq!(corners(&wave, 2.9, 6), down);
-    // Rates and accelerations go on through every corner.
+    // Rates and accelerations are continuous at corners.
     for pair in corners(&wave, 0.0, 40).windows(2) {
         let (left, right) = (wave.piece_at(0.5 * (pair[0] + pair[1])), wave.piece_at(pair[1]));
         let (left, right) = (wave.sample(&left, pair[1]), wave.sample(&right, pair[1]));
         assert!(near(left.rate, right.rate, 1e-13) && near(left.acceleration, right.acceleration, 1e-11));
     }
-    // Phases that fill both ways leave no time at constant speed.
+    // Phases that fill both strokes leave no time at constant velocity.
     let full = super::wave(Shape::SCurve { stroke: 1.0, flyback: 2.0, rounding: 0.5 }, Timing::every(4.0));
     assert_eq!(corners(&full, 0.0, 4), [0.5, 1.0, 1.5, 2.0]);
     is(&full, 1.0, [0.5, 1.0, 0.0], 1e-14);
 }
 
-/// Over a ramp that is as long as it takes, the flyback of 1 asks for 2 per s and gets 1.
+/// The requested flyback rate is 2 per s, the limit is 1.
 #[test]
 fn a_limited_sawtooth_meets_what_is_asked_for_on_its_way_up() {
     // S = 2, T = 5, τ = 1, r = 1: s = 1/2, u = (2 - 1)/(1 + 1/2) = 2/3, value there 1/3.
@@ -160,14 +160,14 @@ fn a_limited_sawtooth_meets_what_is_asked_for_on_its_way_up() {
     is(&limited, 5.5, [0.5, -1.0, 0.0], 1e-15);
     is(&limited, 6.0, [0.5, 0.5, 0.0], 1e-15);
     assert_eq!((limited.range(), limited.period(), limited.has_jumps()), ((0.0, 2.0), Some(5.0), false));
-    // From the first top on it is a sawtooth of what is left of the stroke, with the flyback that this takes.
+    // After the first top it is a sawtooth with a reduced stroke and a longer flyback.
     let low = 1.0 / 3.0;
     let plain = wave(Shape::Sawtooth { stroke: 2.0 - low, flyback: 5.0 / 3.0 }, Timing::every(5.0));
     for i in 0..200 {
         let t = 4.0 + 0.1 * f64::from(i);
         assert!(near(value(&limited, t), low + value(&plain, t - 2.0 / 3.0), 1e-14), "{t}");
     }
-    // A jump that is limited; a limit that is none; and one that the way up needs.
+    // A limited jump; a limit without effect; a limit equal to the rise.
     let jump = wave(Shape::Limited { stroke: -2.0, flyback: 0.0, rate: 4.0 }, Timing::every(5.0));
     assert!(!jump.has_jumps() && near(value(&jump, 5.25), -1.0, 1e-14));
     let easy = wave(Shape::Limited { stroke: 2.0, flyback: 1.0, rate: 2.0 }, Timing::every(5.0));
@@ -178,11 +178,11 @@ fn a_limited_sawtooth_meets_what_is_asked_for_on_its_way_up() {
     assert_eq!(slow.unwrap_err(), WaveformError::Rate { least: 0.5, got: 0.4 });
 }
 
-/// Before its first top it is the ramp alone, wherever it stops: that the late way back would still last then makes none.
+/// Before its first top it is a ramp, wherever it stops.
 #[test]
 fn a_limited_sawtooth_that_stops_early_has_only_risen() {
     for delay in [0.0, 3.0, 1e3] {
-        // The late way back of the period before would end at 2/3.
+        // A delayed return of the previous period would end at 2/3.
         for stop in [0.25, 0.5, 2.0 / 3.0, 1.0, 3.5] {
             let timing = Timing { delay, cycles: Some(stop / 5.0), ..Timing::every(5.0) };
             let short = wave(Shape::Limited { stroke: 2.0, flyback: 1.0, rate: 1.0 }, timing);
@@ -199,7 +199,7 @@ fn a_limited_sawtooth_that_stops_early_has_only_risen() {
             let last = short.after(&short.piece_at(delay));
             assert_eq!((last.end, short.jump_after(&last)), (f64::INFINITY, 0.0));
         }
-        // A late way back so short that its end rounds to the start.
+        // A delayed return so short that its end rounds to the start.
         let timing = Timing { delay, ..Timing::every(5.0) };
         let hair = wave(Shape::Limited { stroke: 2.0, flyback: 1.0, rate: 2.0 * (1.0 - 1e-15) }, timing);
         assert!(
@@ -215,7 +215,7 @@ fn chirp_sweeps_its_frequency_linearly() {
     let timing = Timing { delay: 1.0, ..Timing::every(1.0) };
     let chirp = wave(Shape::Chirp(sweep), timing);
     assert_eq!((chirp.window(), chirp.period(), chirp.range()), ((1.0, 3.0), None, (3.0, 7.0)));
-    // Cubic pieces bound no step.
+    // Cubic pieces do not limit steps.
     let parabola = wave(Shape::Parabola { stroke: 1.0, turn: 0.125 }, Timing::every(1.0));
     assert_eq!((parabola.resolution(), parabola.quickest()), (f64::INFINITY, 0.125));
     assert_eq!((value(&chirp, 0.0), chirp.resolution()), (5.0, 0.25 / 3.0));
@@ -227,15 +227,15 @@ fn chirp_sweeps_its_frequency_linearly() {
         2.0 * (TAU * angle.cos() - omega * omega * angle.sin()),
     ];
     is(&chirp, 1.0 + s, sample, 1e-12);
-    // Crossings of the mean lie where the turns are halves: s = √(1 + n) - 1.
+    // The mean is crossed at half turns: s = √(1 + n) - 1.
     for n in 1..8 {
         assert!(near(value(&chirp, f64::from(1 + n).sqrt()), 5.0, 1e-13), "{n}");
     }
-    // Held after, without a jump.
+    // Constant afterwards, without a jump.
     let last = chirp.piece_at(2.9);
     assert_eq!((last.end, chirp.jump_after(&last)), (3.0, 0.0));
     assert!(near(value(&chirp, 9.0), 5.0, 1e-13));
-    // Of the same frequency at both ends it is a sine; less than a quarter turn has its extremes at its ends.
+    // With equal frequencies it is a sine; below a quarter of a turn its extremes are at its ends.
     let even = Sweep { from: 3.0, phase: 0.4, ..sweep };
     let (even, sine) = (
         wave(Shape::Chirp(even), Timing::every(1.0)),
@@ -268,7 +268,7 @@ fn step_jumps_once() {
     );
 }
 
-/// A pattern of one run has the bits of its shape; one of runs and rests those of a table of the same corners, but for rounding.
+/// A pattern of one run has the bits of its shape; one of runs and rests agrees with a table of the same corners.
 #[test]
 fn a_pattern_is_its_shape_run_by_run() {
     let saw = || Shape::Sawtooth { stroke: 1.0, flyback: 0.25 };
@@ -292,7 +292,7 @@ fn a_pattern_is_its_shape_run_by_run() {
         assert!(near(value(&whole, t + 7.5), value(&table, t), 1e-13), "{t}");
     }
     assert_eq!(corners(&whole, 0.0, 8), [1.75, 2.0, 3.75, 4.0, 5.5, 5.75, 7.5, 9.25]);
-    // A phase of a turn and a half is one of three seconds: it counts in cycles of the shape.
+    // The phase counts in cycles of the shape.
     let ahead = pattern(parts.clone(), Timing { phase: 3.0 * PI, ..Timing::every(2.0) });
     assert!((0..70).all(|i| near(
         value(&ahead, 0.1 * f64::from(i)),
@@ -320,7 +320,7 @@ fn a_burst_of_sines_begins_anew_each_time() {
             1e-9,
         );
     }
-    // The limit of the rate from the left at its end is that of the sine, and its value that of the rest, to the bit.
+    // At the end of a run the rate from the left is that of the sine; the value is exactly that of the rest.
     let run = burst.piece_at(0.2);
     assert_eq!((burst.jump_after(&run), burst.is_straight()), (0.0, false));
     assert!(near(burst.sample(&run, run.end).rate, 40.0 * PI, 1e-10));
@@ -347,7 +347,7 @@ fn patterns_that_make_no_sense_are_refused_by_name() {
     assert_eq!(refuse(Shape::Table { points: vec![(0.0, 1.0), (1.0, 2.0)] }, &[run]), WaveformError::Carrier);
 }
 
-/// Rates by the formula of Fritsch and Butland, worked out by hand: slopes 1, 2 and -1 over 1, 2 and 1 s.
+/// Rates by the formula of Fritsch and Butland for slopes 1, 2 and -1 over 1, 2 and 1 s.
 #[test]
 fn a_curve_is_its_cubics() {
     let points = vec![(0.0, 0.0), (1.0, 1.0), (3.0, 5.0), (4.0, 4.0)];
@@ -368,11 +368,11 @@ fn a_curve_is_its_cubics() {
     }
     assert_eq!((corners(&curve, 10.0, 3), curve.range()), (vec![11.0, 13.0, 14.0], (0.0, 5.0)));
     assert_eq!((value(&curve, 0.0), value(&curve, 99.0), curve.period()), (0.0, 4.0, None));
-    // Straight and once it is the table.
+    // Linear and once it is the table.
     let table = wave(Shape::Table { points: points.clone() }, Timing::every(1.0));
     let straight = wave(shape(false, false), Timing::every(1.0));
     assert!((0..90).all(|i| value(&straight, 0.05 * f64::from(i)) == value(&table, 0.05 * f64::from(i))));
-    // Repeated it jumps where it does not close, and counts from its first point.
+    // Repeated without closing it jumps; its period begins at the first point.
     let again = wave(shape(false, true), Timing::every(1.0));
     assert_eq!(
         (again.period(), again.has_jumps(), value(&again, 4.0), value(&again, 9.0)),
@@ -380,7 +380,7 @@ fn a_curve_is_its_cubics() {
     );
 }
 
-/// A smooth curve through a sine that closes has the sine's rates as far as its points tell, also over its seam.
+/// A smooth closed curve through a sine has continuous rates at its seam.
 #[test]
 fn a_curve_that_closes_has_no_seam() {
     let mut points: Vec<(f64, f64)> =
@@ -395,7 +395,7 @@ fn a_curve_that_closes_has_no_seam() {
     assert_eq!((wave.period(), wave.window().0, wave.has_jumps()), (Some(1.0), 2.0, false));
     for i in 0..500 {
         let t = 2.0 + 0.00731 * f64::from(i);
-        // Fritsch and Butland is of the second order at extremes.
+        // The method has second order at extremes.
         assert!(near(value(&wave, t), (TAU * t).cos(), 2e-3), "{t}");
     }
     let seam = wave.piece_at(2.99);
@@ -404,7 +404,7 @@ fn a_curve_that_closes_has_no_seam() {
     assert!(wave.range() == (-1.0, 1.0));
 }
 
-/// No overshoot: the value stays between those of the two points beside it, whatever they are.
+/// The value stays between those of the adjacent points.
 #[test]
 fn smooth_curves_keep_the_shape_of_their_points() {
     let mut random = Random(23);
@@ -413,7 +413,7 @@ fn smooth_curves_keep_the_shape_of_their_points() {
         let points: Vec<(f64, f64)> = (0..12)
             .map(|_| {
                 t += 10.0_f64.powf(random.between(-3.0, 1.0));
-                // Plateaus as well.
+                // Includes plateaus.
                 (t, (random.between(-1.0, 1.0) * 4.0).round() * random.between(0.5, 1.0))
             })
             .collect();
@@ -451,7 +451,7 @@ fn what_leaves_no_time_is_refused_by_name() {
     assert_eq!(refuse(Shape::Step { height: f64::NAN, at: 0.0 }), "height");
 }
 
-/// What a state keeps of a straight piece has not grown by what others need.
+/// A linear piece is no larger than its own data requires.
 #[test]
 fn a_piece_is_as_small_as_its_straight_way() {
     use crate::waveform::shape::Law;

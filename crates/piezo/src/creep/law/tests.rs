@@ -1,6 +1,6 @@
 use super::Creep;
 
-/// The law itself over five decades, at times between those of the fit.
+/// Compares the response with the logarithm over five decades, at times between the fit points.
 #[test]
 fn five_decades_of_the_logarithm_are_within_a_thousandth_of_the_stroke() {
     for (gamma, least) in [(0.01, 1e-4), (0.02, 2e-4)] {
@@ -12,12 +12,12 @@ fn five_decades_of_the_logarithm_are_within_a_thousandth_of_the_stroke() {
             worst = worst.max((creep.response(t) - law).abs());
         }
         assert!(worst < 1e-3 && worst < least, "{worst}");
-        // What it says of itself, at places of its own.
+        // The reported error is that of the fit points.
         assert!((worst - creep.misfit()).abs() < 0.05 * creep.misfit(), "{worst} {}", creep.misfit());
     }
 }
 
-/// Any number of decades, any unit of time; all parts creep the same way, and outside the response stays bounded.
+/// The fit works for any number of decades and unit of time. All weights are positive and the response is bounded.
 #[test]
 fn every_range_is_fitted() {
     for decades in 1..=Creep::LONGEST {

@@ -1,22 +1,22 @@
 use super::Plays;
 
-/// A law with uneven thresholds and weights of one unit.
+/// Model with uneven thresholds and weights.
 fn uneven() -> Plays {
     Plays::new(0.7, vec![0.05, 0.2, 0.21, 0.6, 1.1], vec![0.1, 0.05, 0.3, 0.02, 0.4]).unwrap()
 }
 
-/// Output along a walk from the untouched state, each stretch in one go.
+/// Outputs at the reversals of an input that starts from 0.
 fn walk(plays: &Plays, turns: &[f64]) -> Vec<f64> {
     let mut places = plays.start(0.0);
     turns.iter().map(|&v| (plays.drag(&mut places, v), value(plays, &places, v)).1).collect()
 }
 
-/// The definition: w₀ v + Σ wᵢ pᵢ.
+/// Output by definition: w₀ v + Σ wᵢ pᵢ.
 fn value(plays: &Plays, places: &[f64], v: f64) -> f64 {
     plays.direct() * v + plays.weights().iter().zip(places).map(|(w, p)| w * p).sum::<f64>()
 }
 
-/// From a reversal at v₁ the output goes by 2φ(|v - v₁|/2), with φ summed from its definition here.
+/// After a reversal at v₁ the output changes by 2φ(|v - v₁|/2), with φ computed from its definition.
 #[test]
 fn branches_are_the_initial_curve_twice_as_large() {
     let plays = uneven();
@@ -40,20 +40,20 @@ fn loops_close_and_are_forgotten() {
     assert_eq!(y[1].to_bits(), y[3].to_bits(), "a minor loop closes");
     assert_eq!(y[0].to_bits(), y[4].to_bits(), "and so does the large one, as if the minor one had not been");
     assert_eq!(y[0].to_bits(), y[6].to_bits());
-    // Wiping out: what is beyond the largest turn does not know of the others.
+    // Wiping-out: an input beyond the largest reversal erases all others.
     let plain = walk(&plays, &[2.3]);
     let worn = walk(&plays, &[1.7, -0.4, 0.9, -0.2, 0.5, 2.3]);
     assert!((plain[0] - worn[5]).abs() < 1e-15 * 4.0);
 }
 
-/// The same minor loop at three places of the large one, up and down.
+/// Congruency: the minor loop has the same shape at three positions in the large loop.
 #[test]
 fn equal_minor_loops_are_equal_wherever_they_lie() {
     let plays = uneven();
     let inside = |way_there: &[f64]| {
         let mut places = plays.start(0.0);
         way_there.iter().for_each(|&v| plays.drag(&mut places, v));
-        // Once round, then from the lower end up and down again.
+        // One cycle closes the loop; then the path from the lower end to the upper one and back is recorded.
         [0.3, -0.5].iter().for_each(|&v| plays.drag(&mut places, v));
         let from = value(&plays, &places, -0.5);
         let path: Vec<f64> = (1..=32)
@@ -71,7 +71,7 @@ fn equal_minor_loops_are_equal_wherever_they_lie() {
     }
 }
 
-/// The area under a polygon through many places of the loop against the closed form; the corners of a loop lie at -X/2 + 2rᵢ on the way up.
+/// Compares the area of a polygon through the corners of the loop with the closed form. The rising corners are at -X/2 + 2rᵢ.
 #[test]
 fn the_area_of_a_loop_is_that_of_its_closed_form() {
     let plays = uneven();
@@ -95,7 +95,7 @@ fn the_area_of_a_loop_is_that_of_its_closed_form() {
     }
 }
 
-/// 12 % asked, 12 % measured on the loop as it is walked; the stroke is kept; smaller loops are narrower (Rayleigh).
+/// The loop has the specified width, the stroke is kept, and smaller loops are narrower (Rayleigh's law).
 #[test]
 fn a_width_that_is_asked_for_is_measured() {
     for (width, count) in [(0.12, 10), (0.12, 7), (0.02, 1), (0.3, 64), (0.49, 2)] {
@@ -114,14 +114,14 @@ fn a_width_that_is_asked_for_is_measured() {
         assert!((plays.width(stroke) - widest).abs() < 1e-12 * stroke);
         if count >= 10 {
             let half = plays.width(0.5 * stroke) / plays.stroke(0.5 * stroke);
-            // Of a constant density: a quarter of the width at S, over the stroke (1 - width)S/2.
+            // Constant density of thresholds: a quarter of the width at S, over the stroke (1 - width)S/2.
             let dense = 0.5 * width / (1.0 - width);
             assert!((half - dense).abs() < 0.05 * dense, "{half} {dense}");
         }
     }
 }
 
-/// What goes through the inverse and then through the law comes out as it went in, and the other way round.
+/// Inverse and model in series return the input, in both orders.
 #[test]
 fn the_inverse_undoes_the_law() {
     for plays in [uneven(), Plays::of_loop(0.15, 2.0, 10).unwrap()] {
@@ -129,7 +129,7 @@ fn the_inverse_undoes_the_law() {
         let (mut places, mut inverted) = (plays.start(0.0), inverse.start(0.0));
         let mut v = 0.0_f64;
         for k in 0..4000 {
-            // A walk that never repeats.
+            // The input never repeats.
             v += 0.11 * (0.37 * f64::from(k)).sin() + 0.05 * (0.051 * f64::from(k)).cos();
             inverse.drag(&mut inverted, v);
             let asked = value(&inverse, &inverted, v);
@@ -150,21 +150,22 @@ fn laws_without_an_inverse_are_refused() {
     let said = |plays: Result<Plays, super::PlaysError>| plays.unwrap_err().to_string();
     assert!(
         said(Plays::new(1.0, vec![1.0, 0.5], vec![0.1, 0.1]))
-            .contains("ascend from above 0, got 0.5 at place 1")
+            .contains("ascending thresholds above 0, got 0.5 at index 1")
     );
-    assert!(said(Plays::new(1.0, vec![0.0], vec![0.1])).contains("got 0 at place 0"));
+    assert!(said(Plays::new(1.0, vec![0.0], vec![0.1])).contains("got 0 at index 0"));
     assert!(said(Plays::new(1.0, vec![1.0], vec![])).contains("1 thresholds, got 0"));
-    assert!(said(Plays::new(0.3, vec![1.0, 2.0], vec![0.1, -0.5])).contains("with the first 2 plays"));
-    assert!(said(Plays::new(0.0, vec![1.0], vec![0.1])).contains("with the first 0 plays"));
+    assert!(said(Plays::new(0.3, vec![1.0, 2.0], vec![0.1, -0.5])).contains("for the first 2 plays"));
+    assert!(said(Plays::new(0.0, vec![1.0], vec![0.1])).contains("for the first 0 plays"));
     for width in [0.0, 0.5, 0.7, f64::NAN] {
-        assert!(said(Plays::of_loop(width, 1.0, 10)).contains("narrower than half"));
+        assert!(
+            said(Plays::of_loop(width, 1.0, 10)).contains("relative width of the loop above 0 and below 0.5")
+        );
     }
     assert!(said(Plays::of_loop(0.1, 1.0, 65)).contains("1 to 64 operators, got 65"));
     assert!(said(Plays::of_loop(0.1, -1.0, 5)).contains("stroke above 0"));
 }
 
-/// Back at one end after the other one an inverse has gone further than on the straight way to either; nothing goes beyond the
-/// range, and where one end is 0 both of its ends are reached.
+/// The output stays within the range, and an input range with an end at 0 reaches both ends of the output range.
 #[test]
 fn no_walk_leaves_the_range() {
     let inverse = Plays::of_loop(0.15, 2.0, 10).unwrap().inverse();

@@ -1,4 +1,4 @@
-//! The Bouc–Wen block against closed forms for n = 1, and against an integration of its own for n = 2.
+//! Tests of the Bouc–Wen block against closed forms for n = 1 and an independent integration for other n.
 
 use super::parts::{PERIOD, SPAN, column, event, every, plan, reading, scene, shared, table, trace};
 use stickslip_drive::{Plan, Shape, Stepper, Timing, Waveform};
@@ -13,8 +13,10 @@ fn block(exponent: f64) -> Vec<stickslip_drive::scene::Named<stickslip_drive::co
     vec![shared("lag", BoucWenBlock::new(law, reading(0)))]
 }
 
-/// n = 1, z after v has gone from v₀ to v on a straight way: ζ = 1 - (1 - ζ₀)e^{-x} going up from ζ₀ ≥ 0, and from below 0 first
-/// ζ = (1 - (1 - qζ₀)e^{-qx})/q, q = 2·share - 1, x = A(v - v₀)/z_m. Going down mirrored.
+/// Closed form of z for n = 1, after a monotone change of v from v₀ to v.
+///
+/// For rising v from ζ₀ ≥ 0, ζ = 1 - (1 - ζ₀)e^{-x}. From ζ₀ < 0, first ζ = (1 - (1 - qζ₀)e^{-qx})/q up to ζ = 0. Here q = 2·share -
+/// 1 and x = A(v - v₀)/z_m. Falling v is the mirror image.
 fn exponentials(z: f64, v0: f64, v: f64) -> f64 {
     let sign = (v - v0).signum();
     let (zeta, x, q) = (sign * z / LIMIT, SLOPE * (v - v0).abs() / LIMIT, 2.0 * SHARE - 1.0);
@@ -30,7 +32,7 @@ fn exponentials(z: f64, v0: f64, v: f64) -> f64 {
         }
 }
 
-/// A triangle's turns are known: two periods of it.
+/// The reversals of a triangle are known; two periods are compared.
 #[test]
 fn exponential_branches_come_out_for_n_of_one() {
     let scene = scene(every(Shape::Triangle { stroke: SPAN }), block(1.0));
@@ -57,8 +59,7 @@ fn exponential_branches_come_out_for_n_of_one() {
     assert_eq!(kinds.iter().filter(|kind| **kind == "lag turns").count(), 3, "{kinds:?}");
 }
 
-/// z of the law as it is written down, by steps of the classical Runge–Kutta method in the phase of a sine, so short that its
-/// kinks do not matter.
+/// Integrates the Bouc–Wen equation for a sine with the Runge–Kutta method, in many steps of the phase.
 fn integrated(exponent: f64, phase: f64, steps: usize) -> f64 {
     let (beta, gamma) = (SHARE * SLOPE / LIMIT.powf(exponent), (1.0 - SHARE) * SLOPE / LIMIT.powf(exponent));
     let amplitude = 0.5 * SPAN;
@@ -96,7 +97,7 @@ fn an_integration_of_its_own_agrees_for_n_of_two() {
     }
 }
 
-/// Ten times as fast, the same loop.
+/// The model is rate-independent: a motion ten times as fast gives the same loop.
 #[test]
 fn the_time_taken_does_not_matter() {
     let rows = |period: f64| {
@@ -113,7 +114,7 @@ fn the_time_taken_does_not_matter() {
     }
 }
 
-/// A jump is a straight way in no time: as on a ramp there.
+/// A jump of the input has the same effect as a fast ramp.
 #[test]
 fn a_jump_goes_the_straight_way() {
     for exponent in [1.0, 2.0, 1.5] {

@@ -1,10 +1,10 @@
-//! Creep in a run, against the convolution of its input with the step response.
+//! Tests of creep against the convolution of the input with the step response.
 
 use super::parts::{SPAN, column, plan, reading, scene, shared, table, trace};
 use stickslip_drive::Stepper;
 use stickslip_piezo::creep::{Creep, CreepBlock};
 
-/// After a jump of the voltage and back the stroke is the sum of two responses: L₁[1 + γ lg(t/t₀)] within the decades.
+/// After a step up and down the stroke is the sum of two step responses, L₁[1 + γ lg(t/t₀)] within the decades.
 #[test]
 fn a_step_creeps_by_the_logarithm_and_back() {
     let creep = Creep::new(0.02, 1e-5, 3).unwrap();
@@ -25,7 +25,7 @@ fn a_step_creeps_by_the_logarithm_and_back() {
     assert!(log < 2e-4, "{log}");
 }
 
-/// A ramp: the integral of the response, ∫₀ᵗ L(s) ds/T = (a t + Σ gᵢ[t - τᵢ(1 - e^{-t/τᵢ})])/T.
+/// The response to a ramp is the integral of the step response, ∫₀ᵗ L(s) ds/T = (a t + Σ gᵢ[t - τᵢ(1 - e^{-t/τᵢ})])/T.
 #[test]
 fn a_ramp_is_the_integral_of_steps() {
     let creep = Creep::new(0.015, 1e-4, 2).unwrap();

@@ -1,4 +1,4 @@
-//! Inverse compensation in a run: what goes through the inverses and then through the laws comes out as it went in.
+//! Test of inverse compensation: inverses and models in series return the input.
 
 use super::parts::{PERIOD, SPAN, column, event, every, reading, scene, shared, table, trace};
 use stickslip_drive::component::SharedBlock;
@@ -15,7 +15,7 @@ fn creep() -> Creep {
     Creep::new(0.02, 1e-4, 3).unwrap()
 }
 
-/// The chain in the order of the stack, what undoes it before it in the reverse order.
+/// Inverses in reverse order, followed by the models of the stack.
 fn chain() -> Vec<Named<SharedBlock>> {
     vec![
         shared("uncreep", CreepBlock::inverse(creep(), reading(0))),

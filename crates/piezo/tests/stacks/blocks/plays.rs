@@ -1,4 +1,4 @@
-//! The Prandtl–Ishlinskii block against plays that are dragged along a finely walked input.
+//! Tests of the Prandtl–Ishlinskii block against play operators that follow a finely sampled input.
 
 use super::parts::{PERIOD, SPAN, column, event, every, plan, reading, scene, shared, table, trace};
 use crate::parts;
@@ -10,7 +10,7 @@ fn law() -> Plays {
     Plays::of_loop(0.15, SPAN, 10).unwrap()
 }
 
-/// Plays by their definition: p keeps its place unless v pulls it along.
+/// Play operators by definition: p changes only when v forces it to.
 struct Walked {
     slots: Vec<(f64, f64, f64)>,
     direct: f64,
@@ -36,7 +36,7 @@ impl Walked {
 
 const TAU: f64 = std::f64::consts::TAU;
 
-/// Two harmonics: a large loop with smaller ones in it, and bends everywhere.
+/// Two harmonics: a large loop with minor loops.
 fn two() -> Waveform {
     let term = |amplitude, order, phase| Harmonic { amplitude, order, phase };
     every(Shape::Harmonics { terms: vec![term(0.3 * SPAN, 1.0, 0.4), term(0.25 * SPAN, 5.0, 1.0)] })
@@ -52,7 +52,7 @@ fn two_rate(t: f64) -> f64 {
     0.3 * (phase + 0.4).cos() + 1.25 * (5.0 * phase + 1.0).cos()
 }
 
-/// The input from one time to another, by many moments and its turns.
+/// Samples of the input between two times, including its reversals.
 fn two_between(from: f64, to: f64) -> Vec<f64> {
     let count = 16;
     let place = |k: i32| from + (to - from) * f64::from(k) / f64::from(count);
@@ -72,7 +72,7 @@ fn two_between(from: f64, to: f64) -> Vec<f64> {
     way
 }
 
-/// At ten thousand moments that have nothing to do with the period.
+/// Compares the output at ten thousand times that are not related to the period.
 #[test]
 fn its_output_is_that_of_plays_walked_finely() {
     let scene = scene(two(), vec![shared("plays", PlayBlock::new(law(), reading(0)))]);
@@ -92,14 +92,13 @@ fn its_output_is_that_of_plays_walked_finely() {
     assert!(worst < 1e-12 * SPAN, "{worst}");
     let kinds: Vec<&str> = trace.events().map(|(event, _)| event.kind.name()).collect();
     let count = |name: &str| kinds.iter().filter(|kind| **kind == name).count();
-    // Ten turns in a period, and plays taken up in between.
+    // Ten reversals per period, and engaged plays in between.
     assert_eq!(count("input turns"), 30, "{kinds:?}");
     assert!(count("play taken up") > 60, "{}", count("play taken up"));
 }
 
-/// Behind a driver whose current limits let go where they did a period before: the voltage turns at the very place where the plays were
-/// left, so that one is taken up at the moment of the driver's event. That the voltage turns there was not seen, and the stroke
-/// was 30 % off at any tolerance.
+/// The block follows a driver with current limits. The voltage reverses exactly at a corner of the play model, at the time of the
+/// driver's event. The block must detect this reversal.
 #[test]
 fn it_turns_with_the_driver_where_a_play_is_taken_up() {
     const GAIN: f64 = 74.47e-9;
@@ -122,12 +121,12 @@ fn it_turns_with_the_driver_where_a_play_is_taken_up() {
         let [volts, y] = ["driver.voltage_V", "plays.stroke_m"].map(|name| column(&model, &trace, name));
         let mut walked = Walked::new(&plays);
         let off = volts.iter().zip(&y).map(|(v, y)| (walked.to(GAIN * v) - y).abs()).fold(0.0, f64::max);
-        // Extremes lie between rows.
+        // Extreme values lie between rows.
         assert!(off < 1e-3 * 2.4e-6, "{operators} operators: {off:e}");
     }
 }
 
-/// The velocity of the foot is the slope of the branch times that of the input: between events, central differences.
+/// The velocity of the foot is the slope of the branch times the rate of the input; compared with central differences between events.
 #[test]
 fn its_rate_is_that_of_the_branch() {
     let scene = scene(two(), vec![shared("plays", PlayBlock::new(law(), reading(0)))]);
@@ -137,11 +136,11 @@ fn its_rate_is_that_of_the_branch() {
     let mut off: Vec<f64> =
         (1..y.len() - 1).map(|k| ((y[k + 1] - y[k - 1]) / (2.0 * step) - v[k]).abs()).collect();
     off.sort_by(f64::total_cmp);
-    // All but the moments next to one of about fifty events.
+    // Samples next to one of about fifty events are excluded.
     assert!(off[off.len() - 200] < 1e-5 * SPAN / PERIOD, "{}", off[off.len() - 200]);
 }
 
-/// Corners, jumps up and down, a dwell after each: memory goes the straight way in no time.
+/// The block follows corners, jumps and rests of the input. A jump is a monotone change in zero time.
 #[test]
 fn it_follows_corners_and_jumps() {
     let points = [
@@ -179,13 +178,13 @@ fn it_follows_corners_and_jumps() {
             };
             worst = worst.max((y - walked.to(1e-6 * v)).abs());
         }
-        // Fixed steps end at corners, and take a play up at their ends: a step's way at most, at the fastest 9 μm/s · 1 μs.
+        // Fixed steps end at corners and engage plays at their ends. The error is at most the change in one step, 9 μm/s · 1 μs.
         let allowed = if matches!(stepper, Stepper::Event { .. }) { 1e-12 } else { 1e-3 };
         assert!(worst < allowed * SPAN, "{stepper:?}: {worst}");
     }
 }
 
-/// A run that is put down in the middle of a loop, as bytes, and taken up again goes on to the same bits.
+/// A run that is stored as bytes in the middle of a loop and resumed has identical results.
 #[test]
 fn a_run_that_is_resumed_in_a_loop_is_the_same() {
     let scene = scene(two(), vec![shared("plays", PlayBlock::new(law(), reading(0)))]);
@@ -208,7 +207,7 @@ fn a_run_that_is_resumed_in_a_loop_is_the_same() {
     }
 }
 
-/// At fixed steps laws change at their ends: the error falls with the step.
+/// With fixed steps, modes change at the ends of steps, and the error decreases with the step size.
 #[test]
 fn fixed_steps_come_near() {
     let scene = scene(two(), vec![shared("plays", PlayBlock::new(law(), reading(0)))]);
@@ -225,13 +224,13 @@ fn fixed_steps_come_near() {
     assert!(coarse < 3e-3 * SPAN && fine < 0.2 * coarse, "{coarse} {fine}");
 }
 
-/// CRC-32 as in Ethernet, bit by bit.
+/// CRC-32 of Ethernet, bit by bit.
 fn checksum(bytes: &[u8]) -> u32 {
     let step = |sum: u32| if sum & 1 == 1 { 0xEDB8_8320 ^ (sum >> 1) } else { sum >> 1 };
     !bytes.iter().fold(u32::MAX, |sum, byte| (0..8).fold(sum ^ u32::from(*byte), |sum, _| step(sum)))
 }
 
-/// Bytes of as many plays as there are not, or of a law beyond all, are no state.
+/// A state with a wrong number of plays or an invalid mode is rejected.
 #[test]
 fn a_forged_state_is_refused() {
     const KEY: [u8; 32] = [7; 32];
@@ -246,7 +245,7 @@ fn a_forged_state_is_refused() {
     let bytes = state.to_bytes(&model, &KEY);
     assert!(State::from_bytes(&model, &KEY, &bytes).unwrap() == state);
     assert!(matches!(State::from_bytes(&other, &KEY, &bytes), Err(BytesError::Unfit)));
-    // Before its memory of ten numbers stands the law.
+    // The mode precedes the memory of ten numbers.
     let word = |place: usize| u64::from_le_bytes(bytes[place..place + 8].try_into().unwrap());
     let end = bytes.len() - 8;
     let laws: Vec<usize> =

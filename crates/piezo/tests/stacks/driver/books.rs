@@ -1,4 +1,4 @@
-//! The driver's own books, what it counts, and runs that stop where it is saturated.
+//! Tests of the driver's energy balance and totals, and of runs that are interrupted during a current limit.
 
 use super::parts::{FARADS, GAIN, event, every, ideal, low, ran, scene, table};
 use std::f64::consts::TAU;
@@ -16,7 +16,7 @@ fn slow() -> Spec {
     Spec { current: Some((0.2, 0.2)), ..ideal() }
 }
 
-/// source - lost = ½CV² less what it was, whatever limits.
+/// source - lost is the change of ½CV², with and without limits.
 #[test]
 fn source_store_and_loss_add_up() {
     let filtered = Spec { current: Some((0.2, 0.3)), resistance: Some(20.0), ..low(2e4, 0.6) };
@@ -30,7 +30,7 @@ fn source_store_and_loss_add_up() {
         let open = open.fold(0.0, |most: f64, x| most.max(x.abs()));
         assert!(through > 0.5 * FARADS * 90.0_f64.powi(2), "{spec:?}: {through}");
         assert!(open < 1e-8 * through, "{spec:?}: {open} of {through}");
-        // The mechanical side is books of its own.
+        // The mechanical energy balance is separate.
         let [error, input] = ["error", "input"].map(|name| ran.column(&format!("energy.{name}_J")));
         let through = input.iter().fold(0.0, |most: f64, x| most.max(x.abs()));
         let open = error.iter().fold(0.0, |most: f64, x| most.max(x.abs()));
@@ -38,7 +38,7 @@ fn source_store_and_loss_add_up() {
     }
 }
 
-/// A step of 100 V through R from an ideal source: it gives C·V², half is stored, half lost.
+/// For a step of 100 V through R the source supplies C·V²; half is stored, half lost.
 #[test]
 fn half_of_what_a_step_takes_is_lost() {
     let step = table(&[(0.0, 0.0), (1.0, 0.0), (1.0, 100.0), (99.0, 100.0)]);
@@ -50,7 +50,7 @@ fn half_of_what_a_step_takes_is_lost() {
     assert!((last("stack.lost_J") / whole - 0.5).abs() < 1e-9);
 }
 
-/// Taken up after any number of steps, among them some while the voltage falls at its limit: the same bits.
+/// A run resumed after any number of steps has identical bits, also if it was interrupted during a current limit.
 #[test]
 fn a_run_taken_up_in_saturation_goes_on_to_the_same_bits() {
     let frames = Stepper::Frames { length: 7e-6, accuracy: 1e-3 };
@@ -70,7 +70,7 @@ fn a_run_taken_up_in_saturation_goes_on_to_the_same_bits() {
             assert!(matches!(first.approach(&mut ()), Err(RunError::TooManySteps { .. })));
             let bytes = first.state().to_bytes(&model, &KEY);
             let state = State::from_bytes(&model, &KEY, &bytes).unwrap();
-            // From 0.98 ms to 1.22 ms, and a period later.
+            // The voltage falls from 0.98 ms to 1.22 ms, and again one period later.
             falling += u32::from(
                 (0.98e-3..1.2e-3)
                     .contains(&(state.time() % 1e-3 + if state.time() % 1e-3 < 0.5e-3 { 1e-3 } else { 0.0 })),
@@ -83,8 +83,8 @@ fn a_run_taken_up_in_saturation_goes_on_to_the_same_bits() {
     assert!(falling > 5, "{falling}");
 }
 
-/// A window alone passes jumps on: from 0 V to 80 V of 100 V commanded and down to 20 V the source gives ½C(V₂² - V₁²), and no
-/// current is told of a moment.
+/// A driver with a window only transmits jumps: from 0 V to the limit of 80 V and down to 20 V. The source supplies ½C(V₂² - V₁²).
+/// The instantaneous current is not reported.
 #[test]
 fn a_jump_that_is_passed_on_is_in_the_books() {
     let step = table(&[(0.0, 0.0), (1.0, 0.0), (1.0, 100.0), (3.0, 100.0), (3.0, 20.0), (99.0, 20.0)]);
@@ -93,7 +93,7 @@ fn a_jump_that_is_passed_on_is_in_the_books() {
         let ran = ran(&scene(step.clone(), spec), &super::parts::plan(stepper, 4e-3), 0.5e-3);
         let source = ran.column("stack.source_J");
         for ((t, volts), source) in ran.volts().into_iter().zip(source) {
-            // A row at the jump itself may stand on either side.
+            // A row at the time of the jump may have either value.
             if t != 1e-3 && t != 3e-3 {
                 let at = if t < 1e-3 {
                     0.0
@@ -110,10 +110,8 @@ fn a_jump_that_is_passed_on_is_in_the_books() {
     }
 }
 
-/// A saw behind a resistance: V = f - gRC + Ke^{-t/RC} on a flank of slope g turns at t = RC ln(K/gRC), so that the way of V and what
-/// the source gives until it takes back have closed forms, as has the largest current.
-///
-/// Both were told as if the current went straight to where it is at the end of a step: 2 % off at 1e-4, 1e-3 at 1e-8.
+/// Sawtooth with a resistance: on a flank of slope g, V = f - gRC + Ke^{-t/RC} reverses at t = RC ln(K/gRC). Closed forms follow for
+/// the travel of V, the energy drawn and the largest current.
 #[test]
 fn what_flows_back_within_a_step_is_told_apart() {
     const PERIODS: usize = 5;
@@ -147,7 +145,7 @@ fn what_flows_back_within_a_step_is_told_apart() {
     }
 }
 
-/// Right after a jump of the command V/R flows, or what the limit lets.
+/// Immediately after a jump of the command the current is V/R, or the current limit.
 #[test]
 fn after_a_jump_the_current_is_that_of_the_resistance() {
     for (resistance, limit, peak) in
@@ -163,7 +161,7 @@ fn after_a_jump_the_current_is_that_of_the_resistance() {
     }
 }
 
-/// A voltage that follows a sine draws at most Câω, and 4Câ a period.
+/// A voltage that follows a sine has the largest current Câω and the charge 4Câ per period.
 #[test]
 fn a_sine_draws_by_its_capacitance() {
     let sine = every(Shape::Sine { amplitude: GAIN * 50.0, phase: 0.0, offset: 0.0 });

@@ -1,11 +1,11 @@
-//! Window and current limit: what they make of a command, and when they begin and end.
+//! Tests of voltage window and current limit: voltage, and times of the events.
 
 use super::parts::{FARADS, GAIN, Ran, event, every, ideal, plan, ran, scene, table};
 use std::f64::consts::{PI, TAU};
 use stickslip_drive::{Shape, Stepper};
 use stickslip_piezo::driver::Spec;
 
-/// Events to this, s.
+/// Tolerance of event times, s.
 const MOMENT: f64 = 1e-12;
 
 fn limited(sink: f64, source: f64) -> Spec {
@@ -20,7 +20,8 @@ fn happened(ran: &Ran, expected: &[(f64, &str)]) {
     }
 }
 
-/// A sawtooth of 100 V in 0.98 ms, back in 20 µs, of which the driver makes 0.2 V/µs: it falls until it meets the next rise.
+/// Sawtooth of 100 V with a rise of 0.98 ms and a flyback of 20 µs. The driver is limited to 0.2 V/µs, so the voltage falls until it
+/// meets the next rise.
 #[test]
 fn a_flyback_too_fast_is_left_for_the_next_rise() {
     let (stroke, period, flyback, slew) = (100.0, 1e-3, 20e-6, 2e5);
@@ -47,7 +48,7 @@ fn a_flyback_too_fast_is_left_for_the_next_rise() {
     assert!(falling > 40, "{falling}");
 }
 
-/// Steps from 0 to 100 V and on to -20 V: ramps of I/C, by other currents into the stack than out of it.
+/// Steps from 0 to 100 V and to -20 V become ramps of I/C, with different currents into and out of the stack.
 #[test]
 fn a_step_becomes_a_ramp_by_the_current_there_is() {
     let step = table(&[(0.0, 0.0), (1.0, 0.0), (1.0, 100.0), (3.0, 100.0), (3.0, -20.0), (9.0, -20.0)]);
@@ -70,28 +71,29 @@ fn a_step_becomes_a_ramp_by_the_current_there_is() {
     assert!(worst < 1e-9 * 100.0, "{worst}");
 }
 
-/// Of a sine A sin ωt with Aω above the slew r the voltage lets go where Aω cos ωt = -r, and falls at r until it meets the sine.
+/// For a sine A sin ωt with Aω above the limiting rate r, the limit begins where Aω cos ωt = -r. The voltage then falls at r until it
+/// meets the sine.
 #[test]
 fn a_sine_is_left_where_it_grows_too_steep() {
     let (amplitude, omega, slew) = (50.0, TAU * 1e3, 2e5);
     let sine = every(Shape::Sine { amplitude: GAIN * amplitude, phase: 0.5 * PI, offset: 0.0 });
     let ran = ran(&scene(sine, limited(0.2, 0.2)), &event(1e-8, 2e-3), 13e-6);
-    // A cos ωt: its rate -Aω sin ωt first comes to -r at asin(r/Aω)/ω.
+    // The rate -Aω sin ωt of A cos ωt first equals -r at t = asin(r/Aω)/ω.
     let leaves = (slew / (amplitude * omega)).asin() / omega;
     let gap =
         |t: f64| amplitude * (omega * leaves).cos() - slew * (t - leaves) - amplitude * (omega * t).cos();
-    // Bisection of the crossing: below the sine after three quarters of a period at the latest.
+    // Bisection of the crossing, which is before three quarters of a period.
     let (mut low, mut high) = (0.5e-3, 0.75e-3);
     assert!(gap(low) > 0.0 && gap(high) < 0.0);
     for _ in 0..80 {
         let middle = 0.5 * (low + high);
         if gap(middle) > 0.0 { low = middle } else { high = middle }
     }
-    // There the sine rises, slower than r.
+    // At the crossing the sine rises more slowly than r.
     happened(&ran, &[(leaves, "current limit down"), (low, "current in limits")]);
 }
 
-/// A step through R with a limit: a ramp until (e - V)/R is the limit, e⁻ from there on.
+/// Step through R with a current limit: a ramp until (e - V)/R equals the limit, then an exponential.
 #[test]
 fn a_limit_ends_where_the_resistance_takes_over() {
     let (resistance, current) = (300.0, 0.1);
@@ -109,7 +111,7 @@ fn a_limit_ends_where_the_resistance_takes_over() {
     assert!(worst < 1e-9 * 100.0, "{worst}");
 }
 
-/// A triangle of ±50 V about 50 V in a window of 10 to 80 V, and a sine: cut there, at the moments of the closed form.
+/// A triangle of ±50 V about 50 V and a sine are limited to a window of 10 to 80 V. Event times have closed forms.
 #[test]
 fn a_window_cuts_its_command() {
     let spec = Spec { window: Some((10.0, 80.0)), ..ideal() };
@@ -150,7 +152,7 @@ fn a_window_cuts_its_command() {
     );
 }
 
-/// Where the command comes back into the window faster than the driver can follow, it is left at that moment.
+/// If the command returns into the window faster than the driver can follow, the current limit begins at that time.
 #[test]
 fn a_window_may_be_left_into_the_limit() {
     let spec = Spec { window: Some((0.0, 60.0)), ..limited(0.02, 0.02) };
@@ -162,7 +164,7 @@ fn a_window_may_be_left_into_the_limit() {
     );
 }
 
-/// Steps that locate nothing come to the same as they get shorter.
+/// Steps without event location converge to the same result.
 #[test]
 fn steps_without_events_agree() {
     let saw = || every(Shape::Sawtooth { stroke: GAIN * 100.0, flyback: 20e-6 });
@@ -178,8 +180,8 @@ fn steps_without_events_agree() {
     }
 }
 
-/// A sawtooth and a sine through a limit, with a resistance and without, by steps that locate nothing: no more current than there
-/// is, to rounding, and from row to row no more than the sine, Aω² = 2 kV/ms², curves in a step of 20 µs: 40 V/ms.
+/// Sawtooth and sine with a current limit, for all steppers, with and without a resistance. The current never exceeds the limit
+/// except for rounding. Between rows it may exceed the limit only by the curvature of the sine within one step.
 #[test]
 fn no_stepper_exceeds_the_current() {
     let saw = Shape::Sawtooth { stroke: GAIN * 100.0, flyback: 20e-6 };

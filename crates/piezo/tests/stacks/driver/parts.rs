@@ -1,4 +1,4 @@
-//! Scenes in which a foot follows a driver and carries a slider.
+//! Models in which a foot follows a driver and carries a slider.
 
 use crate::parts;
 pub(crate) use crate::parts::{every, named, plan};
@@ -7,11 +7,11 @@ use stickslip_drive::{Event, Model, Plan, Source, State, Stepper, Trace, Wavefor
 use stickslip_piezo::Figures;
 use stickslip_piezo::driver::{Control, Driver, Low, Spec};
 
-/// α of these stacks, m/V, and their capacitance, F.
+/// Stroke per volt α, m/V, and capacitance, F, of the stacks.
 pub(crate) const GAIN: f64 = 10e-9;
 pub(crate) const FARADS: f64 = 1e-6;
 
-/// A driver without limits.
+/// Driver without limits.
 pub(crate) fn ideal() -> Spec {
     Spec {
         capacitance: FARADS,
@@ -28,12 +28,12 @@ pub(crate) fn low(frequency: f64, ratio: f64) -> Spec {
     Spec { low: Some(Low { frequency, ratio }), ..ideal() }
 }
 
-/// Of (ms, V).
+/// Table of (ms, V).
 pub(crate) fn table(points: &[(f64, f64)]) -> Waveform {
     parts::table(points, GAIN)
 }
 
-/// The foot follows a driver.
+/// Model in which the foot follows a driver.
 pub(crate) fn scene(command: Waveform, spec: Spec) -> Scene {
     let range = command.range();
     parts::scene(command, vec![named("stack", Driver::new(spec, 0, range).shared())])
@@ -54,7 +54,7 @@ impl Ran {
         parts::column(&self.model, &self.trace, name)
     }
 
-    /// What the driver says it has done.
+    /// Results of the driver.
     pub(crate) fn figures(&self, spec: &Spec) -> Figures {
         Figures::of(self.state.block_memory(0).unwrap(), spec).unwrap()
     }
@@ -64,14 +64,14 @@ impl Ran {
         self.column("time_s").into_iter().zip(self.column("stack.voltage_V")).collect()
     }
 
-    /// The driver's own events.
+    /// Events of the driver.
     pub(crate) fn events(&self) -> Vec<(f64, &'static str)> {
         let own = |event: &Event| event.source == Source::Block(0);
         let events = self.trace.events().map(|(event, _)| *event);
         events.filter(own).map(|event| (event.t, event.kind.name())).collect()
     }
 
-    /// Farthest of the voltages from a closed form.
+    /// Largest difference of the voltages from a closed form.
     pub(crate) fn worst(&self, exact: impl Fn(f64) -> f64) -> f64 {
         let misses = self.volts().into_iter().map(|(t, volts)| (volts - exact(t)).abs());
         misses.fold(0.0, f64::max)

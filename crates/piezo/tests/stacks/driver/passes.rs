@@ -1,20 +1,20 @@
-//! Resistance and bandwidth: step and ramp responses.
+//! Tests of resistance and bandwidth: step and ramp responses.
 
 use super::parts::{FARADS, GAIN, event, every, ideal, low, ran, scene, table};
 use std::f64::consts::{SQRT_2, TAU};
 use stickslip_drive::{Method, Shape};
 use stickslip_piezo::driver::Spec;
 
-/// 100 V from 1 ms on.
+/// Step to 100 V at 1 ms.
 const STEP: &[(f64, f64)] = &[(0.0, 0.0), (1.0, 0.0), (1.0, 100.0), (9.0, 100.0)];
-/// 10 V/ms.
+/// Ramp of 10 V/ms.
 const RAMP: &[(f64, f64)] = &[(0.0, 0.0), (10.0, 100.0)];
 
 fn through(resistance: f64) -> Spec {
     Spec { resistance: Some(resistance), ..ideal() }
 }
 
-/// V = 100 V (1 - e^{-t/RC}).
+/// The step response with a resistance is V = 100 V (1 - e^{-t/RC}).
 #[test]
 fn a_step_through_a_resistance_is_an_exponential() {
     let time = 300.0 * FARADS;
@@ -25,7 +25,7 @@ fn a_step_through_a_resistance_is_an_exponential() {
     assert!(ran.volts().last().unwrap().1 > 99.9);
 }
 
-/// V = v(t - RC(1 - e^{-t/RC})), I = C V̇.
+/// The response to a ramp of rate v is V = v(t - RC(1 - e^{-t/RC})), with the current I = C V̇.
 #[test]
 fn a_ramp_through_a_resistance_lags_by_its_time_constant() {
     let time = 300.0 * FARADS;
@@ -37,7 +37,7 @@ fn a_ramp_through_a_resistance_lags_by_its_time_constant() {
     assert!((current - exact).abs() < 1e-9 * exact, "{current} {exact}");
 }
 
-/// V/100 V = 1 - e^{-ζωt}(cos ω_d t + ζ/√(1-ζ²) sin ω_d t), ω_d = ω√(1-ζ²).
+/// The step response of the low-pass is V/100 V = 1 - e^{-ζωt}(cos ω_d t + ζ/√(1-ζ²) sin ω_d t), ω_d = ω√(1-ζ²).
 #[test]
 fn a_step_within_a_bandwidth_rings_by_its_damping_ratio() {
     for ratio in [0.3, 0.5_f64.sqrt()] {
@@ -54,7 +54,7 @@ fn a_step_within_a_bandwidth_rings_by_its_damping_ratio() {
     }
 }
 
-/// V = v[t - 2ζ/ω + e^{-ζωt}(2ζ/ω cos ω_d t + (2ζ²-1)/ω_d sin ω_d t)].
+/// The response of the low-pass to a ramp of rate v is V = v[t - 2ζ/ω + e^{-ζωt}(2ζ/ω cos ω_d t + (2ζ²-1)/ω_d sin ω_d t)].
 #[test]
 fn a_ramp_within_a_bandwidth_lags_by_two_damping_ratios() {
     let (ratio, omega) = (0.4_f64, TAU * 1e3);
@@ -69,8 +69,8 @@ fn a_ramp_within_a_bandwidth_lags_by_two_damping_ratios() {
     assert!(worst < 1e-9 * 40.0, "{worst}");
 }
 
-/// Behind 0.1 mΩ (RC = 0.1 ns) and within 1 GHz a saw lags by RC, or by 2ζ/ω, but for a layer after its corners. Explicit steps,
-/// of twelve evaluations for some six times these, would need 18 million evaluations for it.
+/// With RC = 0.1 ns or a bandwidth of 1 GHz the voltage lags a sawtooth by RC or 2ζ/ω. Explicit integration would need millions of
+/// evaluations.
 #[test]
 fn drivers_of_nanoseconds_are_stepped_over() {
     let cases = [(through(1e-4), 1e-4 * FARADS), (low(1e9, 0.5_f64.sqrt()), SQRT_2 / (TAU * 1e9))];
@@ -91,8 +91,8 @@ fn drivers_of_nanoseconds_are_stepped_over() {
     }
 }
 
-/// A voltage through RC = 5 µs behind lines, V = f - ḟRC + (V₀ - f₀ + ḟRC)e^{-t/RC}, at every row between and after the events of a contact: a
-/// step that an event cuts ends where the voltage belongs. On the dense output it was off by 8e-4 of the range at 1e-3.
+/// Compares the voltage for RC = 5 µs and a piecewise linear command with V = f - ḟRC + (V₀ - f₀ + ḟRC)e^{-t/RC}. Events of the
+/// contact shorten steps, and the voltage must stay accurate at their ends.
 #[test]
 fn events_of_contacts_leave_a_lagging_voltage_where_it_belongs() {
     const OHMS: f64 = 5.0;

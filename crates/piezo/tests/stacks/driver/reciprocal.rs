@@ -1,4 +1,4 @@
-//! The charge of strain, Q = CV + kα(e - αV): what it makes of time constants, limits, resonances and books.
+//! Tests of the charge due to strain, Q = CV + kα(e - αV): time constants, limits, resonances and energy balance.
 
 use super::parts::{FARADS, GAIN, Ran, event, every, named, plan, ran, table};
 use std::f64::consts::TAU;
@@ -7,13 +7,13 @@ use stickslip_drive::scene::{Actuator, Body, Coordinate, Direction, Freedom, Poi
 use stickslip_drive::{Shape, Stepper, Waveform};
 use stickslip_piezo::driver::{Driver, Spec};
 
-/// κ; then k = κC/α².
+/// Coupling κ, from which the stiffness follows: k = κC/α².
 const COUPLING: f64 = 0.25;
 const STIFFNESS: f64 = COUPLING * FARADS / (GAIN * GAIN);
 const MASS: f64 = 0.5;
 const ENDS: [Side; 2] = [Side::Ground, Side::Body(0)];
 
-/// A stack between ground and a foot, whose strain makes charge.
+/// Stack between ground and a foot, with charge due to strain.
 fn stack(command: Waveform, spec: Spec, foot: Coordinate) -> Scene {
     let elongation =
         Input::Length { between: [ENDS[1], ENDS[0]], at: [Point::default(); 2], direction: Direction::X };
@@ -43,7 +43,7 @@ fn spec(resistance: Option<f64>, current: Option<f64>) -> Spec {
 const HELD: Coordinate = Coordinate { position: 0.0, velocity: 0.0, freedom: Freedom::Fixed };
 const STEP: &[(f64, f64)] = &[(0.0, 0.0), (0.1, 0.0), (0.1, 100.0), (9.0, 100.0)];
 
-/// Held, the stack has the capacitance C(1 - κ): V = 100 V (1 - e^{-t/RC(1-κ)}).
+/// A held stack has the capacitance C(1 - κ): V = 100 V (1 - e^{-t/RC(1-κ)}).
 #[test]
 fn a_held_stack_charges_through_a_resistance_by_its_clamped_capacitance() {
     let ran = ran(&stack(table(STEP), spec(Some(300.0), None), HELD), &event(1e-12, 2e-3), 37e-6);
@@ -53,7 +53,7 @@ fn a_held_stack_charges_through_a_resistance_by_its_clamped_capacitance() {
     assert!(worst < 1e-9 * 100.0, "{worst}");
 }
 
-/// Held it rises at I/C(1 - κ), until it meets the command.
+/// The voltage of a held stack rises at I/C(1 - κ) until it meets the command.
 #[test]
 fn a_held_stack_rises_faster_at_a_limited_current() {
     let ran = ran(&stack(table(STEP), spec(None, Some(0.2)), HELD), &event(1e-10, 1e-3), 37e-6);
@@ -71,7 +71,7 @@ fn a_held_stack_rises_faster_at_a_limited_current() {
     assert!(worst < 1e-6 * 100.0, "{worst}");
 }
 
-/// Time from the first to the last upward crossing of 0 over their number.
+/// Mean period, from the first and the last upward crossing of 0.
 fn period(ran: &Ran) -> f64 {
     let (t, x) = (ran.column("time_s"), ran.column("foot.x_m"));
     let crossings: Vec<f64> = (1..x.len())
@@ -81,7 +81,7 @@ fn period(ran: &Ran) -> f64 {
     (crossings[crossings.len() - 1] - crossings[0]) / (crossings.len() - 1) as f64
 }
 
-/// Short-circuited by an ideal source a mass rings at √(k/m), open behind a megohm at √(k/m(1 - κ)), but for (RCω)⁻² of it.
+/// With an ideal source (short circuit) the mass oscillates at √(k/m), with 1 MΩ (open circuit) at √(k/m(1 - κ)), to order (RCω)⁻².
 #[test]
 fn open_electrodes_stiffen_the_stack() {
     let released = Coordinate { position: 0.0, velocity: 1e-3, freedom: Freedom::Free };
@@ -95,7 +95,7 @@ fn open_electrodes_stiffen_the_stack() {
     }
 }
 
-/// Source = stored + lost + worked, through all that a driver has; and what the stack works goes into the scene.
+/// The balance source = stored + lost + work holds, and the work of the stack is the mechanical input of the model.
 #[test]
 fn books_close_with_the_work_of_the_stack_in_them() {
     let saw = || every(Shape::Sawtooth { stroke: 100.0 * GAIN, flyback: 50e-6 });
@@ -121,8 +121,8 @@ fn books_close_with_the_work_of_the_stack_in_them() {
     }
 }
 
-/// A driver that settles within nanoseconds holds V = f: the current is C(1 - κ)ḟ + kαv at every row, however many of them lie inside a
-/// step. A step's dense output leaves V beside f by little, and the current is what little there is over R.
+/// With a time constant of nanoseconds V = f, so the current is C(1 - κ)ḟ + kαv. This holds at every row, also between the ends of
+/// steps, where the small difference f - V of the dense output would be inaccurate.
 #[test]
 fn the_current_is_right_inside_steps_over_what_settles() {
     const OHMS: f64 = 1e-3;
@@ -140,7 +140,7 @@ fn the_current_is_right_inside_steps_over_what_settles() {
         let exact = |t: f64, v: f64| {
             FARADS * (1.0 - COUPLING) * swing * omega * (omega * t).sin() + STIFFNESS * GAIN * v
         };
-        // The voltage lags by RC: a current differs by ωRC of itself.
+        // Because the voltage lags by RC, the relative error of the current is ωRC.
         let peak = current.iter().fold(0.0, |most: f64, i| most.max(i.abs()));
         let worst =
             t.iter().zip(&v).zip(&current).map(|((t, v), i)| (i - exact(*t, *v)).abs()).fold(0.0, f64::max);
@@ -149,8 +149,7 @@ fn the_current_is_right_inside_steps_over_what_settles() {
     }
 }
 
-/// Rounding of a voltage over a resistance of 1 µΩ is a power far above a tolerance of 1e-11, and no shorter step has less of it: steps
-/// go with the eighth root of the tolerance or so, and not with its inverse.
+/// The rounding of a voltage over 1 µΩ is a power far above the tolerance 1e-11. The step size must not depend on this power.
 #[test]
 fn rounding_of_what_settles_shortens_no_steps() {
     let command = every(Shape::Sine { amplitude: 50.0 * GAIN, phase: -0.25 * TAU, offset: 50.0 * GAIN });

@@ -1,4 +1,4 @@
-//! The longest stable steps that a drive tells, against steppers on systems written here: bounded below, growing above.
+//! Tests of the longest stable step of a driver: slightly shorter steps are stable, longer ones are not.
 
 use super::parts::{FARADS, ideal, low, named, plan, ran, scene, table};
 use nalgebra::{DMatrix, DVector};
@@ -12,7 +12,7 @@ use stickslip_piezo::driver::Spec;
 use stickslip_piezo::hysteresis::{BoucWen, BoucWenBlock};
 use stickslip_stepper::{Rk4, Stepping, System, Verlet};
 
-/// y' = A y.
+/// Linear system y' = A y.
 struct Linear(DMatrix<f64>);
 
 impl System for Linear {
@@ -30,7 +30,7 @@ impl System for Linear {
     }
 }
 
-/// Size of y after many steps from 1; infinite once it overflows.
+/// Norm of y after many steps from 1; infinite after an overflow.
 fn late(system: &Linear, stepper: Stepper) -> f64 {
     let n = system.dimension();
     let mut y = vec![1.0; n];
@@ -47,7 +47,7 @@ fn late(system: &Linear, stepper: Stepper) -> f64 {
 }
 
 const STEPPERS: [fn(f64) -> Stepper; 2] = [|step| Stepper::Verlet { step }, |step| Stepper::Rk4 { step }];
-/// 100 V within 2 µs.
+/// Rise to 100 V within 2 µs.
 const STEP: &[(f64, f64)] = &[(0.0, 0.0), (0.05, 0.0), (0.052, 100.0), (9.0, 100.0)];
 
 fn of(spec: Spec) -> Model {
@@ -58,8 +58,8 @@ fn resistive(resistance: f64) -> Spec {
     Spec { resistance: Some(resistance), ..ideal() }
 }
 
-/// The driver's voltage behaves as the system of its formula does: 2 % below the longest step it stays where the step of the
-/// command has put it, 2 % above the system grows and the drive is refused.
+/// Compares the driver with the equivalent linear system. At 2 % below the longest stable step the voltage is steady. At 2 % above,
+/// the linear system is unstable and the model rejects the step.
 fn judged(spec: Spec, system: &Linear) {
     let model = of(spec);
     for stepper in STEPPERS {
@@ -69,14 +69,14 @@ fn judged(spec: Spec, system: &Linear) {
         assert!(late(system, above) > 1e6, "{above:?}");
         let ran = ran(&scene(table(STEP), spec), &plan(below, 4e-3), 1.0);
         let end = ran.volts().last().unwrap().1;
-        // Of a light damping some ringing is left.
+        // With light damping some oscillation remains.
         assert!((end - 100.0).abs() < 1e-3, "{below:?}: {end}");
         assert!(model.start(&plan(above, 4e-3)).is_err(), "{above:?}");
     }
 }
 
-/// RC: until z = -h/RC is -1 for Verlet, whose states of first order go as Adams and Bashforth's, and -2.785293563405282, the real root
-/// of 1 + z/2 + z²/6 + z³/24, for Runge and Kutta's method.
+/// Longest stable step with a time constant RC. Verlet treats states of first order as Adams–Bashforth does, with the limit h/RC = 1.
+/// For Runge–Kutta the limit is 2.785293563405282, from the real root of 1 + z/2 + z²/6 + z³/24.
 #[test]
 fn a_resistance_bounds_the_step_by_its_time_constant() {
     for resistance in [2.0, 0.04] {
@@ -94,17 +94,17 @@ fn a_resistance_bounds_the_step_by_its_time_constant() {
 fn a_bandwidth_bounds_the_step_by_its_frequency_and_damping() {
     for ratio in [0.1, 0.5_f64.sqrt(), 1.0, 3.0] {
         let omega = TAU * 50e3;
-        // Of f and ḟ/ω.
+        // States f and ḟ/ω.
         let matrix = DMatrix::from_row_slice(2, 2, &[0.0, omega, -omega, -2.0 * ratio * omega]);
         judged(low(50e3, ratio), &Linear(matrix));
     }
-    // Behind it a resistance settles by itself: the faster of both counts.
+    // With a resistance behind the low-pass, the faster of both determines the limit.
     let both = Spec { resistance: Some(0.5), ..low(50e3, 0.5) };
     let longest = of(both).longest_step(Stepper::Rk4 { step: 1.0 }).unwrap();
     assert!((longest / (2.785_293_563_405_282 * 0.5 * FARADS) - 1.0).abs() < 1e-9, "{longest}");
 }
 
-/// Frames take steps that keep a stiff driver: it ends where the command has put it.
+/// The stepper for frames chooses stable steps for a stiff driver.
 #[test]
 fn frames_follow_a_driver_faster_than_the_bodies() {
     let spec = resistive(0.5);
@@ -118,7 +118,8 @@ fn frames_follow_a_driver_faster_than_the_bodies() {
     assert!((end - 100.0).abs() < 1e-6, "{end}");
 }
 
-/// Eigenvalues of creep are -1/τ, those of its inverse the roots of a + Σ g/(1 + λτ) = 0; Bouc and Wen's tells n A/z_m |v̇|.
+/// The eigenvalues of creep are -1/τ, those of its inverse the roots of a + Σ g/(1 + λτ) = 0. For Bouc–Wen the eigenvalue is -n A/z_m
+/// |v̇|.
 #[test]
 fn ceramics_tell_how_fast_their_states_settle() {
     let law = Creep::new(0.02, 0.1, 3).unwrap();
@@ -141,14 +142,14 @@ fn ceramics_tell_how_fast_their_states_settle() {
         (rate + 2.0 * 0.3 / 0.2e-6 * 2e-6 * 0.25 * 900.0).abs() < 1e-9 * rate.abs() && swing == 0.0,
         "{rate}"
     );
-    // As part of a drive.
+    // In a complete drive.
     let mut drive = scene(table(STEP), ideal());
     drive.blocks.push(named("lag", SharedBlock(Arc::new(bouc_wen))));
     let longest = Model::new(&drive).unwrap().longest_step(Stepper::Verlet { step: 1.0 }).unwrap();
     assert!(longest <= -1.0 / rate, "{longest}");
 }
 
-/// Real parts, the fastest first.
+/// Real parts of the eigenvalues, the fastest first.
 fn sorted(block: &CreepBlock) -> Vec<f64> {
     let first = stickslip_drive::Sample { value: 0.0, rate: 0.0, acceleration: 0.0 };
     let mut rates: Vec<f64> = block.eigenvalues(&[first]).iter().map(|(rate, _)| *rate).collect();

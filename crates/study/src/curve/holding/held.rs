@@ -1,4 +1,4 @@
-//! What a drive at rest holds along one way.
+//! Holding force of a drive at rest in one direction.
 
 use crate::curve::Bracket;
 use stickslip_drive::facts::{Pressed, Setup};
@@ -8,65 +8,67 @@ use stickslip_run::Watcher;
 use stickslip_scenario::{Scenario, ScenarioError};
 use thiserror::Error;
 
-/// A load that is held though it is so many times all friction and all other forces: something else holds it.
+/// Factor on the sum of all friction and other forces. If a load of this size is held, something other than friction
+/// holds it.
 const ENDLESS: f64 = 64.0;
-/// How far a balance is known, as a share of all friction and all other forces: what is left on a coordinate may be 1e-9 of what acts on it.
+/// Uncertainty of the equilibrium of forces, as a fraction of the sum of friction and other forces. The equilibrium
+/// search allows a residual of 1e-9 per coordinate.
 const RESOLVED: f64 = 4e-9;
-/// A drive that does not hold this share of them holds nothing.
+/// Holding forces below this fraction of that sum count as zero.
 const NOTHING: f64 = 1e-12;
 
-/// A holding force.
+/// Holding force with its uncertainty.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Held {
-    /// The largest load that is held, N.
+    /// Largest load that is held, N.
     pub force: f64,
-    /// How far it may be off, N: half of the bracket, and how far a balance is known.
+    /// Uncertainty of the load, N: half of the bracket plus the uncertainty of the equilibrium.
     pub half_width: f64,
-    /// What gives way beyond.
+    /// Coordinate that gives way at larger loads.
     pub lost: Lost,
-    /// Equilibria that were looked for.
+    /// Number of equilibrium searches.
     pub runs: u32,
 }
 
-/// A coordinate that nothing holds in balance.
+/// Coordinate without equilibrium.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Lost {
     /// Name of the body.
     pub body: String,
-    /// Which coordinate.
+    /// Coordinate of the body.
     pub axis: Axis,
 }
 
 impl Lost {
-    /// What its body does.
+    /// Describes the motion of the body.
     #[must_use]
     pub fn words(&self) -> String {
         let does = match self.axis {
             Axis::X => "slides away",
             Axis::Z => "comes loose",
-            // All that slides lifts or presses as well: which came first is not told apart.
+            // A tilting body changes its normal forces, so sliding and tilting cannot be distinguished.
             Axis::Pitch => "slides or tips over",
         };
         format!("{} {does}", self.body)
     }
 }
 
-/// Why no holding force is told.
+/// Reason why there is no holding force.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum Holdless {
-    /// Nobody computed it.
+    /// The computation was interrupted before this point.
     #[error("not run")]
     NotRun,
-    /// The value makes no scenario, or none whose equilibrium can be looked for.
+    /// The scenario is invalid or has no equilibrium search.
     #[error(transparent)]
     Scenario(#[from] ScenarioError),
-    /// It does not even hold what acts without the load.
-    #[error("without a load {} already", .0.words())]
+    /// The drive has no equilibrium even without the load.
+    #[error("without a load, {}", .0.words())]
     Without(Lost),
-    /// Something other than friction holds it.
+    /// Something other than friction holds the load.
     #[error(
-        "no finite holding force: {load:.3e} N are held, {ENDLESS} times all friction and other forces; something else holds them, \
-         as a spring does"
+        "no finite holding force: the drive holds {load:.3e} N, {ENDLESS} times all friction and other \
+         forces, so a spring or another part holds the body"
     )]
     Endless {
         /// A load that is held, N.
@@ -75,7 +77,7 @@ pub enum Holdless {
 }
 
 impl Holdless {
-    /// The kind of reason, in a word or two.
+    /// Returns the kind of reason in a few words.
     #[must_use]
     pub fn kind(&self) -> &'static str {
         match self {
@@ -87,7 +89,7 @@ impl Holdless {
     }
 }
 
-/// A drive at rest.
+/// A drive at rest with a loaded body.
 pub(super) struct Still {
     scenario: Scenario,
     plan: Plan,
@@ -95,15 +97,18 @@ pub(super) struct Still {
 }
 
 impl Still {
-    /// Of a scenario, one of whose bodies is to be loaded.
+    /// Creates the drive from a scenario; `body` is the index of the loaded body.
     pub(super) fn new(mut scenario: Scenario, body: usize) -> Self {
         scenario.scene.start = Start::Equilibrium;
-        // Nothing is stepped: a step that would be too long for a run is none of its business.
+        // There is no time integration, so a time step that is too long for a run does not matter.
         let plan = Plan { stepper: Stepper::Event { tolerance: WALK_TOLERANCE }, ..scenario.plan };
         Self { scenario, plan, body }
     }
 
-    /// The largest load along a sense of x, 1 or -1, that has an equilibrium, to a share of its size.
+    /// Finds the largest load with an equilibrium, to a relative tolerance. `sense` is its direction along x, 1 or -1.
+    ///
+    /// # Errors
+    /// Fails if the drive is not held without load, the load is not limited by friction, or the watcher interrupts.
     pub(super) fn held(&self, sense: f64, tolerance: f64, watcher: &dyn Watcher) -> Result<Held, Holdless> {
         let mut runs = 0;
         let mut lost = None;
@@ -125,7 +130,7 @@ impl Still {
         if try_at(ENDLESS * scale)?.is_some() {
             return Err(Holdless::Endless { load: ENDLESS * scale });
         }
-        // From about where friction ends, so that the bracket is never wider than its size.
+        // Start at the scale of the friction force, so that the bracket is never wider than its position.
         let mut still = 2.0 * scale;
         while try_at(still)?.is_some() {
             still *= 2.0;
@@ -134,7 +139,7 @@ impl Still {
         while holds > NOTHING * scale && try_at(holds)?.is_none() {
             (still, holds) = (holds, 0.5 * holds);
         }
-        // Room within the tolerance for how far a balance is known.
+        // Reserve a part of the tolerance for the uncertainty of the equilibrium.
         let known = RESOLVED * scale;
         let narrow = (tolerance - 2.0 * known / holds).max(0.5 * tolerance);
         let bracket = match holds > NOTHING * scale {
@@ -146,7 +151,7 @@ impl Still {
         lost.map_or(Err(Holdless::NotRun), |lost| Ok(Held { force, half_width, lost, runs }))
     }
 
-    /// What gives way under a load; none where it is held.
+    /// Returns the coordinate that gives way under a load, or `None` if the load is held.
     fn gives_way(&self, load: f64) -> Result<Option<Lost>, Holdless> {
         let mut scene = self.scenario.scene.clone();
         if load != 0.0 {
@@ -158,7 +163,10 @@ impl Still {
         }
     }
 
-    /// What an error says gives way, unless it says something else.
+    /// Returns the coordinate without equilibrium that an error reports.
+    ///
+    /// # Errors
+    /// Fails if the error has another cause.
     fn lost(&self, error: &SceneError) -> Result<Lost, Holdless> {
         let name = |b: usize| self.scenario.scene.bodies[b].name.clone();
         match (&error.fault, error.part) {
@@ -169,7 +177,7 @@ impl Still {
         }
     }
 
-    /// All friction, with all other forces along x, N: more than that friction does not hold. 1 N where there is none of either.
+    /// Returns the sum of all friction limits and all other forces along x, N. Returns 1 N if the sum is 0.
     fn scale(&self) -> Result<f64, Holdless> {
         let scene = &self.scenario.scene;
         let refused = |error| self.scenario.refusal(&error);
@@ -186,7 +194,7 @@ impl Still {
     }
 }
 
-/// Forces along x that act at t = 0 whatever gives way, by their size, N.
+/// Returns the sum of the magnitudes of external forces along x at t = 0, N: loads, spring preloads and weight.
 fn pulls(scene: &Scene) -> f64 {
     let at_first = |force: Varying| match force {
         Varying::Constant(force) => force,

@@ -1,4 +1,4 @@
-//! What is told of holding forces: a table, and all of it in JSON.
+//! Output of holding forces: `curve.csv` and `curve.json`.
 
 use super::{Held, Holding, NAME, Point};
 use crate::curve::table::{Report, one_line, publish};
@@ -13,32 +13,33 @@ use stickslip_run::{Real, Warning};
 
 #[derive(Debug, Serialize, JsonSchema)]
 struct PointReport<'a> {
-    /// what is varied, at this point
+    /// value of the parameter at a point of the curve
     value: Real,
-    /// what `--set` takes to make a scenario of this point
+    /// arguments of `--set` that change the scenario to the point of the curve
     set: Vec<String>,
     warnings: &'a [Warning],
     along_x: WayReport,
     against_x: WayReport,
 }
 
-/// What is told of loads one way.
+/// Holding force in one direction.
 #[derive(Debug, Serialize, JsonSchema)]
 struct WayReport {
-    /// of `holding-force`: the largest load on the figures' body, along +x or along -x, that the drive holds at rest
+    /// holding force: the largest additional load along +x (`along_x`) or -x (`against_x`) on the body named in `figures`
+    /// at which the drive stays at rest
     #[serde(rename = "force_N")]
     force: Option<Real>,
-    /// how far that may be off: half of the bracket in which it lies, and how far a balance is known
+    /// uncertainty of the holding force: half of the bracket in which it lies, plus the accuracy of the equilibrium
     #[serde(rename = "half_width_N")]
     half_width: Option<Real>,
-    /// what gives way beyond: a body that slides away, comes loose or, free to pitch, slides or tips over
+    /// what fails above the holding force: a body slides away, lifts off or, if free to pitch, slides or tips over
     #[serde(skip_serializing_if = "Option::is_none")]
     gives_way: Option<String>,
-    /// equilibria that were looked for
+    /// number of equilibria computed for the holding force
     #[serde(skip_serializing_if = "Option::is_none")]
     runs: Option<u32>,
-    /// why there is no such force: the drive does not even hold what acts without the load, or something else than friction
-    /// holds any
+    /// why there is no holding force: the drive does not hold even without the additional load, or something other than
+    /// friction holds any load
     #[serde(skip_serializing_if = "Option::is_none")]
     fault: Option<String>,
 }
@@ -56,8 +57,8 @@ impl WayReport {
     }
 }
 
-/// As CSV: what is varied, and for loads along x and against it what is held, by how much that may be off, what gives way beyond, and
-/// what is wrong with it. Numbers have as many digits as it takes to read the same bits back.
+/// Returns the table as CSV: parameter, then holding force, uncertainty, failure and error for both directions. Numbers
+/// have enough digits to restore all bits.
 #[must_use]
 pub fn csv(holding: &Holding, points: &[Point]) -> String {
     let mut table = holding.variation.head();
@@ -81,22 +82,23 @@ pub fn csv(holding: &Holding, points: &[Point]) -> String {
     table
 }
 
-/// A text as a cell.
+/// Returns the first line of a text in quotes.
 fn quoted(text: &str) -> String {
     format!("\"{}\"", one_line(text).replace('"', "\"\""))
 }
 
-/// All numbers on one line of JSON.
+/// Returns all numbers in one line of JSON.
 #[must_use]
 pub fn json(holding: &Holding, points: &[Point]) -> String {
-    // Numbers and strings only: there is nothing that JSON could refuse.
+    // Numbers and strings only: serialisation cannot fail.
     serde_json::to_string(&report(holding, points)).unwrap_or_default()
 }
 
-/// Writes the table, `curve.json` and pictures into a folder, as [`crate::curve::write`] does. Returns the names.
+/// Writes the table, `curve.json` and plots into a folder, as [`crate::curve::write`] does. Returns the names.
 ///
 /// # Errors
-/// What the system says; nothing that was there is gone then, unless it says so while names are given.
+/// Error of the operating system. Existing files remain, unless the error occurs while the new files receive their
+/// names.
 pub fn write(
     folder: Folder,
     (holding, points): (&Holding, &[Point]),
@@ -120,7 +122,7 @@ fn report<'a>(holding: &'a Holding, points: &'a [Point]) -> Report<'a, PointRepo
     report
 }
 
-/// What every key of `curve.json` is.
+/// Returns the definitions of all keys of `curve.json`.
 pub(crate) fn definitions() -> Vec<Definition> {
     stickslip_quantity::report::<Report<'_, PointReport<'_>>>(CURVE)
 }

@@ -1,10 +1,10 @@
-//! Limits of steps, and what is waited for.
+//! Tests of limits of step lengths and of the decision whether steps are steady.
 
 use super::*;
 
 const FREE: Bounds = Bounds { least: 0.0, most: f64::INFINITY, error: 0.0 };
 
-/// s + a rᵏ: the limit s is known after few values, long before they have come there.
+/// The limit s of s + a rᵏ is known after a few values, long before the values reach it.
 #[test]
 fn a_slow_approach_is_not_waited_for() {
     let steps =
@@ -13,7 +13,7 @@ fn a_slow_approach_is_not_waited_for() {
     assert!((found.value - 3e-8).abs() < 1e-14 && found.error < 1e-13, "{found:?}");
     let found = limit(&steps(60, 0.7), 4e-8, 1e-6).unwrap();
     assert!((found.value - 3e-8).abs() <= found.error.max(1e-22), "{found:?}");
-    // Two rates at once follow no single share.
+    // A sum of two decays has no constant ratio.
     let mixed: Vec<f64> = (0..8).map(|k| 1e-8 * (0.9_f64.powi(k) + 0.5_f64.powi(k))).collect();
     assert_eq!(limit(&mixed, 4e-8, 1e-6), None);
 }
@@ -28,11 +28,11 @@ fn what_grows_or_swings_is_no_limit() {
     assert!(matches!(judged_so, Err(Motionless::SlidesAway { periods: 50, .. })), "{judged_so:?}");
     let (course, mean, spread) = judged(&swings, Hold::default(), FREE, None).unwrap();
     assert_eq!(course, Course::Beats);
-    // 15 swings in 100 values: their mean is known to less than a tenth of the swing.
+    // 100 values contain 15 oscillations: their mean is known to less than a tenth of the amplitude.
     assert!((mean.value - 1e-8).abs() <= mean.error && mean.error < 1e-10, "{mean:?}");
-    // Periods are one radian of it apart: one of them is within half a radian of where it is farthest.
+    // Samples are one radian apart: one of them is within half a radian of the maximum.
     assert!((0.5_f64.cos() * 1e-9..=1e-9).contains(&spread), "{spread}");
-    // One that grows goes on growing: nobody knows what that makes of the mean.
+    // A growing oscillation changes the mean by an unknown amount.
     let of = |k: i32| 1e-10 * 1.004_f64.powi(k);
     let grows: Vec<f64> = (0..400).map(|k| 1e-8 + of(k) * f64::from(k).sin()).collect();
     let (course, mean, spread) = judged(&grows, Hold::default(), FREE, None).unwrap();
@@ -40,7 +40,8 @@ fn what_grows_or_swings_is_no_limit() {
     assert!(mean.error >= spread && spread > 0.5_f64.cos() * of(399), "{mean:?} {spread}");
 }
 
-/// A beat whose size stays and whose mean is still on its way: its batches scatter little, and know nothing of what is to come.
+/// An oscillation with constant amplitude whose mean still drifts: the scatter of batch means is small and does not
+/// show the remaining drift.
 #[test]
 fn a_mean_on_its_way_is_known_to_what_it_has_to_go() {
     let fades = |k: i32| 4e-11 * 0.995_f64.powi(k);
@@ -56,7 +57,8 @@ fn a_mean_on_its_way_is_known_to_what_it_has_to_go() {
     assert!((mean.value - exact).abs() < 1e-20 && mean.error < 1e-18, "{mean:?}");
 }
 
-/// A swing that grows as a disturbance of the motion at its middle does has not left that; one that stays has, and so has one elsewhere.
+/// An oscillation that grows like a disturbance of the unstable orbit at its mean has not left the orbit. One with
+/// constant amplitude, or with another mean, has left it.
 #[test]
 fn what_still_swings_about_a_motion_that_it_leaves_is_none() {
     let unstable = Unstable { step: 1e-8, error: 1e-17, growth: 1.0004 };
@@ -73,7 +75,7 @@ fn what_still_swings_about_a_motion_that_it_leaves_is_none() {
         assert_eq!(course, Course::Beats);
         assert!((mean.value - middle).abs() <= mean.error && mean.error < 1e-10, "{mean:?}");
     }
-    // On its way from there it has a mean that moves.
+    // During the transition to another motion the mean drifts.
     let left = |k: f64| -4e-8 / (1.0 + (-(k - 1400.0) / 40.0).exp());
     let underway: Vec<f64> =
         swings(1600, 1.0, 1e-8).iter().zip(0..).map(|(s, k)| s + left(f64::from(k))).collect();
@@ -81,7 +83,7 @@ fn what_still_swings_about_a_motion_that_it_leaves_is_none() {
     assert!(matches!(underway, Err(Motionless::Grows { .. })), "{underway:?}");
 }
 
-/// A slow share under a fast one: the limit that the fast one leaves does not last.
+/// A slow decay below a fast one: the limit that the fast decay suggests does not remain constant.
 #[test]
 fn a_limit_that_does_not_last_begins_anew() {
     let mean = |value: f64| Mean { value, error: 1e-16 };
@@ -90,7 +92,7 @@ fn a_limit_that_does_not_last_begins_anew() {
     assert_eq!(lasts(Some(from), (9, mean(1.5e-12)), 4e-8).0, 9);
 }
 
-/// Six steps of which the first are those of the start; and what rounding has had no chance to leave.
+/// Six steps, the first of which contain the start transient; and steps that rounding could not excite.
 #[test]
 fn what_rings_below_the_least_step_makes_none() {
     let bounds = Bounds { least: 4e-13, most: 1e-6, ..FREE };
@@ -108,8 +110,9 @@ fn what_rings_below_the_least_step_makes_none() {
     ));
 }
 
-/// A constant force: each step is longer than the one before by F T²/m. Differences of such places are rounded, and by chance
-/// three of them in a row fall by the same last place: once the limit of that was told, 10⁸ m.
+/// Constant force: the step length increases by F T²/m per period. Differences of rounded positions can decrease three
+/// times in a row by chance; no limit may be derived from
+/// them.
 #[test]
 fn even_growth_is_no_limit_however_it_is_rounded() {
     for stretch in 0..400 {
@@ -123,7 +126,7 @@ fn even_growth_is_no_limit_however_it_is_rounded() {
     }
 }
 
-/// Even steps are none where nothing holds the body; that it stands still is none of that.
+/// Constant steps are no steady motion if nothing holds the body. A body at rest is not affected.
 #[test]
 fn what_is_dragged_or_flies_is_not_steady() {
     let loose = |loose| Hold { loose_until: 20, held_until: 17, loose: Some(loose) };
@@ -131,7 +134,8 @@ fn what_is_dragged_or_flies_is_not_steady() {
     assert_eq!(of(5e-8, loose(Loose::Flies)), Err(Motionless::Flies { periods: 20 }));
     assert!(matches!(of(-2e-7, loose(Loose::Slides)), Err(Motionless::SlidesAway { .. })));
     assert!(of(0.0, loose(Loose::Slides)).is_ok() && of(-2e-7, Hold::default()).is_ok());
-    // What touches in every third period is held, though it flies in the last, and so is what hops and touches again.
+    // A body that touches in every third period is held, though it flies in the last. The same holds for a body that
+    // hops and touches again.
     let hold = Hold { loose_until: 100, held_until: 98, loose: Some(Loose::Flies) };
     assert!(judged(&[5e-8; 100], hold, FREE, None).is_ok());
     let hops: Vec<f64> = (0..100).map(|k| if k % 7 == 3 { 1e-8 } else { 5e-8 }).collect();

@@ -1,8 +1,9 @@
-//! A branch followed from its start in one sense.
+//! Continuation of a branch in one direction.
 //!
-//! A step goes along the tangent and is corrected back onto the branch; it is shortened where the branch bends or nothing is found, and
-//! lengthened where it was easy. Where the same happens in the periods at both its ends the signs of the test functions tell whether
-//! something lies between; where not the event is closed in on, and the branch goes on beyond.
+//! A step follows the tangent and is corrected back to the branch. It is shortened if the branch bends or no orbit is
+//! found, and lengthened after an easy correction. If the periods at both
+//! ends have the same events, test functions detect bifurcations in between. Otherwise the event is located and the
+//! branch continues beyond it.
 
 use super::bifurcation::Mark;
 use super::corrector::{Corrected, Wanted, correct};
@@ -14,81 +15,85 @@ use super::written::Written;
 use crate::journal::Journal;
 use serde::{Deserialize, Serialize};
 
-/// Lengths of a step: the first, the longest, the shortest; the range of what is varied is 1.
+/// Step sizes, relative to the range of the parameter: first, longest, shortest.
 const FIRST: f64 = 1.0 / 64.0;
 const LONGEST: f64 = 1.0 / 32.0;
 const SHORTEST: f64 = 1e-9;
-/// Cosine of the most that the branch may turn in a step; shorter steps than this may turn by any angle.
+/// Smallest cosine of the angle between successive tangents. It does not apply to steps shorter than `ANY`.
 const TURNS: f64 = 0.9;
 const ANY: f64 = 1e-6;
-/// An end of the range is come to where no more than this share of it is left.
+/// Distance from the end of the range, relative to the range, at which it counts as reached.
 const AT: f64 = 1e-12;
-/// How far a motion may lie from where it was predicted, in steps.
+/// Largest distance between predicted and corrected orbit, in steps.
 const ASTRAY: f64 = 0.5;
-/// Steps of the corrector that make a step an easy one.
+/// Number of corrector iterations up to which a step counts as easy.
 const EASY: u32 = 4;
-/// The map's moment is chosen anew where it is nearer to an event than this share of the time between the two about it.
+/// A new instant of the Poincaré section is chosen if its distance to an event is below this fraction of the interval
+/// between events.
 const NEAR: f64 = 0.2;
-/// Where the varied number hardly changes along the branch, the sense of it cannot tell how the branch goes on from another moment.
+/// Smallest change of the parameter along the branch at which a new instant can be chosen. Below it, the direction of
+/// the branch would be ambiguous.
 const TURNING: f64 = 0.02;
 
-/// Why a branch goes no further.
+/// Reason for the end of a branch.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub enum End {
-    /// It has come to an end of the range.
+    /// The end of the range is reached.
     Range,
-    /// Beyond, contacts never slip grossly: steady motions are a whole family.
+    /// Beyond this point, some contacts never slip grossly, and periodic orbits form a family.
     Shakedown(Vec<String>),
-    /// What pulls a body is as much as friction holds: any speed does, and beyond it slides away.
+    /// The load on a body equals the friction limit: any velocity is possible, and beyond this point the body slides
+    /// away.
     SlidesAway(String),
-    /// So many natural lengths are gone in a period that rounding leaves nothing of what friction does in it.
+    /// The displacement per period, in natural scales, is so large that rounding errors exceed the effect of friction.
     Rounded(f64),
-    /// No motion was found beyond.
+    /// No orbit was found beyond this point.
     Lost(String),
-    /// The scenario allows no other values.
+    /// The scenario does not allow values beyond this point.
     Refused(String),
-    /// As many points as were allowed.
+    /// The maximum number of points is reached.
     Points,
-    /// Its caller has had enough.
+    /// The caller interrupted the continuation.
     Interrupted,
 }
 
-/// One arm of a branch.
+/// Branch in one direction.
 pub(super) struct Arm {
     pub(super) points: Vec<Point>,
     pub(super) marks: Vec<Mark>,
     pub(super) end: End,
 }
 
-/// A motion that was found, and not made out yet.
+/// An orbit from the corrector, not yet evaluated.
 pub(super) struct Probe {
     pub(super) corrected: Corrected,
     pub(super) period: Period,
 }
 
-/// Follows a branch.
+/// Continuation of a branch in one direction.
 pub(super) struct Walk<'a> {
     pub(super) bench: &'a Bench<'a>,
     pub(super) measure: Measure,
     /// Ends of the range.
     pub(super) range: [f64; 2],
-    /// Most points.
+    /// Maximum number of points.
     most: usize,
-    /// How exactly places are told, as a share of the range.
+    /// Accuracy of special points, relative to the range.
     pub(super) accuracy: f64,
-    /// Told how many points there are.
+    /// Receives the number of points.
     told: &'a dyn Fn(usize),
-    /// Where there was an event, also one that the next took back.
+    /// Parameter values of all located events, including those cancelled by the next one.
     pub(super) passed: Vec<f64>,
     pub(super) arm: Arm,
 }
 
-/// A step of the way, as it is written down: where it has led, how long the next one is, what it has added, and whether it is the last.
+/// Journal entry of a continuation step: its end point, the next step size, new points, new special points, and the
+/// reason if the branch ends.
 #[derive(Serialize, Deserialize)]
 struct Leg {
     to: Written,
     length: f64,
-    /// By how much the varied number is moved for a difference.
+    /// Distance of finite differences in the parameter.
     apart: f64,
     points: Vec<Point>,
     marks: Vec<Mark>,
@@ -106,7 +111,7 @@ impl<'a> Walk<'a> {
         Self { bench, measure, range, most, accuracy, told, passed: Vec::new(), arm }
     }
 
-    /// Follows it from a motion on, in a sense; steps that are in the journal are not taken again.
+    /// Follows the branch from an orbit in the direction of its tangent. Steps in the journal are not computed again.
     pub(super) fn go(mut self, start: Standing, (journal, sense): (&Journal, f64)) -> Arm {
         let (mut here, mut length) = (start, FIRST);
         for count in 0.. {
@@ -117,7 +122,7 @@ impl<'a> Walk<'a> {
             self.arm.points.extend(points);
             marks.into_iter().for_each(|mark| self.add(mark));
             (self.told)(self.arm.points.len());
-            // A motion that cannot be read is of another drive.
+            // An unreadable state belongs to another model.
             let end =
                 end.map_or_else(|| to.read(self.bench).ok_or(End::Lost("damaged journal".to_owned())), Err);
             self.bench.apart.set(apart);
@@ -132,7 +137,7 @@ impl<'a> Walk<'a> {
         self.arm
     }
 
-    /// One step.
+    /// Takes one continuation step.
     fn leg(&mut self, here: &Standing, length: f64) -> Leg {
         let [points, marks] = [self.arm.points.len(), self.arm.marks.len()];
         let mut at = None;
@@ -150,7 +155,7 @@ impl<'a> Walk<'a> {
         }
     }
 
-    /// The same: how long the next one is to be; `at` is where it has led, if that is elsewhere.
+    /// Takes one continuation step and returns the next step size. Sets `at` to the new orbit, if there is one.
     fn step(&mut self, here: &Standing, at: &mut Option<Standing>, length: f64) -> Result<f64, End> {
         if self.arm.points.len() >= self.most {
             return Err(End::Points);
@@ -187,24 +192,24 @@ impl<'a> Walk<'a> {
         }
     }
 
-    /// The end of the range that a motion's branch leads to, and how far along its tangent that is.
+    /// Returns the end of the range ahead and its distance along the tangent.
     fn end_of(&self, here: &Standing) -> (f64, f64) {
         let end = if here.pace() < 0.0 { self.range[0] } else { self.range[1] };
         (end, (end - here.point.value) / self.bench.span / here.pace())
     }
 
-    /// Whether it has come there.
+    /// Returns whether the end of the range is reached.
     fn is_beyond(&self, here: &Standing) -> bool {
         self.end_of(here).1 * here.pace().abs() <= AT
     }
 
-    /// The length of a step, no longer than to an end of the range, and that end where it comes there.
+    /// Returns the step size, limited to the end of the range, and that end if the step reaches it.
     fn aim(&self, here: &Standing, length: f64) -> (f64, Option<f64>) {
         let (end, left) = self.end_of(here);
         if length >= left { (left, Some(end)) } else { (length, None) }
     }
 
-    /// The motion a length along the tangent, or at an end of the range.
+    /// Computes the orbit at a distance along the tangent, or at an end of the range.
     pub(super) fn probe(&self, here: &Standing, length: f64, end: Option<f64>) -> Result<Probe, Trouble> {
         let to = &here.tangent * length;
         let row = match end {
@@ -214,7 +219,7 @@ impl<'a> Walk<'a> {
         let wanted = Wanted { to, row: &row };
         let corrected = correct(self.bench, (&here.place, &here.slopes), &wanted)?;
         let period = Period::of(self.bench, &corrected.place)?;
-        // Events bend a branch where they are, and are closed in on.
+        // Events bend the branch and are located separately.
         let astray = self.measure.length(&(&corrected.gone - &wanted.to)) > ASTRAY * length;
         if astray && length > ANY && period.happened == here.happened {
             return Err(Trouble::Bends);
@@ -230,7 +235,7 @@ impl<'a> Walk<'a> {
         Ok(next)
     }
 
-    /// Makes out a motion that was found, with what lies on the way there.
+    /// Evaluates a new orbit and locates special points before it.
     fn advance(
         &mut self,
         here: &Standing,
@@ -254,14 +259,14 @@ impl<'a> Walk<'a> {
         Ok(next)
     }
 
-    /// The end at which the figures' body slides away.
+    /// Returns the reason that the body named in `figures` slides away.
     pub(super) fn sliding(&self) -> End {
         let scenario = &self.bench.job.scenario;
         let body = scenario.figures.body.and_then(|body| scenario.scene.bodies.get(body));
         End::SlidesAway(body.map_or_else(String::new, |body| body.name.clone()))
     }
 
-    /// How far along the tangent a motion at the end of the range is.
+    /// Returns the distance along the tangent of an orbit at the end of the range.
     fn reach(&self, here: &Standing, next: &Standing) -> f64 {
         (next.point.value - here.point.value) / self.bench.span / here.pace()
     }
@@ -271,7 +276,7 @@ impl<'a> Walk<'a> {
         (self.told)(self.arm.points.len());
     }
 
-    /// The same motion at the moment of its period that is farthest from events.
+    /// Returns the same orbit with the Poincaré section at the instant farthest from events.
     fn another_moment(&mut self, here: &Standing) -> Option<Standing> {
         if here.pace().abs() < TURNING {
             return None;
@@ -281,7 +286,7 @@ impl<'a> Walk<'a> {
         let row = by_value(place.fixed.defect.len(), here.pace().signum());
         let mut there = Standing::of(self.bench, place, period, (Some(self.measure), &row)).ok()?;
         there.point.piece = here.point.piece;
-        // The plain periods on the way have led away from a motion that no run stays in.
+        // The simulated periods may have left an unstable orbit.
         let probe = self.probe(&there, 0.0, Some(here.point.value)).ok()?;
         if probe.corrected.steps > 0 {
             there = self.stand(&there, probe).ok()?;
@@ -289,7 +294,7 @@ impl<'a> Walk<'a> {
         if there.margin <= here.margin {
             return None;
         }
-        // What fell on the moment before was counted once too often, or not at all.
+        // An event at the previous instant was counted once too often, or not at all.
         self.event(here.pace(), here, (there.point.value, &there.happened, there.point.is_stable()));
         Some(there)
     }

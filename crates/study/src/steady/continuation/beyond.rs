@@ -1,4 +1,5 @@
-//! Beyond a place where a branch does not go on by steps, however short: what the drive comes to there by itself.
+//! Search for the branch beyond a point where even the shortest step fails: the drive is simulated a small distance
+//! beyond.
 
 use super::arm::{End, Walk};
 use super::corrector::ROUNDING;
@@ -10,24 +11,28 @@ use crate::steady::{Options, SteadyError, moment, named};
 use nalgebra::DVector;
 use stickslip_drive::scene::Axis;
 
-/// How far beyond its end a branch is looked for again, as a share of the range, the nearest first.
+/// Distances beyond the end at which the branch is searched for, relative to the range.
 const BEYOND: [f64; 5] = [1e-8, 1e-6, 1e-5, 1e-4, 1e-3];
-/// By how much bodies may be faster or slower there, as a share of their largest speed, at some moments of the period.
+/// Largest difference of velocities at which two orbits belong to the same branch, relative to the largest velocity of
+/// the body. `MOMENTS` is the number of instants compared.
 const ALIKE: f64 = 1e-2;
 const MOMENTS: u32 = 8;
-/// Most periods of one search.
+/// Maximum number of periods of one search.
 const SEARCH: u32 = 500;
-/// How far beyond a body is let slide, and for how many periods at most.
+/// Distances beyond the end at which sliding is examined, relative to the range, and maximum number of periods.
 const AWAY: [f64; 3] = [1e-6, 1e-4, 1e-3];
 const SLIDES: u32 = 64;
-/// Each of its steps is longer by more than this share than the one before.
+/// Smallest relative increase of the displacement per period that counts as acceleration.
 const FASTER: f64 = 1e-9;
-/// What rounding leaves of a period is as much as a defect may be that counts as none, but for the few steps that add it up.
+/// Rounding error of a period above which the branch ends: a part of the defect that is accepted as zero.
 const ROUNDED: f64 = 0.1 * ROUNDING;
 const AXES: [Axis; 3] = [Axis::X, Axis::Z, Axis::Pitch];
 
 impl Walk<'_> {
-    /// Looks for the branch beyond a place where it does not go on by steps, however short.
+    /// Searches for the branch beyond a point where even the shortest step fails.
+    ///
+    /// # Errors
+    /// Returns the reason for the end of the branch.
     pub(super) fn beyond(&mut self, here: &Standing, trouble: &Trouble) -> Result<Standing, End> {
         if let Trouble::Refused(why) = trouble {
             return Err(End::Refused(why.clone()));
@@ -49,13 +54,13 @@ impl Walk<'_> {
         Err(End::Lost(format!("{trouble}; beyond, {}", nearest.unwrap_or_default())))
     }
 
-    /// How many natural lengths a period of a motion leads.
+    /// Returns the displacement per period in natural scales.
     fn lengths(&self, of: &Standing) -> Option<f64> {
         let map = self.bench.map_at(&of.place).ok()?;
         Some(map.reach(&of.place.fixed.image))
     }
 
-    /// The motion that the drive comes to by itself, so far beyond, if it is one that the branch goes on with.
+    /// Finds the orbit to which the drive converges at a distance beyond, if it continues the branch.
     fn anew(&mut self, here: &Standing, away: f64) -> Result<Standing, End> {
         let sense = here.pace().signum();
         let value = self.within(here, away).ok_or_else(|| End::Lost("the range ends".to_owned()))?;
@@ -74,7 +79,7 @@ impl Walk<'_> {
         drop(map);
         let period = Period::of(self.bench, &place).map_err(other)?;
         if !still.is_empty() {
-            // What is held for ever neither fades nor grows.
+            // A disturbance of a permanently stuck region is neutral.
             self.event(here.pace(), here, (value, &period.happened, true));
             return Err(End::Shakedown(named(&place.variant.drive.model, &still)));
         }
@@ -86,26 +91,26 @@ impl Walk<'_> {
         }
         next.point.piece = here.point.piece + 1;
         if !self.is_alike(here, &next).map_err(other)? {
-            return Err(lost(&"the drive converges to another motion"));
+            return Err(lost(&"the drive converges to another orbit"));
         }
         self.event(here.pace(), here, (value, &next.happened, next.point.is_stable()));
         self.keep(&next);
         Ok(next)
     }
 
-    /// The value so far beyond, if that is in the range.
+    /// Returns the value at a distance beyond, if it is in the range.
     fn within(&self, here: &Standing, away: f64) -> Option<f64> {
         let value = here.point.value + here.pace().signum() * away * self.bench.span;
         (self.range[0]..=self.range[1]).contains(&value).then_some(value)
     }
 
-    /// Whether a little beyond the figures' body slides all through, faster from period to period.
+    /// Returns whether the body named in `figures` slides and accelerates a small distance beyond.
     fn slides_away(&self, here: &Standing) -> bool {
         let beyond = AWAY.iter().filter_map(|away| self.within(here, *away));
         beyond.map(|value| self.slides(here, value)).any(|slides| matches!(slides, Ok(true)))
     }
 
-    /// The same at a value, from a motion on.
+    /// Returns whether the body slides and accelerates at a value, starting from an orbit.
     fn slides(&self, here: &Standing, value: f64) -> Result<bool, Trouble> {
         let variant = self.bench.variant(value)?;
         let Some(body) = variant.job.scenario.figures.body else { return Ok(false) };
@@ -130,7 +135,7 @@ impl Walk<'_> {
         Ok(false)
     }
 
-    /// Whether all bodies move alike through the period, at most little faster or slower.
+    /// Returns whether all bodies have nearly the same velocities during the period.
     fn is_alike(&self, here: &Standing, next: &Standing) -> Result<bool, Trouble> {
         let [one, other] = [self.speeds(here)?, self.speeds(next)?];
         let mut pairs = one.into_iter().zip(other);
@@ -140,7 +145,7 @@ impl Walk<'_> {
         }))
     }
 
-    /// Speed of every body along x, z and pitch at some moments of the period, m/s or rad/s.
+    /// Returns the velocities of every body along x, z and pitch at some instants of the period, m/s or rad/s.
     fn speeds(&self, of: &Standing) -> Result<Vec<Vec<f64>>, Trouble> {
         let mut map = self.bench.map_at(&of.place)?;
         let (model, period, mut state) = (map.model(), map.period(), of.place.fixed.state.clone());

@@ -1,11 +1,11 @@
-//! Places of a branch at which its motions change their kind, and the functions that are zero there.
+//! Bifurcations of a branch, and the test functions that are zero there.
 //!
-//! * Fold: the varied number turns, its share of the tangent is 0; a multiplier is 1.
+//! * Fold: the parameter has an extremum along the branch, so its component of the tangent is 0; a multiplier is 1.
 //! * Period doubling: a multiplier is -1, so ∏(1 + λ) = 0.
-//! * Neimark–Sacker: a pair is on the unit circle, so ∏(λᵢλⱼ - 1) = 0 over all pairs i < j; where λᵢ and λⱼ are real the function is zero as
-//!   well and nothing happens.
-//! * Branching: a multiplier is 1 and the varied number does not turn: another branch crosses, det of the derivatives by all
-//!   unknowns is 0.
+//! * Neimark–Sacker: a complex pair is on the unit circle, so ∏(λᵢλⱼ - 1) = 0 over all pairs i < j. The product is also
+//!   zero for real λᵢ = 1/λⱼ, which is no bifurcation.
+//! * Branching: a multiplier is 1 without a fold; another branch crosses. The determinant of the derivatives with
+//!   respect to all unknowns is 0.
 
 use super::corrector::matrix;
 use super::happened::Change;
@@ -14,49 +14,49 @@ use crate::steady::Multiplier;
 use nalgebra::{Complex, ComplexField};
 use serde::{Deserialize, Serialize};
 
-/// How near a multiplier is to where it must be, at a place that is closed in on.
+/// Largest distance of a multiplier from its condition at a located bifurcation.
 const THERE: f64 = 1e-2;
-/// Most tries for a place.
+/// Maximum number of evaluations.
 const MOST: u32 = 60;
 
-/// What happens at a place of a branch.
+/// Type of a special point of a branch.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub enum Bifurcation {
     /// The branch turns back.
     Fold,
-    /// A motion of twice the period leaves it.
+    /// An orbit of twice the period branches off.
     PeriodDoubling,
-    /// A beat neither fades nor grows: motions that beat for ever leave it.
+    /// An oscillation is neutral; quasi-periodic motion branches off.
     NeimarkSacker {
-        /// Periods of the beat.
+        /// Period of the oscillation in drive periods.
         beat: f64,
     },
     /// Another branch of the same period crosses.
     Branching,
-    /// What leads a disturbance on changes at once: two events, by contact or block and kind, change places, the first comes first below;
-    /// or none does, and what changes is nothing that a period tells.
+    /// The derivatives of the Poincaré map jump. If two events change their order, they are given by source and kind,
+    /// in their order below this value.
     Break(Option<[(String, String); 2]>),
-    /// Something begins to happen in a period, or no longer does.
+    /// An event appears in a period or vanishes.
     Event(Vec<Change>),
 }
 
-/// A place of a branch.
+/// Special point of a branch.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Mark {
-    /// What happens there.
+    /// Type of the point.
     pub kind: Bifurcation,
-    /// The varied number there, SI: the middle of a bracket.
+    /// Value of the parameter, SI: midpoint of the bracket.
     pub value: f64,
-    /// Half of the bracket.
+    /// Half-width of the bracket.
     pub half_width: f64,
-    /// Step there, m.
+    /// Step length at this point, m.
     pub step: Option<f64>,
-    /// Whether motions are stable on the side of smaller and of larger values; of a fold, before and after it along the branch.
+    /// Stability of the orbits below and above this value. For a fold: before and after it along the branch.
     pub stable: [bool; 2],
 }
 
 impl Bifurcation {
-    /// Its word in files.
+    /// Returns the name in output files.
     #[must_use]
     pub fn name(&self) -> &'static str {
         match self {
@@ -69,26 +69,38 @@ impl Bifurcation {
         }
     }
 
-    /// In words.
+    /// Returns a description.
     #[must_use]
     pub fn words(&self) -> String {
         match self {
-            Self::Fold => "the branch turns back: a stable and an unstable motion meet".to_owned(),
-            Self::PeriodDoubling => "a disturbance that changes sides every period neither fades nor grows: motions of twice the period begin".to_owned(),
+            Self::Fold => "the branch turns back: a stable and an unstable orbit meet".to_owned(),
+            Self::PeriodDoubling => {
+                "a multiplier is -1: a periodic orbit of twice the period branches off".to_owned()
+            }
             Self::NeimarkSacker { beat } => {
-                format!("a beat of {beat:.3} periods neither fades nor grows: motions that beat for ever begin")
+                format!(
+                    "a complex pair of multipliers is on the unit circle: quasi-periodic motion branches off, with a period of {beat:.3} drive periods"
+                )
             }
             Self::Branching => "another branch crosses".to_owned(),
             Self::Break(Some([one, other])) => format!(
-                "multipliers jump: {} of {} comes before {} of {} below, after it above",
+                "the multipliers jump: {} of {} precedes {} of {} below and follows it above",
                 one.1, one.0, other.1, other.0
             ),
-            Self::Break(None) => "multipliers jump, though as much happens in a period as before, in the same order".to_owned(),
+            Self::Break(None) => "the multipliers jump, with the same events in the same order".to_owned(),
             Self::Event(changes) => {
                 let one = |change: &Change| match (change.below, change.above) {
-                    (0, count) => format!("above, {} of {} appears ({count} a period)", change.kind, change.source),
-                    (count, 0) => format!("above, {} of {} vanishes ({count} a period below)", change.kind, change.source),
-                    (below, above) => format!("{} of {}: {below} a period below, {above} above", change.kind, change.source),
+                    (0, count) => {
+                        format!("{} of {} appears above ({count} per period)", change.kind, change.source)
+                    }
+                    (count, 0) => format!(
+                        "{} of {} disappears above ({count} per period below)",
+                        change.kind, change.source
+                    ),
+                    (below, above) => format!(
+                        "{} of {}: {below} per period below, {above} above",
+                        change.kind, change.source
+                    ),
                 };
                 changes.iter().map(one).collect::<Vec<_>>().join("; ")
             }
@@ -96,7 +108,7 @@ impl Bifurcation {
     }
 }
 
-/// A function that is zero at one kind of place.
+/// Test function that is zero at one type of bifurcation.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Test {
     Fold,
@@ -109,7 +121,7 @@ impl Test {
     pub(super) const ALL: [Self; 4] =
         [Self::Fold, Self::PeriodDoubling, Self::NeimarkSacker, Self::Branching];
 
-    /// Its value at a motion.
+    /// Returns the value of the test function for an orbit.
     pub(super) fn at(self, standing: &Standing, measure: Measure) -> f64 {
         let values = || eigenvalues(&standing.point.multipliers);
         match self {
@@ -120,7 +132,8 @@ impl Test {
         }
     }
 
-    /// Whether a multiplier is there where it must be. Where multipliers jump the function may leap over zero.
+    /// Returns whether a multiplier meets the condition of the bifurcation. If multipliers jump, the test function may
+    /// change sign without a zero.
     pub(super) fn is_met(self, standing: &Standing) -> bool {
         let values = eigenvalues(&standing.point.multipliers);
         match self {
@@ -130,15 +143,15 @@ impl Test {
         }
     }
 
-    /// Whether it is zero at a motion but for what its multipliers may be off: a pair that nothing damps lies on the unit circle all
-    /// along, and crosses it nowhere.
+    /// Returns whether the test function is zero within its error: an undamped pair stays on the unit circle and does
+    /// not cross it.
     pub(super) fn is_idle(self, standing: &Standing) -> bool {
         let multipliers = &standing.point.multipliers;
         self == Self::NeimarkSacker
             && multipliers.iter().any(|it| it.im != 0.0 && (it.modulus() - 1.0).abs() <= it.error)
     }
 
-    /// What happens where it is zero; none where that is nothing.
+    /// Returns the bifurcation at a zero of the test function. Returns `None` if there is none.
     pub(super) fn kind(self, standing: &Standing) -> Option<Bifurcation> {
         match self {
             Self::Fold => Some(Bifurcation::Fold),
@@ -157,12 +170,12 @@ impl Test {
     }
 }
 
-/// ∏(1 - λ): where the branch turns back it changes its sign, through 0 at a fold, by a jump at an event.
+/// Returns ∏(1 - λ). It changes sign where the branch turns back: through 0 at a fold, by a jump at an event.
 pub(super) fn turn(standing: &Standing) -> f64 {
     eigenvalues(&standing.point.multipliers).iter().map(|value| 1.0 - value).product::<Complex<f64>>().re
 }
 
-/// All of them, both of each pair.
+/// Returns all eigenvalues, with both of each complex pair.
 fn eigenvalues(multipliers: &[Multiplier]) -> Vec<Complex<f64>> {
     let both = |multiplier: &Multiplier| {
         let value = Complex::new(multiplier.re, multiplier.im);
@@ -175,8 +188,9 @@ fn pairs(values: &[Complex<f64>]) -> impl Iterator<Item = [Complex<f64>; 2]> {
     (0..values.len()).flat_map(move |i| (0..i).map(move |j| [values[j], values[i]]))
 }
 
-/// The zero of a function between two places at which it has values of different signs: regula falsi, of the end that stays half the
-/// value (Illinois), until it lies between two places that are no farther apart than `width`. Returns the last place on either side.
+/// Finds a zero of a function between two points with values of opposite sign, by regula falsi (Illinois variant).
+///
+/// Ends when the bracket is at most `width` wide. Returns the bracket and the data of the best evaluation.
 pub(super) fn root<T, E>(
     (mut low, mut at_low): (f64, f64),
     (mut high, mut at_high): (f64, f64),
@@ -189,7 +203,7 @@ pub(super) fn root<T, E>(
             break;
         }
         let guess = low - at_low * (high - low) / (at_high - at_low);
-        // Next to an end that is as good as the zero the other side of it is looked at.
+        // Keeps a distance from the ends of the bracket, to narrow it from the other side, too.
         let aside = 0.45 * width;
         let guess = if guess.is_finite() { guess } else { 0.5 * (low + high) };
         let guess = guess.clamp(low + aside, high - aside);
@@ -228,7 +242,8 @@ mod tests {
         assert!((best.unwrap() - zero).abs() <= 1e-10 && tries <= 12, "{tries}");
     }
 
-    /// A pair on the circle counts, two real multipliers whose product is 1 do not change their signs together.
+    /// A complex pair crossing the unit circle changes the sign of the product; two real multipliers with product 1 do
+    /// not.
     #[test]
     fn the_product_over_pairs_changes_its_sign_with_a_pair() {
         let value = |modulus: f64| {

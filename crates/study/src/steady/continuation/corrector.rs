@@ -1,44 +1,44 @@
-//! Newton's method on a state and the varied number together.
+//! Corrector of the continuation: Newton's method for state and parameter together.
 //!
-//! P(s, q) - s = 0 and one condition more, a row r·(z - z₀) = 0 on all unknowns z = (s, q): that the way from where the branch was
-//! goes as far along its tangent as was predicted, or that q is what it is. The gradient of the last place is mended by Broyden's
-//! rule, and made anew where that brings too little.
+//! Solves P(s, q) - s = 0 with one additional condition, r·(z - z₀) = 0 for all unknowns z = (s, q). The condition
+//! fixes either the length along the tangent or the parameter. Broyden's
+//! update corrects the Jacobian of the last point; a new Jacobian is computed if the convergence is slow.
 
 use super::error::Trouble;
 use super::place::{Bench, Place, Slopes};
 use nalgebra::{DMatrix, DVector};
 
-/// A defect this many times the tolerance is none.
+/// Factor on the tolerance below which the defect counts as zero.
 const GOAL: f64 = 10.0;
-/// A defect below this, in natural scales, that gets no smaller is one of rounding.
+/// Defect in natural scales that is accepted as rounding error if it does not decrease further.
 pub(super) const ROUNDING: f64 = 1e-8;
-/// Most steps.
+/// Maximum number of iterations.
 const STEPS: u32 = 14;
-/// A step that leaves more of the defect asks for a new gradient.
+/// Ratio of successive defects above which a new Jacobian is computed.
 const WORN: f64 = 0.2;
-/// By how much more than that a step by a new one leads away.
+/// Ratio of successive defects above which a step with a new Jacobian counts as divergence.
 const LEADS_AWAY: f64 = 2.0;
-/// The condition is met where it is missed by less than this, in the branch's own length.
+/// Tolerance of the additional condition, in arclength.
 const MET: f64 = 1e-13;
 
-/// What is to be found.
+/// Target of the corrector.
 pub(super) struct Wanted<'a> {
-    /// From where the branch was: numbers, then the varied one as a share of its range.
+    /// Predicted change of the unknowns: state, then parameter relative to its range.
     pub(super) to: DVector<f64>,
-    /// The row of the condition.
+    /// Row vector of the additional condition.
     pub(super) row: &'a DVector<f64>,
 }
 
-/// What was.
+/// Result of the corrector.
 pub(super) struct Corrected {
     pub(super) place: Place,
-    /// From where the branch was.
+    /// Change of the unknowns.
     pub(super) gone: DVector<f64>,
-    /// Steps that it took.
+    /// Number of iterations.
     pub(super) steps: u32,
 }
 
-/// The derivatives of the defect by all unknowns, and the row below.
+/// Returns the derivatives of the defect with respect to all unknowns, with the row of the condition below.
 pub(super) fn matrix(slopes: &Slopes, row: &DVector<f64>) -> DMatrix<f64> {
     let count = slopes.by_value.len();
     DMatrix::from_fn(count + 1, count + 1, |i, j| match (i < count, j < count) {
@@ -48,7 +48,10 @@ pub(super) fn matrix(slopes: &Slopes, row: &DVector<f64>) -> DMatrix<f64> {
     })
 }
 
-/// Goes from a place with known slopes to the one that is wanted.
+/// Iterates from a point with known derivatives to the target.
+///
+/// # Errors
+/// Fails if the iteration diverges, or the unknowns change.
 pub(super) fn correct(
     bench: &Bench<'_>,
     (from, slopes): (&Place, &Slopes),
@@ -59,7 +62,7 @@ pub(super) fn correct(
     let mut jacobian = matrix(slopes, wanted.row);
     let mut place = moved(bench, from, &wanted.to)?;
     let (mut gone, mut last) = (wanted.to.clone(), f64::INFINITY);
-    // Whether the gradient was made at the place before.
+    // True if the Jacobian was computed at the previous point.
     let mut fresh = false;
     for steps in 0..STEPS {
         let (defect, size) = (place.fixed.defect.clone(), place.fixed.defect.amax());
@@ -85,7 +88,7 @@ pub(super) fn correct(
     Err(Trouble::Diverged)
 }
 
-/// The place a step away from a place. What is carried along comes from its image: it is newer.
+/// Returns the point after a step. Memory outside of the map is taken from the image, which is newer.
 fn moved(bench: &Bench<'_>, place: &Place, step: &DVector<f64>) -> Result<Place, Trouble> {
     let count = place.fixed.defect.len();
     let (along, by) = (step.rows(0, count), step[count]);
@@ -99,7 +102,7 @@ fn moved(bench: &Bench<'_>, place: &Place, step: &DVector<f64>) -> Result<Place,
     if next.fixed.defect.len() == count { Ok(next) } else { Err(Trouble::OtherForm) }
 }
 
-/// Broyden's rule on the rows of the defect.
+/// Broyden's update of the rows of the defect.
 fn mend(jacobian: &mut DMatrix<f64>, step: &DVector<f64>, (before, after): (&DVector<f64>, &DVector<f64>)) {
     let (count, length) = (before.len(), step.norm_squared());
     if length > 0.0 {

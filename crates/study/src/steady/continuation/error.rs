@@ -1,126 +1,126 @@
-//! Why a branch cannot be followed, or no further.
+//! Errors of a continuation.
 
 use crate::steady::SteadyError;
 use stickslip_scenario::ScenarioError;
 use thiserror::Error;
 
-/// Why there is no branch at all.
+/// Reason why there is no branch.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum ContinuationError {
-    /// A path into it that names no number that can change by any amount.
+    /// The key path does not name a number that can be varied continuously.
     #[error(transparent)]
     Path(#[from] ScenarioError),
-    /// A number that the scenario does not give.
+    /// The scenario does not give the parameter.
     #[error(
-        "{0} has no value in this scenario\n   help: give it one, such as --set {0}=…, for the branch to start at"
+        "{0} has no value in this scenario\n   help: give the start value of the branch, such as --set {0}=…"
     )]
     Absent(String),
-    /// A range that holds nothing.
+    /// The range is empty or not finite.
     #[error("{path}: expected a range that rises from one finite value to another, got {from} to {to}")]
     Range {
-        /// Key path of what is to be varied.
+        /// Key path of the parameter.
         path: String,
-        /// Where it begins, SI.
+        /// Start of the range, SI.
         from: f64,
-        /// Where it ends, SI.
+        /// End of the range, SI.
         to: f64,
     },
-    /// A start outside of the range.
+    /// The start value is outside the range.
     #[error(
-        "{path} is {present} {unit} in this scenario: the branch starts there, which is not between {from} and {to}\n   help: widen the range, or set it, --set {path}=…"
+        "the branch starts at the value of the scenario, {path} = {present} {unit}, which is not between {from} and {to}\n   help: widen the range, or set another start value, --set {path}=…"
     )]
     Outside {
-        /// Its path.
+        /// Key path of the parameter.
         path: String,
-        /// What it is, SI.
+        /// Value of the parameter, SI.
         present: f64,
-        /// Its unit.
+        /// Unit of the parameter.
         unit: &'static str,
-        /// Where the range begins, SI.
+        /// Start of the range, SI.
         from: f64,
-        /// Where it ends, SI.
+        /// End of the range, SI.
         to: f64,
     },
-    /// The caller had enough before there was a motion to start with.
-    #[error("interrupted after {0} periods, before the motion was found that the branch starts from")]
+    /// The caller interrupted the search for the first orbit.
+    #[error("interrupted after {0} periods, before the first orbit of the branch was found")]
     Interrupted(u32),
-    /// No steady motion to start with.
-    #[error("the branch starts at {path} = {present} {unit}, where there is no steady motion: {source}")]
+    /// There is no periodic orbit at the start value.
+    #[error("there is no periodic orbit at the start of the branch, {path} = {present} {unit}: {source}")]
     NoStart {
-        /// What is varied.
+        /// Key path of the parameter.
         path: String,
-        /// What it is, SI.
+        /// Value of the parameter, SI.
         present: f64,
-        /// Its unit.
+        /// Unit of the parameter.
         unit: &'static str,
-        /// Why.
+        /// Reason for the error.
         source: Box<SteadyError>,
     },
-    /// A period that cannot change without parting from another one.
+    /// Varying this period alone would leave the waveforms without a common period.
     #[error(
-        "{path} cannot be varied by itself: the waveforms \"{first}\" and \"{second}\" would have no common period\n   help: vary the period of all of them, as `stickslip curve --curve speed-frequency` does"
+        "{path} cannot be varied alone: the waveforms \"{first}\" and \"{second}\" would have no common period\n   help: vary all periods together with `stickslip curve --curve speed-frequency`"
     )]
     Apart {
-        /// What is varied.
+        /// Key path of the parameter.
         path: String,
-        /// Name of one waveform.
+        /// Name of the first waveform.
         first: String,
-        /// Name of the other.
+        /// Name of the second waveform.
         second: String,
     },
-    /// A motion that nothing leads on from.
-    #[error("there is a steady motion at {path} = {present} {unit}, but no branch leads on from it: {why}")]
+    /// There is an orbit at the start value, but no branch.
+    #[error("no branch starts from the periodic orbit at {path} = {present} {unit}: {why}")]
     NoBranch {
-        /// What is varied.
+        /// Key path of the parameter.
         path: String,
-        /// What it is, SI.
+        /// Value of the parameter, SI.
         present: f64,
-        /// Its unit.
+        /// Unit of the parameter.
         unit: &'static str,
-        /// Why.
+        /// Reason for the error.
         why: String,
     },
-    /// A continuum to start with.
+    /// The periodic orbits at the start value form a family.
     #[error(
-        "at {path} = {present} {unit} {contacts:?} never slip grossly: steady motions are a whole family (a shakedown), and no one branch leads on from there\n   help: drive it further, so that all slip"
+        "at {path} = {present} {unit} there is no gross slip in {contacts:?}: the periodic orbits are a family (shakedown) instead of a branch\n   help: increase the stroke until all contacts slip"
     )]
     Shakedown {
-        /// What is varied.
+        /// Key path of the parameter.
         path: String,
-        /// What it is, SI.
+        /// Value of the parameter, SI.
         present: f64,
-        /// Its unit.
+        /// Unit of the parameter.
         unit: &'static str,
         /// Names of the contacts.
         contacts: Vec<String>,
     },
 }
 
-/// Why a step along a branch came to nothing.
+/// Reason why a continuation step failed.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub(super) enum Trouble {
-    /// The value makes no scenario.
+    /// The value does not give a valid scenario.
     #[error("refused: {0}")]
     Refused(String),
-    /// A contact's memory has other knots there, or the drive other numbers.
-    #[error("what contacts remember has another form")]
+    /// The slip memory has another number of corners, or the model has other unknowns.
+    #[error("the slip memories have another structure")]
     OtherForm,
-    /// No motion was come to.
-    #[error("no motion was found")]
+    /// No orbit was found.
+    #[error("no orbit was found")]
     Diverged,
-    /// The branch bends too much for the step.
+    /// The branch bends too much for this step size.
     #[error("the branch bends")]
     Bends,
-    /// The body of the figures slides all through, and any speed does.
+    /// The body named in `figures` slides during the whole period at any velocity.
     #[error("any speed does")]
     Slides,
-    /// A period, or a drive that is none.
+    /// A period failed, or the drive has no orbit.
     #[error(transparent)]
     Steady(#[from] SteadyError),
 }
 
 impl Trouble {
-    /// Whether a shorter step would not help.
+    /// Returns whether a shorter step would not help.
     pub(super) fn is_final(&self) -> bool {
         matches!(self, Self::Steady(SteadyError::Interrupted(_)))
     }

@@ -1,4 +1,4 @@
-//! What happens in a period: events by who and what, and how often.
+//! Events of a period: numbers by source and kind.
 
 use super::error::Trouble;
 use super::place::{Bench, Place};
@@ -9,31 +9,31 @@ use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use stickslip_drive::{Event, Record, Source, State};
 
-/// How often something happens in a period, by who and what.
+/// Numbers of events in a period by source and kind.
 pub(super) type Happened = BTreeMap<(String, String), usize>;
 
-/// A period of a motion.
+/// Events of one period of an orbit.
 #[derive(Debug, Clone)]
 pub(super) struct Period {
     pub(super) happened: Happened,
-    /// The same in its order.
+    /// Events in chronological order.
     pub(super) order: Vec<(String, String)>,
-    /// Whether the figures' body slips on all its contacts all through.
+    /// True if the body named in `figures` slips on all its contacts during the whole period.
     pub(super) is_dragged: bool,
-    /// Where the map's moment lies between the events before and after it: 0.5 in the middle, 0 at one of them.
+    /// Relative distance of the Poincaré section from the nearest event: 0.5 midway between two events, 0 at an event.
     pub(super) margin: f64,
 }
 
-/// What one motion does in a period and its neighbour does not.
+/// Difference of the event counts of neighbouring orbits.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Change {
-    /// Contact or block.
+    /// Name of the contact or piezo material.
     pub source: String,
-    /// What happens.
+    /// Kind of event.
     pub kind: String,
-    /// How often below the place of the change.
+    /// Number per period below the parameter value of the change.
     pub below: usize,
-    /// How often above it.
+    /// Number per period above it.
     pub above: usize,
 }
 
@@ -51,9 +51,9 @@ impl Record for Events {
 }
 
 impl Period {
-    /// The period of a place.
+    /// Simulates the period of an orbit and records its events.
     pub(super) fn of(bench: &Bench<'_>, place: &Place) -> Result<Self, Trouble> {
-        // The period after: the place itself may stand where the period before had not come to yet, and what happens in between is missed.
+        // The period after the image is used: an event just at the start could be missed in the period before.
         let (state, period) = (&place.fixed.image.state, place.variant.drive.period);
         let (from, job) = (state.time(), &place.variant.job);
         let mut grip = job.scenario.figures.body.map(|body| Grip::new(job, body));
@@ -81,7 +81,8 @@ impl Period {
     }
 }
 
-/// A state led on by some time, s: where to, what happened, and what a body did all the while that nothing held.
+/// Simulates a state for some time, s. Returns the end state, the events, and the state of the observed body if no
+/// contact held it.
 pub(super) fn stretch(
     map: &mut Map<'_>,
     state: State,
@@ -99,7 +100,7 @@ pub(super) fn stretch(
     Ok((state, events.0, loose))
 }
 
-/// What differs between two periods, the one of the smaller value first.
+/// Returns the differences of event counts, from the smaller to the larger parameter value.
 pub(super) fn changes(below: &Happened, above: &Happened) -> Vec<Change> {
     let mut keys: Vec<_> = below.keys().chain(above.keys()).collect();
     keys.sort();
@@ -111,7 +112,7 @@ pub(super) fn changes(below: &Happened, above: &Happened) -> Vec<Change> {
     keys.into_iter().map(change).filter(|change| change.below != change.above).collect()
 }
 
-/// The first two events that come in another order above than below; none where the order is the same.
+/// Returns the first two events whose order differs. Returns `None` if the order is the same.
 pub(super) fn swap(orders: [&[(String, String)]; 2]) -> Option<[(String, String); 2]> {
     let mut pairs = orders[0].iter().zip(orders[1]);
     pairs.find(|(below, above)| below != above).map(|(below, above)| [below.clone(), above.clone()])
@@ -127,7 +128,7 @@ mod tests {
         let touch = |count: usize| Happened::from([(("end".to_owned(), "touch".to_owned()), count)]);
         let found = changes(&Happened::new(), &touch(1));
         assert_eq!((found[0].below, found[0].above), (0, 1));
-        assert_eq!(Bifurcation::Event(found).words(), "above, touch of end appears (1 a period)");
+        assert_eq!(Bifurcation::Event(found).words(), "touch of end appears above (1 per period)");
         assert!(changes(&touch(2), &touch(2)).is_empty());
     }
 

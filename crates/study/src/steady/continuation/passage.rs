@@ -1,4 +1,4 @@
-//! What lies between two motions of a branch: a place where its motions change their kind, or an event.
+//! Special points between two orbits of a branch: bifurcations and events.
 
 use super::arm::{Probe, Walk};
 use super::bifurcation::{Bifurcation, Mark, Test, root, turn};
@@ -6,17 +6,17 @@ use super::error::Trouble;
 use super::happened::{Change, Happened, changes, swap};
 use super::standing::Standing;
 
-/// Motions on either side of an event that are farther apart than this are of two branches.
+/// Distance of the orbits on both sides of an event above which they belong to different branches.
 const JUMP: f64 = 1e-3;
-/// Where so many events lie within this share of the range the next ones are told as one, no longer than that: reversals of a ring that dies
-/// out vanish one after the other.
+/// If `CLOSE` events lie within the fraction `CROWD` of the range, the next ones in this distance are combined. An
+/// example are reversals of decaying ringing, which vanish one after another.
 const CROWD: f64 = 1e-4;
 const CLOSE: usize = 2;
-/// What an event takes back of the one before, no more than so many times the accuracy of places away, is rounding at the place of both.
+/// Distance, in accuracies, below which an event that cancels the one before is a rounding error.
 const FLICKER: f64 = 1e3;
 
 impl Walk<'_> {
-    /// Finds what lies between two motions in whose periods the same happens.
+    /// Locates bifurcations between two orbits with the same events.
     pub(super) fn cross(&mut self, here: &Standing, next: &Standing, length: f64) -> Result<(), Trouble> {
         let mut found: Vec<(f64, Standing, Mark)> = Vec::new();
         for test in Test::ALL {
@@ -29,23 +29,23 @@ impl Walk<'_> {
                 Ok::<_, Trouble>((test.at(&standing, self.measure), (at, standing)))
             };
             let ([low, high], best) = root((0.0, at_here), (length, at_next), self.accuracy, value)?;
-            // Elsewhere only what is taken for its tangent turns back.
+            // Elsewhere only the computed tangent turns back, not the branch.
             if test == Test::Fold && turn(here) * turn(next) > 0.0 {
                 return Err(Trouble::Bends);
             }
             let Some((at, standing)) = best else { continue };
             if !test.is_met(&standing) {
-                // It has jumped over zero: for the others, too.
+                // Multipliers jumped over the condition. The same jump may affect other test functions.
                 if !found.iter().any(|(.., mark)| matches!(mark.kind, Bifurcation::Break(_))) {
                     found.push(self.broken((here, next), [low, high])?);
                 }
                 continue;
             }
             let Some(kind) = test.kind(&standing) else { continue };
-            // Where the branch turns the bracket has no width: what is left is the tolerance of the runs.
+            // At a fold the bracket has no width in the parameter; the tolerance of the runs remains.
             let width = (0.5 * (high - low) * standing.pace().abs()).max(self.bench.options.tolerance);
             let half_width = width * self.bench.span;
-            // Near the place no multiplier is far from 1: its side is what counts.
+            // Near a bifurcation no multiplier is far from 1, so only the side of 1 decides.
             let sides = [here, next].map(|standing| standing.point.radius() < 1.0);
             let mark = self.mark(kind, &standing, half_width, sides);
             found.push((at, standing, mark));
@@ -58,7 +58,7 @@ impl Walk<'_> {
         Ok(())
     }
 
-    /// A place at which the derivatives of the motion jump, between two lengths along a tangent.
+    /// Returns the point at which the derivatives of the map jump, between two distances along the tangent.
     fn broken(
         &self,
         (here, next): (&Standing, &Standing),
@@ -83,7 +83,7 @@ impl Walk<'_> {
         Mark { kind, value: at.point.value, half_width, step: at.point.step, stable }
     }
 
-    /// Closes in on an event between a motion and one in whose period something else happens, and goes on from beyond it.
+    /// Locates an event between an orbit and a point with other events, by bisection, and continues beyond it.
     pub(super) fn pass(&mut self, here: &Standing, far: Probe, length: f64) -> Result<Standing, Trouble> {
         let (mut low, mut high) = (0.0, length);
         let (mut near, mut far): (Option<Probe>, Probe) = (None, far);
@@ -123,15 +123,15 @@ impl Walk<'_> {
         Ok(beyond)
     }
 
-    /// Whether events lie so close that one more is not told from those that follow.
+    /// Returns whether several events lie so close that the next ones are combined.
     fn is_crowded(&self, here: &Standing) -> bool {
         let near = |value: &&f64| (**value - here.point.value).abs() < CROWD * self.bench.span;
         self.passed.iter().rev().take(CLOSE).filter(near).count() == CLOSE
     }
 
-    /// Adds a place, unless what happens there takes back the event before it.
+    /// Adds a special point, unless it cancels the event before it.
     pub(super) fn add(&mut self, mark: Mark) {
-        // One without a width is told from another moment of the same period.
+        // An event without width was found when the Poincaré section moved.
         if matches!(mark.kind, Bifurcation::Event(_)) && mark.half_width > 0.0 {
             self.passed.push(mark.value);
         }
@@ -149,7 +149,8 @@ impl Walk<'_> {
         }
     }
 
-    /// Tells what differs between a motion and one just beyond, if anything does, where the varied number goes on in a sense.
+    /// Adds a special point for the differences in the events of an orbit and of one just beyond it. `sense` is the
+    /// direction of the parameter.
     pub(super) fn event(
         &mut self,
         sense: f64,
@@ -158,7 +159,7 @@ impl Walk<'_> {
     ) {
         let values = [before.point.value, value];
         let mut sides = [(&before.happened, before.point.is_stable()), (happened, stable)];
-        // How far the two are apart in the varied number may be rounding.
+        // The difference of their parameter values may be a rounding error.
         if sense < 0.0 {
             sides.reverse();
         }
@@ -176,7 +177,7 @@ impl Walk<'_> {
     }
 }
 
-/// Whether what changes at two places is the same, there and back.
+/// Returns whether two changes cancel each other.
 fn is_reverse(one: &[Change], other: &[Change]) -> bool {
     let back = |change: &Change| Change { below: change.above, above: change.below, ..change.clone() };
     one.len() == other.len() && one.iter().zip(other).all(|(one, other)| back(one) == *other)

@@ -1,4 +1,4 @@
-//! A state of the drive at a value of what is varied, with where a period leads it.
+//! State of the drive at a value of the parameter, with its image after a period.
 
 use super::error::Trouble;
 use crate::steady::endless::Endless;
@@ -15,48 +15,51 @@ use stickslip_drive::section::Section;
 use stickslip_run::Job;
 use stickslip_scenario::{Scenario, ScenarioError};
 
-/// Change of the defect, in tolerances, that a difference by the varied number aims at, and the most, in natural scales: runs beside each
-/// other take the same steps and miss alike, far less than by a tolerance, and where a drive rings its map has waves in the varied number.
+/// Target for the change of the defect in finite differences with respect to the parameter, in tolerances, and its
+/// limit in natural scales.
+///
+/// Neighbouring runs take the same time steps and have nearly the same error. A larger distance would suffer from waves
+/// of the map that ringing causes.
 const SEEN: f64 = 1e5;
 const MOST_SEEN: f64 = 1e-4;
-/// Tries to come within ten times of it.
+/// Number of attempts to reach the target within a factor of ten.
 const TRIES: u32 = 6;
-/// By how little and by how much the varied number is moved, as a share of its range.
+/// Smallest and largest distance in the parameter, relative to its range.
 const LEAST: f64 = 1e-10;
 const MOST: f64 = 1e-3;
-/// How often the form of memories may change on the way to a motion.
+/// Maximum number of changes in the structure of the slip memories during a search.
 const FORMS: u32 = 4;
 
-/// The drive at a value.
+/// Drive at a value of the parameter.
 pub(super) struct Variant {
     pub(super) value: f64,
     pub(super) job: Job,
     pub(super) drive: Endless,
 }
 
-/// A state there, and its image.
+/// State of this drive with its image.
 #[derive(Clone)]
 pub(super) struct Place {
     pub(super) variant: Rc<Variant>,
     pub(super) fixed: Fixed,
 }
 
-/// How a state comes back, to first order.
+/// Derivatives of the Poincaré map.
 #[derive(Clone, Serialize, Deserialize)]
 pub(super) struct Slopes {
     pub(super) gradient: Gradient,
-    /// Of the defect by the varied number as a share of its range, in natural scales.
+    /// Derivative of the defect with respect to the parameter relative to its range, in natural scales.
     pub(super) by_value: DVector<f64>,
 }
 
-/// Where drives are made and led.
+/// Builds and simulates drives at different values of the parameter.
 pub(super) struct Bench<'a> {
     pub(super) job: &'a Job,
     pub(super) path: &'a str,
-    /// From one end of the range to the other.
+    /// Length of the range.
     pub(super) span: f64,
     pub(super) options: Options<'a>,
-    /// By how much the varied number is moved for a difference, as a share of its range.
+    /// Distance of finite differences in the parameter, relative to its range.
     pub(super) apart: Cell<f64>,
 }
 
@@ -65,13 +68,13 @@ impl<'a> Bench<'a> {
         Self { job, path, span, options, apart: Cell::new(1e-6) }
     }
 
-    /// The drive at a value.
+    /// Returns the drive at a value.
     pub(super) fn variant(&self, value: f64) -> Result<Rc<Variant>, Trouble> {
         if !value.is_finite() {
             return Err(Trouble::Diverged);
         }
         let text = format!("{value:e}");
-        // Whatever is a default in the file stands in the resolved scenario, and the points of tables.
+        // The resolved scenario contains defaults and the points of tables.
         let made =
             Scenario::from_str_with(&self.job.resolved, &self.job.name, "", &[(self.path, text.as_str())]);
         let made = made.and_then(|mut scenario| {
@@ -88,7 +91,7 @@ impl<'a> Bench<'a> {
         Map::new(&variant.drive.model, variant.drive.period, &variant.job, &self.options)
     }
 
-    /// The map at a state. It has as many numbers as the defect there.
+    /// Returns the map at a state. Fails if its number of unknowns differs from that of the defect.
     pub(super) fn map_at<'v>(&'v self, place: &'v Place) -> Result<Map<'v>, Trouble> {
         let section = Section::new(&place.variant.drive.model, place.fixed.state.clone());
         if section.unknowns().len() != place.fixed.defect.len() {
@@ -99,7 +102,7 @@ impl<'a> Bench<'a> {
         Ok(map)
     }
 
-    /// A state and its image.
+    /// Returns a state with its image.
     pub(super) fn place(&self, variant: &Rc<Variant>, state: State) -> Result<Place, Trouble> {
         let mut map = self.map(variant);
         let section = Section::new(&variant.drive.model, state);
@@ -111,7 +114,7 @@ impl<'a> Bench<'a> {
         Ok(Place { variant: Rc::clone(variant), fixed })
     }
 
-    /// The motion that the start of a drive leads to.
+    /// Finds the periodic orbit from the initial state of a drive.
     pub(super) fn found(&self, variant: &Rc<Variant>, options: &Options<'_>) -> Result<Place, Trouble> {
         let (model, job) = (&variant.drive.model, &variant.job);
         let mut map = Map::new(model, variant.drive.period, job, options);
@@ -121,7 +124,7 @@ impl<'a> Bench<'a> {
             if section.unknowns().len() == fixed.defect.len() {
                 return Ok(Place { variant: Rc::clone(variant), fixed });
             }
-            // On the way there a contact has begun to remember, or has forgotten: the search goes on with the numbers that there are.
+            // The slip memory of a contact appeared or vanished during the search; continue with the new unknowns.
             let section = Section::new(model, moment::again(&mut map, fixed.state)?.state);
             let from = section.base().clone();
             map.set(section);
@@ -130,7 +133,7 @@ impl<'a> Bench<'a> {
         Err(Trouble::OtherForm)
     }
 
-    /// The same motion at the moment of the period at which least is remembered.
+    /// Returns the same orbit with the Poincaré section at the instant of the smallest slip memory.
     pub(super) fn moment(&self, place: &Place) -> Result<Place, Trouble> {
         let mut map = self.map_at(place)?;
         let state = moment::again(&mut map, place.fixed.state.clone())?.state;
@@ -138,7 +141,7 @@ impl<'a> Bench<'a> {
         self.place(&place.variant, state)
     }
 
-    /// A state of a variant as one of another, its numbers moved, in natural scales.
+    /// Transfers a state from one variant to another, with its unknowns changed by `by`, in natural scales.
     pub(super) fn elsewhere(
         &self,
         (state, of): (&State, &Variant),
@@ -155,7 +158,7 @@ impl<'a> Bench<'a> {
         section.elsewhere(state, by.as_slice(), &to.drive.model, t).ok_or(Trouble::OtherForm)
     }
 
-    /// How the state of a place comes back, to first order.
+    /// Returns the derivatives of the map at a point.
     pub(super) fn slopes(&self, place: &Place) -> Result<Slopes, Trouble> {
         let Fixed { state, image, .. } = &place.fixed;
         let apart = near(self.options.tolerance);
@@ -163,8 +166,8 @@ impl<'a> Bench<'a> {
         Ok(Slopes { gradient, by_value: self.by_value(place)? })
     }
 
-    /// Of the defect by the varied number: by differences to both sides, or to one where on the other memories have another form or something
-    /// else happens in the period.
+    /// Returns the derivative of the defect with respect to the parameter by central differences. Differences are
+    /// one-sided if one side has other events or another memory structure.
     pub(super) fn by_value(&self, place: &Place) -> Result<DVector<f64>, Trouble> {
         let mut why = Trouble::OtherForm;
         let seen = (SEEN * self.options.tolerance).min(MOST_SEEN);
@@ -196,7 +199,7 @@ impl<'a> Bench<'a> {
         Err(why)
     }
 
-    /// The same state at another value.
+    /// Returns the same state at another value of the parameter.
     fn beside(&self, place: &Place, by: f64) -> Result<Fixed, Trouble> {
         let variant = self.variant(place.variant.value + by * self.span)?;
         let still = DVector::zeros(place.fixed.defect.len());

@@ -1,4 +1,4 @@
-//! A steady motion of the branch, with all that leads on from it.
+//! Periodic orbit of a branch with all data for the next step.
 
 use super::corrector::matrix;
 use super::error::Trouble;
@@ -9,56 +9,57 @@ use nalgebra::DVector;
 use serde::{Deserialize, Serialize};
 use stickslip_drive::scene::Axis;
 
-/// A steady motion of the branch.
+/// Periodic orbit of a branch.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Point {
-    /// What is varied, SI.
+    /// Value of the parameter, SI.
     pub value: f64,
-    /// Way of the figures' body along x in a period, m; none where no body is named or it is not free.
+    /// Displacement of the body named in `figures` along x per period, m. `None` if no body is named or it is not free.
     pub step: Option<f64>,
-    /// By how much that may be off, m.
+    /// Error of the step length, m.
     pub bound: f64,
     /// Period, s.
     pub period: f64,
-    /// Floquet multipliers, the largest first.
+    /// Floquet multipliers in descending order of modulus.
     pub multipliers: Vec<Multiplier>,
-    /// How many numbers the map of a period has.
+    /// Number of unknowns of the Poincaré map.
     pub unknowns: usize,
-    /// Which smooth piece of the branch it is on: another one begins where an event appears or vanishes.
+    /// Number of the smooth piece of the branch. A new piece starts where an event appears or vanishes.
     pub piece: usize,
 }
 
-/// The same with what leads on from it.
+/// Periodic orbit with its derivatives and tangent.
 #[derive(Clone)]
 pub(super) struct Standing {
     pub(super) place: Place,
     pub(super) slopes: Slopes,
-    /// Along the branch, one long in its own length: numbers, then the varied one as a share of its range.
+    /// Unit tangent of the branch: unknowns, then the parameter relative to its range.
     pub(super) tangent: DVector<f64>,
     pub(super) happened: Happened,
-    /// How well the map's moment keeps off the events before and after it: 0.5 in the middle between them, 0 at one.
+    /// Relative distance of the Poincaré section from the nearest event: 0.5 midway between two events, 0 at an event.
     pub(super) margin: f64,
-    /// Whether the figures' body slides all through and keeps any speed that it has: what pulls it is as much as friction holds.
+    /// True if the body named in `figures` slides during the whole period at any velocity, because the load equals the
+    /// friction limit.
     pub(super) is_loose: bool,
     pub(super) point: Point,
 }
 
-/// How lengths along a branch are counted.
+/// Metric of the arclength along a branch.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Measure {
-    /// Length of a natural scale of a number, where the range of the varied one is 1.
+    /// Weight of an unknown in natural scales; the parameter relative to its range has weight 1.
     pub(super) weight: f64,
 }
 
 impl Measure {
-    /// The range of the varied number counts as much as what the motion does in it, by its tangent (dx/dq, 1), at most.
+    /// Returns the metric for the first tangent (dx/dq, 1). The state contributes at most as much as the parameter.
     pub(super) fn of(tangent: &DVector<f64>) -> Self {
         let count = tangent.len() - 1;
         let change = tangent.rows(0, count).norm() / tangent[count].abs();
         Self { weight: 1.0 / change.max(1.0) }
     }
 
-    /// The row that measures lengths along a tangent.
+    /// Returns the row vector that measures lengths along a tangent.
     pub(super) fn row(self, tangent: &DVector<f64>) -> DVector<f64> {
         let mut row = tangent * (self.weight * self.weight);
         let last = tangent.len() - 1;
@@ -71,7 +72,7 @@ impl Measure {
     }
 }
 
-/// The direction in which only the varied number counts.
+/// Returns the row vector of the parameter alone.
 pub(super) fn by_value(count: usize, sense: f64) -> DVector<f64> {
     let mut row = DVector::zeros(count + 1);
     row[count] = sense;
@@ -79,7 +80,7 @@ pub(super) fn by_value(count: usize, sense: f64) -> DVector<f64> {
 }
 
 impl Standing {
-    /// A place made out: slopes, tangent, multipliers. The tangent goes on in the sense of a row.
+    /// Computes derivatives, tangent and multipliers of an orbit. The tangent points in the direction of `row`.
     pub(super) fn of(
         bench: &Bench<'_>,
         place: Place,
@@ -118,12 +119,12 @@ impl Standing {
         Ok(Self { place, slopes, tangent, happened, margin, is_loose, point })
     }
 
-    /// How many numbers the map has.
+    /// Returns the number of unknowns of the map.
     pub(super) fn count(&self) -> usize {
         self.slopes.by_value.len()
     }
 
-    /// How the varied number changes along the branch.
+    /// Returns the change of the parameter along the branch: its component of the tangent.
     pub(super) fn pace(&self) -> f64 {
         self.tangent[self.count()]
     }

@@ -1,4 +1,4 @@
-//! What is told of a branch: a table, and all of it in JSON.
+//! Output of a branch: `branch.csv` and `branch.json`.
 
 use super::{Bifurcation, Branch, Change, Continuation, End, Mark, Point};
 use crate::published::{self, Names};
@@ -11,41 +11,42 @@ use stickslip_run::Real;
 use stickslip_run::files::{BRANCH, PARTIAL_BRANCH};
 use stickslip_run::folder::Folder;
 
-/// Names of the table and of what is told of all: of a branch, and of one that was interrupted, beside which a finished one stays.
+/// Names of table and report, of a complete and of an interrupted branch. An interrupted branch does not replace a
+/// complete one.
 const NAMES: Names = [["branch.csv", BRANCH], ["branch-partial.csv", PARTIAL_BRANCH]];
 
-/// Names of all files that a branch is written to, pictures apart.
+/// Returns the names of all files of a branch except plots.
 pub fn all_files() -> impl Iterator<Item = String> {
     NAMES.into_iter().flatten().map(str::to_owned)
 }
 
-/// All numbers of a branch; written last.
+/// Content of `branch.json`. It is written last.
 #[derive(Debug, Serialize, JsonSchema)]
 struct Report<'a> {
     /// name of the scenario
     scenario: &'a str,
-    /// SHA-256 of the resolved scenario, as it is where the branch starts
+    /// SHA-256 of the complete scenario at the start of the branch
     scenario_sha256: &'a str,
     /// name and version of the program
     program: &'a str,
-    /// `done`, or `interrupted`: then the file is `branch-partial.json`
+    /// end of the computation: `done` or `interrupted`. An interrupted branch is in `branch-partial.json`.
     status: &'static str,
-    /// key path of what is varied; it heads the first column of `branch.csv`, with its unit
+    /// path of the varied parameter. With its unit, it is the name of the first column of branch.csv.
     varied: &'a str,
-    /// its SI unit; empty of a plain number
+    /// SI unit of the parameter, empty for a plain number
     unit: &'static str,
-    /// what it is in the scenario: where the branch starts
+    /// value of the parameter in the scenario, where the branch starts
     #[serde(rename = "scenario_value")]
     present: Real,
-    /// where the range begins
+    /// start of the range of the parameter
     from: Real,
-    /// where the range ends
+    /// end of the range of the parameter
     to: Real,
-    /// local error per step of the runs
+    /// local error per time step relative to the natural scales
     tolerance: Real,
-    /// accuracy of special points, as a share of the range
+    /// accuracy of special points relative to the range
     accuracy: Real,
-    /// place of the start among the points, counted from 0
+    /// index of the start in `points`, from 0
     start: usize,
     points: Vec<PointReport>,
     #[serde(rename = "special_points")]
@@ -54,79 +55,82 @@ struct Report<'a> {
     /// names of all files that were written together
     #[serde(skip_serializing_if = "Vec::is_empty")]
     files: Vec<String>,
-    /// SHA-256 of `branch.csv`
+    /// SHA-256 of branch.csv
     #[serde(skip_serializing_if = "Option::is_none")]
     table_sha256: Option<String>,
 }
 
 #[derive(Debug, Serialize, JsonSchema)]
 struct PointReport {
-    /// what is varied, at this motion; motions stand in their order along the branch
+    /// value of the parameter at an orbit. Orbits are listed in their order along the branch.
     value: Real,
-    /// which smooth piece of the branch: another one begins where an event of the period appears or vanishes
+    /// number of the smooth piece of the branch. A new piece begins where an event of the period appears or vanishes.
     piece: usize,
-    /// step along x of the figures' body in a period; none where no body is free along x
+    /// step length: displacement along x of the body named in `figures` in one period. Empty or null if no body is free
+    /// along x.
     step_m: Option<Real>,
-    /// how far the step may be off, an estimate of first order, doubled
+    /// uncertainty of the step length: a first-order estimate, doubled
     step_error_m: Option<Real>,
-    /// mean speed along x: step over period
+    /// mean velocity: step length divided by period
     speed_m_s: Option<Real>,
-    /// period common to all waveforms
+    /// period of the orbit: common period of all waveforms
     period_s: Real,
-    /// whether a run that is disturbed a little comes back: no |λ| > 1; 1 or 0 in branch.csv
+    /// whether the orbit is stable: no Floquet multiplier has |λ| > 1. In branch.csv 1 or 0.
     stable: bool,
-    /// Floquet multipliers, real and imaginary part, the largest first; of a pair the one above
+    /// Floquet multipliers as real and imaginary part, the largest modulus first. A complex pair has one entry, with
+    /// positive imaginary part.
     multipliers: Vec<[Real; 2]>,
-    /// how many numbers the map of a period has
+    /// number of unknowns of the Poincaré map
     unknowns: usize,
 }
 
 #[derive(Debug, Serialize, JsonSchema)]
 struct MarkReport {
-    /// `fold` (the branch turns back), `period doubling` (λ = -1), `Neimark-Sacker` (a pair with |λ| = 1), `branching` (another
-    /// branch crosses), `break` (multipliers jump) or `event` (something appears in a period or vanishes)
+    /// kind of the special point: `fold` (the branch turns back), `period doubling` (λ = -1), `Neimark-Sacker` (complex
+    /// pair with |λ| = 1), `branching` (another branch crosses), `break` (multipliers jump) or `event` (an event of the
+    /// period appears or vanishes)
     kind: &'static str,
-    /// what is varied, there
+    /// value of the parameter at the special point
     value: Real,
-    /// how far that may be off: half of the bracket in which it lies
+    /// uncertainty of the parameter value at the special point: half of the bracket in which it lies
     half_width: Real,
-    /// step there
+    /// step length at the special point. null if no body is free along x.
     step_m: Option<Real>,
-    /// whether motions are stable on the side of smaller and on that of larger values; of a fold before it and after it along
-    /// the branch
+    /// whether the orbits are stable below and above the parameter value of the special point. At a fold: before and
+    /// after it along the branch.
     stable: [bool; 2],
-    /// drive periods of the oscillation that neither decays nor grows; of Neimark-Sacker only
+    /// period of the neutral oscillation at a `Neimark-Sacker` point, in drive periods. Absent at other points.
     #[serde(skip_serializing_if = "Option::is_none")]
     oscillation_periods: Option<Real>,
     #[serde(skip_serializing_if = "Vec::is_empty")]
     changes: Vec<ChangeReport>,
-    /// what happens, in words
+    /// sentence about the special point
     #[serde(rename = "text")]
     words: String,
 }
 
 #[derive(Debug, Serialize, JsonSchema)]
 struct ChangeReport {
-    /// contact or block whose event it is
+    /// name of the contact or block whose event appears or vanishes
     source: String,
-    /// the event
+    /// kind of the event that appears or vanishes
     event: String,
-    /// how often it happens in a period below the place
+    /// number of such events in a period at parameter values below the special point
     below: usize,
-    /// how often above it
+    /// number of such events in a period at parameter values above the special point
     above: usize,
 }
 
 #[derive(Debug, Serialize, JsonSchema)]
 struct EndReport {
-    /// what is varied, at the first and at the last motion
+    /// value of the parameter at an end of the branch: at the first and at the last orbit
     value: Real,
-    /// `range` (its end), `shakedown` (beyond, a contact never slips grossly: a whole family of motions), `slides away` (what
-    /// pulls a body is as much as friction holds: any speed does), `rounded` (rounding leaves nothing of what friction does in
-    /// a period), `lost` (no motion was found beyond), `refused` (the scenario allows no value beyond), `points` (as many as
-    /// were allowed) or `interrupted`
+    /// reason for an end of the branch: `range` (end of the range), `shakedown` (beyond, a contact never slips grossly,
+    /// and orbits form a family), `slides away` (the load equals the friction limit; any velocity is possible),
+    /// `rounded` (friction acts on displacements below the rounding error), `lost` (no orbit found beyond), `refused`
+    /// (the scenario is invalid beyond), `points` (largest number of points reached) or `interrupted`
     kind: &'static str,
-    /// the same in words
+    /// sentence about an end of the branch
     #[serde(rename = "text")]
     words: String,
 }
@@ -177,7 +181,7 @@ impl MarkReport {
 }
 
 impl End {
-    /// Its word in files.
+    /// Returns the word in files.
     #[must_use]
     pub fn name(&self) -> &'static str {
         match self {
@@ -192,33 +196,33 @@ impl End {
         }
     }
 
-    /// In words.
+    /// Returns a sentence.
     #[must_use]
     pub fn words(&self) -> String {
         match self {
             Self::Range => "the end of the range".to_owned(),
             Self::Shakedown(contacts) => format!(
-                "beyond, {} never slips grossly: steady motions are a whole family (a shakedown), and no one branch goes on",
+                "no gross slip in {} beyond this value: the periodic orbits are a family (shakedown), and the branch ends",
                 contacts.join(", ")
             ),
             Self::SlidesAway(body) => format!(
-                "what pulls {body} is as much here as friction holds: any speed does, and beyond it slides away"
+                "the load on {body} equals the friction limit: the speed is arbitrary, and beyond this value the body slides away"
             ),
             Self::Rounded(lengths) => format!(
-                "a period leads {lengths:.1e} times as far as contacts move before they slip: of that, numbers of 16 digits leave nothing beyond"
+                "the displacement per period is {lengths:.1e} gross slip displacements: double precision does not resolve the contacts"
             ),
-            Self::Lost(why) => format!("no motion was found beyond: {why}"),
+            Self::Lost(why) => format!("no orbit was found beyond this value: {why}"),
             Self::Refused(why) => {
-                format!("the scenario allows no value beyond: {}", why.lines().next().unwrap_or_default())
+                format!("the scenario refuses values beyond: {}", why.lines().next().unwrap_or_default())
             }
-            Self::Points => "as many points as were allowed: more (--points) lead on".to_owned(),
-            Self::Interrupted => "it was interrupted here".to_owned(),
+            Self::Points => "the maximum number of points was reached; --points increases it".to_owned(),
+            Self::Interrupted => "interrupted".to_owned(),
         }
     }
 }
 
-/// As CSV: what is varied and the motion there, along the branch. Numbers have as many digits as it takes to read the same bits
-/// back; a cell is empty where there is no such number.
+/// Returns the table of the orbits along the branch as CSV. Numbers have enough digits to restore all bits. Unknown
+/// values are empty.
 #[must_use]
 pub fn csv(of: &Continuation, branch: &Branch) -> String {
     let mut table = of.head();
@@ -243,19 +247,22 @@ fn number(table: &mut String, number: Option<f64>) {
     };
 }
 
-/// All numbers on one line of JSON.
+/// Returns all numbers in one line of JSON.
 #[must_use]
 pub fn json(of: &Continuation, branch: &Branch, accuracy: [f64; 2]) -> String {
-    // Numbers and strings only: there is nothing that JSON could refuse.
+    // Numbers and strings only: serialisation cannot fail.
     serde_json::to_string(&report(of, branch, accuracy)).unwrap_or_default()
 }
 
-/// Writes the table, `branch.json` and pictures into a folder; pictures of the names `stale` that are not among them go. What was
-/// interrupted is written to `branch-partial.csv` and `branch-partial.json`, and goes with the next whole branch. `accuracy` is the
-/// tolerance of the runs and that of places. Returns the names.
+/// Writes the table, `branch.json` and plots into a folder, and deletes the plots named `stale` that are not among
+/// them. Returns the names.
+///
+/// An interrupted branch is written to `branch-partial.csv` and `branch-partial.json`; the next complete branch deletes
+/// these. `accuracy` has the tolerance of the runs and the accuracy of special points.
 ///
 /// # Errors
-/// What the system says; nothing that was there is gone then, unless it says so while names are given.
+/// Error of the operating system. Existing files remain, unless the error occurs while the new files receive their
+/// names.
 pub fn write(
     folder: Folder,
     (of, branch): (&Continuation, &Branch),
@@ -297,7 +304,7 @@ fn report<'a>(of: &'a Continuation, branch: &Branch, [tolerance, accuracy]: [f64
     }
 }
 
-/// What every key of `branch.json` and every column of `branch.csv` is.
+/// Returns the definitions of all keys of `branch.json` and of all columns of `branch.csv`.
 pub(crate) fn definitions() -> Vec<Definition> {
     let columns = stickslip_quantity::report::<PointReport>(NAMES[0][0]);
     let columns = columns.into_iter().filter(|one| !["value", "multipliers"].contains(&one.name.as_ref()));

@@ -1,4 +1,4 @@
-//! The gradient of the map, by differences.
+//! Jacobian of the Poincaré map by finite differences.
 
 use super::{Image, Map};
 use crate::steady::SteadyError;
@@ -6,74 +6,80 @@ use nalgebra::{DMatrix, DVector};
 use serde::{Deserialize, Serialize};
 use stickslip_drive::State;
 
-/// Difference on the way, in natural scales, by the tolerance t of the runs: √t leaves as much of an error from these as from a bend of 1.
+/// Returns the distance of one-sided differences during the search, in natural scales: √t for the tolerance t. Errors
+/// of the integration and of a curvature of 1 are then equal.
 pub(in crate::steady) fn near(tolerance: f64) -> f64 {
     tolerance.sqrt()
 }
 
-/// Differences to both sides at the end, a tenth of the cube root of t: at 1e-12 an error of 1e-7 from steps, and of 1e-10 from a bend
-/// of 1. Twice as far something else happens more often.
+/// Returns the distance of central differences at the fixed point: a tenth of the cube root of the tolerance t. At t =
+/// 1e-12, errors are 1e-7 from integration and 1e-10 from a
+/// curvature of 1.
 fn fine(tolerance: f64) -> f64 {
     0.1 * math::cbrt(tolerance)
 }
 
-/// The gradient of a map.
+/// Jacobian of the Poincaré map.
 #[derive(Clone, Serialize, Deserialize)]
 pub(in crate::steady) struct Gradient {
-    /// Of the numbers, in natural scales.
+    /// Derivatives of the unknowns, in natural scales.
     pub(in crate::steady) numbers: DMatrix<f64>,
-    /// Of the way of each free coordinate, m or rad per natural scale.
+    /// Derivatives of the displacement of each free coordinate, m or rad per natural scale.
     pub(in crate::steady) way: DMatrix<f64>,
-    /// Numbers whose columns are not known: disturbed by one of them memories come back with other knots.
+    /// Indices of unknown columns: disturbances of these unknowns change the number of memory corners.
     pub(in crate::steady) unknown: Vec<usize>,
-    /// What differences miss where the map bends between them, by the root of the sum of squares of all entries.
+    /// Error of the differences due to curvature, as Frobenius norm.
     pub(in crate::steady) missed: f64,
 }
 
-/// What an image changes by with one number, by differences.
+/// Derivative of the image with respect to one unknown.
 struct Slope {
     numbers: DVector<f64>,
-    /// Of the way.
+    /// Derivative of the displacements.
     way: Vec<f64>,
-    /// By how much the slopes of both sides, or of two distances, differ, and what is missed; none where there is one difference alone.
+    /// Difference between both one-sided derivatives or two distances, and the estimated error. `None` for a single
+    /// difference.
     bend: Option<[f64; 2]>,
 }
 
-/// Bends of a column that are no more than this may be a corner: what is missed is less than a multiplier is told by.
+/// Difference of one-sided derivatives above which a corner is possible. Below it, the error is smaller than the
+/// resolution of multipliers.
 const CORNER: f64 = 1e-6;
-/// How many times nearer differences are taken where they are more.
+/// Factor between the two distances that distinguish curvature from a corner.
 const NEARER: f64 = 4.0;
 
 impl Slope {
-    /// With by how much the slopes of both sides, or of two distances, differ. What a smooth bend leaves goes with the square of that.
+    /// Sets the difference of the one-sided derivatives. For a smooth curve the error is proportional to its square.
     fn bent_by(self, bend: f64) -> Self {
         let size = self.numbers.norm();
         let missed = if bend < size { bend * bend / size } else { bend };
         Self { bend: Some([bend, missed]), ..self }
     }
 
-    /// The slope by differences that lie nearer, where both are not the same but for noise: between the farther ones lies a corner.
+    /// Returns the derivative from closer differences if both disagree by more than noise, because a corner lies within
+    /// the wider ones.
     fn or_nearer(self, inner: Self, noise: f64) -> Self {
         let off = (&self.numbers - &inner.numbers).norm();
         if off <= noise {
             return self;
         }
-        // A corner between the nearer ones misleads them by no more than their sides differ.
+        // A corner within the closer differences causes an error below the difference of their sides.
         let bend = inner.bend.map_or(off, |[bend, _]| bend.min(off));
         Self { bend: Some([bend; 2]), ..inner }
     }
 }
 
 impl Gradient {
-    /// How far entries may be off by runs that are led by a tolerance: differences of images magnify that by their distance.
-    // Of bouncing bodies that nothing damps along z, |λ| = 1 by differences was up to 1.8e-4 off at 1e-9, and 7e-3 at 1e-6.
+    /// Returns the error of the entries due to the tolerance of the runs: the integration error divided by the
+    /// distance.
     pub(in crate::steady) fn noise(tolerance: f64) -> f64 {
         3.0 * tolerance / fine(tolerance)
     }
 }
 
 impl Map<'_> {
-    /// The gradient at a state whose image is known, by one difference for each number, so far apart in natural scales.
+    /// Computes the Jacobian at a state with known image, with one difference of distance `near` per unknown, in
+    /// natural scales.
     pub(in crate::steady) fn near_gradient(
         &mut self,
         (state, image): (&State, &Image),
@@ -85,8 +91,9 @@ impl Map<'_> {
         })
     }
 
-    /// The gradient by differences to both sides, or to one, twice as far as well, where the other is of another kind: its memories
-    /// have other knots, or something else happens on the way.
+    /// Computes the Jacobian with central differences.
+    ///
+    /// If one side has other events or another number of memory corners, two one-sided differences are used instead.
     pub(in crate::steady) fn fine_gradient(
         &mut self,
         state: &State,
@@ -128,14 +135,14 @@ impl Map<'_> {
         })
     }
 
-    /// What a number changes by a difference of two images, ahead and behind, that lie so far apart.
+    /// Returns the derivative from two images at a distance of `apart`.
     fn slope(&self, [ahead, behind]: [&Image; 2], apart: f64) -> Option<Slope> {
         let difference = self.difference(&ahead.state, &behind.state)?;
         let way = ahead.way.iter().zip(&behind.way).map(|(ahead, behind)| (ahead - behind) / apart);
         Some(Slope { numbers: difference / apart, way: way.collect(), bend: None })
     }
 
-    /// The same by images so far ahead and behind of one.
+    /// Returns the central difference from images ahead and behind.
     fn central(&self, [ahead, image, behind]: [&Image; 3], by: f64) -> Option<Slope> {
         let half = self.slope([ahead, image], by)?;
         let slope = self.slope([ahead, behind], 2.0 * by)?;
@@ -143,7 +150,7 @@ impl Map<'_> {
         Some(slope.bent_by(bend))
     }
 
-    /// The same to one side alone, by an image so far off and one twice as far: (4f₁ - f₂ - 3f₀)/2h, which a bend does not move.
+    /// Returns the one-sided difference of second order, (4f₁ - f₂ - 3f₀)/2h.
     fn aside(&self, image: &Image, [one, far]: [&Image; 2], by: f64) -> Option<Slope> {
         let near = self.slope([one, image], by)?;
         let twice = self.slope([far, image], 2.0 * by)?;
@@ -152,7 +159,7 @@ impl Map<'_> {
         Some(Slope { numbers: near.numbers * 2.0 - twice.numbers, way, bend: None }.bent_by(bend))
     }
 
-    /// A gradient from what each number changes. One that cannot be moved leaves nothing behind, and its column is not known.
+    /// Assembles the Jacobian from its columns. Columns that cannot be computed are zero and listed as unknown.
     fn gradient(
         &mut self,
         image: &Image,
@@ -179,13 +186,13 @@ impl Map<'_> {
             gradient.numbers.set_column(j, &numbers);
             gradient.way.set_column(j, &DVector::from_vec(way));
         }
-        // One difference to one side alone tells nothing of a bend: those of the others stand for it.
+        // A single one-sided difference does not show curvature; that of the other columns is used instead.
         let unseen = if known > 0.0 { bends * (all - known) / known } else { 0.0 };
         gradient.missed = (missed + unseen).sqrt();
         Ok(gradient)
     }
 
-    /// The image of a state with one number moved, if both have the knots of the others.
+    /// Returns the image of a state with one unknown changed. Returns `None` if the number of memory corners changes.
     fn beside(&mut self, state: &State, (j, by): (usize, f64)) -> Result<Option<Image>, SteadyError> {
         let mut along = DVector::zeros(self.scales.len());
         along[j] = by;

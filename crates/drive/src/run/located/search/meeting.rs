@@ -1,7 +1,8 @@
-//! A step that is cut where something fades within it: the cut met as exactly as an end.
+//! Accurate cut of a step in which a motion decays.
 //!
-//! The dense output has the moment at which a guard falls as well as it has the state, which is off there by tens of what an end may be.
-//! A step of its own to that moment tells the state, and by how much its guard is beside zero; the moment is moved by that.
+//! There the dense output is less accurate than the end of a step by a factor of tens, which also affects the event
+//! time. A separate step to the event time gives an accurate state. The value of the event function in that state
+//! corrects the event time.
 
 use super::{Fall, Search};
 use crate::equations::Equations;
@@ -10,13 +11,13 @@ use crate::run::located::watched::Watched;
 use arrayvec::ArrayVec;
 use stickslip_stepper::Attempt;
 
-/// How often a moment is moved.
+/// Largest number of corrections of the event time.
 const MOVES: u32 = 3;
-/// Part of the step over which the rate of a guard is taken.
+/// Fraction of the step over which the rate of an event function is computed.
 const SHARE: f64 = 1e-4;
 
 impl Watch {
-    /// Cuts the step where a guard falls, and moves that moment to where it does so by a step of its own.
+    /// Cuts the step at an event and corrects the event time by separate steps to it.
     #[inline(never)]
     pub(super) fn meet<'e, A: for<'q> Attempt<Equations<'q>>>(
         &mut self,
@@ -45,7 +46,7 @@ impl Watch {
 }
 
 impl<A: for<'q> Attempt<Equations<'q>>> Search<'_, '_, A> {
-    /// Value of a guard in the state at the end of the step, at time t.
+    /// Returns the value of an event function in the state at the end of the step, at time t.
     fn settled(&self, watched: Watched<'_>, t: f64) -> f64 {
         let end = self.solver.span().end;
         let n = self.eq.layout.free;

@@ -1,4 +1,4 @@
-//! What guards read: their values at both ends of a step and inside it, on the dense output, and how near to zero is zero.
+//! Values and rates of event functions at both ends of a step and inside it, and their bands around zero.
 
 use super::{Search, Seen};
 use crate::contact::{Contact, Guard, Motion, bands};
@@ -8,19 +8,21 @@ use crate::run::located::watched::Watched;
 use stickslip_stepper::{Attempt, Completion, Span};
 
 impl<A: for<'q> Attempt<Equations<'q>>> Search<'_, '_, A> {
-    /// Value of a guard at the start of the step.
+    /// Returns the value of an event function at the start of the step.
     #[inline(always)]
     pub(super) fn at_begin(&self, watched: Watched<'_>) -> f64 {
         self.value(watched, self.from, || (self.solver.span().time, self.solver.span().begin))
     }
 
-    /// Its value at the end of the step.
+    /// Returns the value of an event function at the end of the step.
     #[inline(always)]
     pub(super) fn at_end(&self, watched: Watched<'_>) -> f64 {
         self.value(watched, self.to, || (self.solver.span().end_time, self.solver.span().end))
     }
 
-    /// Its value at one end of the step: the contacts there, and for blocks time and state.
+    /// Returns the value of an event function at one end of the step.
+    ///
+    /// `contacts` are the contacts at that end; `place` returns time and components for blocks.
     #[inline(always)]
     pub(super) fn value<'y>(
         &self,
@@ -40,7 +42,7 @@ impl<A: for<'q> Attempt<Equations<'q>>> Search<'_, '_, A> {
         }
     }
 
-    /// Its rates at both ends; of one that is sampled none are known.
+    /// Returns the rates of an event function at both ends of the step; 0 for a block, whose rates are unknown.
     #[inline(always)]
     pub(super) fn rates(&self, watched: Watched<'_>) -> [f64; 2] {
         let rate = |ends: &[Moving]| match watched {
@@ -57,14 +59,14 @@ impl<A: for<'q> Attempt<Equations<'q>>> Search<'_, '_, A> {
         [rate(self.from), rate(self.to)]
     }
 
-    /// Its value at a time inside the step, on the dense output.
+    /// Returns the value of an event function at time t inside the step, from the dense output.
     #[inline(always)]
     pub(super) fn inside(&self, watched: Watched<'_>, t: f64) -> f64 {
         let part = self.solver.part(t);
         let value = |i: usize| self.solver.value_at(i, part);
         match watched {
             Watched::Closed(steady, guard) => {
-                // Half of its motion is of use to each.
+                // Each event function needs either u or u̇.
                 let at = match guard {
                     Guard::Piece => Motion { u: steady.displacement(t, value), ..Motion::default() },
                     _ => {
@@ -86,7 +88,9 @@ impl<A: for<'q> Attempt<Equations<'q>>> Search<'_, '_, A> {
         }
     }
 
-    /// The motion of a contact at a part of the step, on the dense output; of one that many guards ask for, once.
+    /// Returns time and motion of a contact at a fraction of the step, from the dense output.
+    ///
+    /// The result is stored, because several event functions of a contact need it.
     pub(super) fn motion_at(&mut self, index: usize, contact: &Contact, part: f64) -> (f64, Motion) {
         let Span { time, end_time, .. } = self.solver.span();
         let t = time + part * (end_time - time);
@@ -99,12 +103,12 @@ impl<A: for<'q> Attempt<Equations<'q>>> Search<'_, '_, A> {
         self.solver.complete(self.eq, Completion::Dense);
         let at = self.solver.part(t);
         let motion = self.eq.motion(contact, t, |i| self.solver.value_at(i, at));
-        // Where there is no room it is read again.
+        // Without room the motion is computed again next time.
         let _ = self.seen.try_push(Seen { contact: index, part, motion });
         (t, motion)
     }
 
-    /// Its deadband and how near to zero it is as good as there.
+    /// Returns deadband and nearness of an event function.
     pub(super) fn bands(&self, watched: Watched<'_>) -> (f64, f64) {
         let (dead, near) = self.own_bands(watched);
         let (contact, guard) = match watched {
@@ -112,13 +116,13 @@ impl<A: for<'q> Attempt<Equations<'q>>> Search<'_, '_, A> {
             Watched::Contact(_, contact, guard) => (contact, guard),
             Watched::Block(..) => return (dead, near),
         };
-        // A contact that rides on moving bodies has a small u of large places; what these round moves it to and fro. Never more
-        // than counts as there anyway: at tolerances near to rounding every turn is looked at.
+        // Rounding of large body positions disturbs the small u of a contact between moving bodies. The deadband
+        // includes that noise, up to the nearness.
         let begin = self.solver.span().begin;
         (dead.max(guard.noise(contact, contact.u.travel(|i| begin[i])).min(near)), near)
     }
 
-    /// The same without what places far from their origins make of it.
+    /// Returns deadband and nearness without the noise of bodies far from their origins.
     #[inline(always)]
     pub(super) fn own_bands(&self, watched: Watched<'_>) -> (f64, f64) {
         match watched {

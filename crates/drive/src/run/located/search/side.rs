@@ -1,6 +1,7 @@
-//! The apex of a shrinking contact beside an old curve of its memory.
+//! Crossing of the apex of a shrinking contact through an old curve of its slip memory.
 //!
-//! How far it is from that curve is no polynomial: the curve has knots. Values and rates are cheap once the dense output is there.
+//! The distance between them is no polynomial, because the curve has knots. With the dense output, values and rates are
+//! cheap.
 
 use super::{LOOKS, Search};
 use crate::contact::{Contact, Guard, Motion};
@@ -8,12 +9,12 @@ use crate::equations::Equations;
 use crate::run::located::watched::Watched;
 use stickslip_stepper::{Attempt, Completion};
 
-/// Places near the start of a step, where the apex may have gone across, that are looked at before [`LOOKS`].
+/// Fractions of a step, near its start, at which the apex is checked before those of [`LOOKS`].
 pub(super) const EARLY: [f64; 3] = [0.03125, 0.0625, 0.125];
-/// How often tangents are laid where it dips.
+/// Largest number of tangent constructions for one minimum.
 const DIPS: usize = 8;
 
-/// The tangent of a guard at a moment.
+/// Tangent of an event function at time `t`.
 #[derive(Clone, Copy)]
 struct Tangent {
     t: f64,
@@ -22,7 +23,7 @@ struct Tangent {
 }
 
 impl Tangent {
-    /// When and where two of them meet, of a guard that falls at the first and rises at the last.
+    /// Returns time and value at which two tangents meet, if the function falls at the first and rises at the second.
     fn meet([first, last]: [Self; 2]) -> Option<(f64, f64)> {
         let way = (last.y - first.y - last.rate * (last.t - first.t)) / (first.rate - last.rate);
         let t = first.t + way;
@@ -32,13 +33,11 @@ impl Tangent {
 }
 
 impl<'e, A: for<'q> Attempt<Equations<'q>>> Search<'_, 'e, A> {
-    /// The first moment that is found at which the apex has gone across the old curve, and how far.
+    /// Returns the first time found at which the apex has crossed the old curve, and the distance from the curve.
     ///
-    /// It stands on it where a step begins after it has gone across, and may soon go back and forth again. Where it comes nearer at
-    /// one moment that is looked at and goes away at the next, it dips between them, no deeper than where both tangents meet if its
-    /// way is bent to one side.
-    // Looked at three times, without its rates, an apex that went back after 3 and forth after another 0.5 thousandths of a period was seen
-    // in every other period only, and what was not seen moved the step by 3e-4 u_c at any tolerance.
+    /// A step that begins after a crossing begins on the curve, and the apex may soon cross again. Between a time with
+    /// falling distance and the next one with rising distance there is a minimum. For a distance of constant curvature
+    /// sign, it is not below the point where both tangents meet.
     pub(super) fn side(&mut self, (index, contact): (usize, &'e Contact)) -> Option<(f64, f64)> {
         let watched = Watched::Contact(index, contact, Guard::Side);
         let law = self.eq.law(index);

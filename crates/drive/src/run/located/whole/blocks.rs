@@ -1,8 +1,9 @@
-//! Blocks on a detour: their states go along with all else, and a step ends where the first of their guards falls.
+//! Events of blocks during step doubling.
 //!
-//! A law of a block is smooth up to its own event only, and no error of a step tells of an event that it has passed. So guards
-//! are looked at in the middle and at the end of each half; where one has fallen the moment is found on what the halves are
-//! read by, and the step is tried again up to there. What the block does then is what it does between located events.
+//! The law of a block is smooth up to its own event only, and the error of a step does not detect a missed event. Event
+//! functions of blocks are therefore evaluated at the middle and the end of each half step. After a zero crossing, the
+//! event is located on the interpolants of the half steps, and the step is repeated up to there. The block then chooses
+//! its next law as between located events.
 
 use super::way::Way;
 use super::{Halves, Times};
@@ -15,10 +16,10 @@ use crate::run::located::watch::Fallen;
 use crate::state::State;
 use stickslip_stepper::{Attempt, Bracket, Point, root};
 
-/// Moments of a step at which guards are looked at: its start, and the middle and the end of each half.
+/// Number of evaluations of an event function in a step: at its start, and at the middle and end of each half step.
 const LOOKS: usize = 5;
 
-/// When the first guard of a block falls inside a step, s, and whose it is.
+/// First zero crossing of a block in a step: time, s, block and event function.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Fall {
     pub(super) t: f64,
@@ -26,21 +27,22 @@ pub(super) struct Fall {
     guard: usize,
 }
 
-/// What a guard is at the moments looked at, and how near to zero it is as good as there: its deadband first.
+/// Values of an event function in a step, and its deadband and nearness.
 struct Looked {
     points: [Point; LOOKS],
     bands: (f64, f64),
 }
 
 impl Looked {
-    /// The first look at which the guard has fallen below its deadband.
+    /// Returns the index of the first value below the deadband.
     fn low(&self) -> Option<usize> {
         let start = self.points[0].y;
         (1..LOOKS).find(|i| self.points[*i].y < -self.bands.0 && self.points[*i].y < start)
     }
 
-    /// Between which moments it falls, and through what level: zero, or where it rests at the start of the step and has not risen
-    /// since, what lies a deadband below.
+    /// Returns the bracket of the zero crossing and the level that is crossed.
+    ///
+    /// The level is zero. For a function near zero at the start that has not risen since, it is one deadband lower.
     fn bracket(&self, low: usize) -> (Bracket, f64) {
         let (dead, near) = self.bands;
         let (start, to) = (self.points[0].y, self.points[low]);
@@ -54,8 +56,10 @@ impl Looked {
 }
 
 impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
-    /// Tries a step and, where a guard of a block falls inside it, one that ends there. Gives the error of the one tried last, its
-    /// times, and the fall. `slides` says that it is taken whatever its error.
+    /// Attempts a step and, if a block has an event inside it, a step to that event.
+    ///
+    /// Returns error and times of the last attempt, and the event. If `slides`, the step is accepted with any finite
+    /// error.
     pub(super) fn try_up_to_fall(
         &mut self,
         halves: &mut Halves,
@@ -63,7 +67,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         (times, slides): (Times, bool),
     ) -> Result<(f64, Times, Option<Fall>), RunError> {
         let error = self.try_halves(halves, state, times)?;
-        // Of a step that is refused no guard tells when it will fall.
+        // A rejected step gives no event time.
         let refused = error.is_nan() || error > if slides { f64::MAX } else { 1.0 };
         if self.setting.model.blocks.is_empty() || refused {
             return Ok((error, times, None));
@@ -72,14 +76,14 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
             return Ok((error, times, None));
         };
         let times = Times::halved(times.from, fall.t);
-        // One that falls in the last place of t falls now.
+        // An event within the rounding of t occurs now.
         if !times.moves_on() {
             return Ok((0.0, times, Some(fall)));
         }
         Ok((self.try_halves(halves, state, times)?, times, Some(fall)))
     }
 
-    /// The first guard of a block that falls inside the step just tried.
+    /// Returns the first event of a block in the attempted step.
     fn first_fall_of_blocks(&self, halves: &mut Halves, state: &State, times: Times) -> Option<Fall> {
         let Halves { half, two, slopes, later, .. } = halves;
         let (from, middle, to) = ((times.from, &*state.y), (times.middle, &**half), (times.to, &**two));
@@ -109,8 +113,10 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         first
     }
 
-    /// Writes down the guards that have fallen at the end of a step: the one that ends it, whatever its last bit says, and one of every
-    /// other block that is down or as good as down there.
+    /// Collects the events of blocks at the end of a step.
+    ///
+    /// These are the event that ends the step, and one event function of every other block that is negative or near
+    /// zero.
     pub(super) fn note_falls(&mut self, state: &State, halves: &Halves, (times, fall): (Times, Fall)) {
         let fired = &mut self.watch.fired;
         fired.clear();
@@ -133,8 +139,10 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         }
     }
 
-    /// The laws of blocks at the end of a step, or where a detour begins in the midst of an event: of those whose guards have fallen,
-    /// from the `first` in the list on, and, since rates have jumped there or at a corner, of all others.
+    /// Changes the laws of blocks at the end of a step, or where step doubling begins in the middle of an event.
+    ///
+    /// Handles the zero crossings from index `first` on. After them or at a corner, rates have jumped, and all other
+    /// blocks choose their laws again.
     pub(in crate::run::located) fn pass_blocks(
         &mut self,
         state: &mut State,
@@ -151,7 +159,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
     }
 }
 
-/// The moment at which a guard falls through a level inside a bracket, s.
+/// Returns the time at which an event function crosses a level inside a bracket, s.
 fn moment(
     value: impl Fn(f64) -> f64,
     (bracket, level): (Bracket, f64),
@@ -162,7 +170,7 @@ fn moment(
     if to.y >= level || from.y <= level {
         return to.x;
     }
-    // As between located events: what is missed by this much tells of no law.
+    // The accuracy is that of located events.
     let within = (0.1 * NEARNESS * tolerance * (to.x - from.x)).max(4.0 * f64::EPSILON * to.x.abs());
     let beyond = |t: f64| {
         let left = value(t) - level;

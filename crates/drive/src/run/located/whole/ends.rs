@@ -1,4 +1,4 @@
-//! When a detour begins, how long it is, and back from it.
+//! Start, length and end of an interval of step doubling.
 
 use crate::contact::Contact;
 use crate::equations::Equations;
@@ -10,14 +10,15 @@ use crate::{EventKind, RunError, Source};
 use std::f64::consts::TAU;
 use stickslip_stepper::Attempt;
 
-/// Length of a first detour, in natural periods.
+/// Length of a first interval, in natural periods.
 const SHARE: f64 = 1.0 / 64.0;
-/// First step of a detour, as a part of it.
+/// First step of an interval, as a fraction of the interval.
 const FIRST: f64 = 1e-3;
 
 impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
-    /// Leaves the located run for the whole law, where it would have to stop for accumulating events or steps that do not
-    /// move on; gives the reason back where there is no such way.
+    /// Begins step doubling after an error caused by accumulating events or by steps that do not advance.
+    ///
+    /// Returns the error `reason` unchanged if step doubling is not possible.
     pub(in crate::run::located) fn depart(
         &mut self,
         state: &mut State,
@@ -30,7 +31,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
             RunError::StepTooSmall { .. } | RunError::Crawl { .. } => Some(self.pace(state)),
             _ => None,
         };
-        // Time must be able to tell its steps apart.
+        // Time must resolve the steps.
         let tells = |period: &f64| period.is_normal() && state.t + 0.01 * FIRST * SHARE * period > state.t;
         let Some(period) = period.filter(tells) else { return Err(reason) };
         if self.detour.is_some() || model.contacts.is_empty() {
@@ -41,7 +42,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
             self.ledger.booked.books = Books::Current;
         }
         state.counts.detours += 1;
-        // At first a small part of a period: most of what accumulates does so at one moment. Longer where it goes on.
+        // A first interval is short, because most accumulations end soon. It is longer if they continue.
         let goes_on = state.t <= self.last_detour.end + 2.0 * self.last_detour.length;
         let length = if goes_on { f64::min(2.0 * self.last_detour.length, period) } else { SHARE * period };
         let detour = Detour { end: state.t + length, length, step: FIRST * length };
@@ -51,8 +52,8 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         Ok(Progress::Made)
     }
 
-    /// Period of the fastest swing, s. Where nothing is free nothing swings: then how long the waveforms take, or what of them is
-    /// under way.
+    /// Returns the period of the fastest oscillation, s. Without oscillation, returns the shortest duration of a
+    /// waveform.
     fn pace(&self, state: &State) -> f64 {
         let model = self.setting.model;
         if model.fastest > 0.0 {
@@ -63,25 +64,26 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         lengths.fold(f64::INFINITY, f64::min)
     }
 
-    /// Takes the whole law to the end of the run where a row under a moving normal has too many springs to look for the changes
-    /// of each: embedded estimates do not see them.
+    /// Selects step doubling for the whole run if a spring row under a varying normal force has too many springs.
+    ///
+    /// The change of each spring would have to end a step, because embedded estimates do not detect it.
     pub(in crate::run::located) fn stay_whole(&mut self, state: &mut State) {
         let model = self.setting.model;
         let dense =
             |contact: &Contact| contact.slot.is_some() && !contact.engine.branches() && !contact.has_lulls();
-        // Events of blocks would cut such steps all along: located ones bear that better.
+        // Events of blocks would cut every step. Located events handle them better.
         if model.blocks.is_empty() && model.contacts.iter().any(dense) {
             let period = TAU / model.fastest;
-            // Where nothing is free nothing swings, and a period of the waveforms tells how short a step may be.
+            // Without oscillation, the natural frequencies of contacts limit the step.
             let frequency = model.contacts.iter().map(|c| c.natural.frequency).fold(model.fastest, f64::max);
             self.detour = Some(Detour { end: f64::MAX, length: TAU / frequency, step: FIRST * period });
             self.take_whole(state);
         }
     }
 
-    /// Back to located events: every contact is decided afresh.
+    /// Returns to located events: every contact law is chosen again.
     ///
-    /// Where a contact has come to slip as a whole nobody knows since when: that is told here, again where it was told before.
+    /// The beginning of gross slip in the interval was not located. It is reported here, possibly for a second time.
     pub(super) fn arrive(&mut self, state: &mut State, detour: &Detour, record: &mut dyn Record) {
         self.detour = None;
         self.bounds.forget();

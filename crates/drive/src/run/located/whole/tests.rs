@@ -1,4 +1,4 @@
-//! Events of a block on a detour, by closed form.
+//! Tests of block events during step doubling against closed forms.
 
 use super::Detour;
 use crate::component::{
@@ -16,10 +16,10 @@ use stickslip_contact::{Interface, Material, Pair, Profile};
 
 const PERIOD: f64 = 1e-3;
 const REACH: f64 = 1e-7;
-/// Of the shuttle, m/s: it turns at a quarter of the period and then at each half.
+/// Speed of the shuttle, m/s. It reverses at a quarter of the period and then every half period.
 const SPEED: f64 = 4.0 * REACH / PERIOD;
 
-/// q goes to and fro between ±REACH at one speed: law 0 forward, law 1 back.
+/// Block whose state q moves back and forth between ±REACH at constant speed: law 0 forward, law 1 back.
 #[derive(Debug)]
 struct Shuttle {
     inputs: [Input; 1],
@@ -99,7 +99,7 @@ fn named<T>(name: &str, part: T) -> Named<T> {
     Named { name: name.to_owned(), part }
 }
 
-/// A slider on a foot that follows the shuttle, pressed by a load in N.
+/// Returns a slider on a foot that follows the shuttle, pressed by a load in N.
 fn scene(load: f64) -> Option<Scene> {
     let steel = Pair::new(Material::new(210e9, 0.3).ok()?, Material::new(210e9, 0.3).ok()?);
     let interface = Interface::new(steel, Profile::paraboloid(1e-3).ok()?, 0.15).ok()?;
@@ -126,7 +126,8 @@ fn scene(load: f64) -> Option<Scene> {
     })
 }
 
-/// Place of the slider at the end, m, and when the shuttle has turned, s; `whole` says whether on one detour all along.
+/// Returns the final position of the slider, m, and the reversal times of the shuttle, s. `whole` selects step
+/// doubling.
 fn run(model: &Model, whole: bool) -> Option<(f64, Vec<f64>)> {
     let limits = Limits { steps: 1_000_000, events: u64::MAX, wall: None };
     let stepper = Stepper::Event { tolerance: 1e-8 };
@@ -148,7 +149,6 @@ fn run(model: &Model, whole: bool) -> Option<(f64, Vec<f64>)> {
 
 #[test]
 fn a_block_turns_on_a_detour_when_it_should() {
-    // By steps of any length, some of which agreed with their halves by accident, places were up to 1.7e-2 of the reach off.
     for load in (0..12).map(|n| 1.0 + 1e-4 * f64::from(n)) {
         let model = scene(load).and_then(|scene| Model::new(&scene).ok());
         let both = model.as_ref().map(|model| [false, true].map(|whole| run(model, whole)));

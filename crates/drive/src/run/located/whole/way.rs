@@ -1,6 +1,6 @@
-//! What is read inside a step of the whole law.
+//! Interpolation inside a half step of step doubling.
 
-/// A half and what is read inside it: as smooth as the steps are exact.
+/// Half step with components and slopes at both ends.
 pub(super) struct Way<'y> {
     pub(super) from: (f64, &'y [f64]),
     pub(super) to: (f64, &'y [f64]),
@@ -9,8 +9,10 @@ pub(super) struct Way<'y> {
 }
 
 impl Way<'_> {
-    /// Component `i` at time t: positions by the quintic through places, velocities and accelerations of both ends, all else
-    /// by the cubic through values and slopes.
+    /// Returns component `i` at time t.
+    ///
+    /// Positions use the quintic through positions, velocities and accelerations of both ends. Other components use the
+    /// cubic Hermite interpolant.
     pub(super) fn value(&self, i: usize, t: f64) -> f64 {
         let ((t0, y0), (t1, y1)) = (self.from, self.to);
         if t >= t1 {
@@ -24,7 +26,7 @@ impl Way<'_> {
         if i >= n {
             return cubic;
         }
-        // What the cubic lacks of the accelerations at both ends.
+        // The quintic adds what the cubic lacks of both accelerations.
         let bend = h * h;
         let (from, to) = (bend * k0[n + i] - 6.0 * rise + 4.0 * first + 2.0 * last, {
             bend * k1[n + i] + 6.0 * rise - 2.0 * first - 4.0 * last
@@ -37,7 +39,7 @@ impl Way<'_> {
 mod tests {
     use super::*;
 
-    /// x = t⁵ - t³ and an integral q = t³ are met exactly, whatever the ends.
+    /// Reproduces x = t⁵ - t³ and an integral q = t³ exactly.
     #[test]
     fn a_way_has_the_degrees_of_its_ends() {
         let x = |t: f64| t.powi(5) - t.powi(3);
