@@ -77,7 +77,10 @@ impl Sim {
         let Some(value) = given else { return Ok(()) };
         let (name, (low, high)) = (&port.name, port.range);
         if !(low..=high).contains(&value) {
-            return Err(format!("{name:?}: expected a value from {low} to {high} {}, got {value}", port.unit));
+            return Err(format!(
+                "{name:?}: expected a value from {low} to {high} {}, got {value}",
+                port.unit
+            ));
         }
         if self.is_held(port.place) {
             return Ok(());
@@ -120,7 +123,8 @@ impl Sim {
             let mut guard = self.standing()?;
             let (now, Standing { held, last }) = (guard.held.time(), &mut *guard);
             if until.is_nan() || until < now || until.is_infinite() {
-                let message = format!("expected a time of at least {now} s, got {until} s: times are absolute");
+                let message =
+                    format!("expected a time of at least {now} s, got {until} s: times are absolute");
                 return Err(PyValueError::new_err(message));
             }
             // All values are checked before any is set.
