@@ -424,3 +424,19 @@ fn obeyed(command: &str, root: &Path, folder: &Path) -> String {
     assert_eq!(code(&output), 0, "{command}: {}", stderr(&output));
     stdout(&output)
 }
+
+/// A ball of structural steel yields under 2 kN: `contact` prints the warning of `check`, for this contact only.
+#[test]
+fn a_contact_that_yields_is_warned_of() {
+    let set = ["contacts.800 nm.materials=[\"steel\",\"steel\"]", "contacts.800 nm.normal.force=2 kN"];
+    let said = |contact: &str| {
+        let mut command = stickslip();
+        command.arg("contact").arg(scenario("fretting_sphere")).args(["--contact", contact]);
+        command.args(set.iter().flat_map(|set| ["--set", set]));
+        let output = command.output().unwrap();
+        assert_eq!(code(&output), 0, "{}", stderr(&output));
+        stderr(&output)
+    };
+    assert!(said("800 nm").contains("begins to yield"), "{}", said("800 nm"));
+    assert_eq!(said("200 nm"), "");
+}

@@ -49,8 +49,9 @@ pub(crate) fn contact(arguments: &ContactArguments) -> Verdict {
 fn answer(arguments: &ContactArguments) -> Result<(), ContactFailure> {
     let job = Job::prepare(&arguments.file, &arguments.set, Path::new(""))?;
     let subject = Subject::find(&job, arguments.contact.as_deref())?;
-    let own = format!("contacts.{}", subject.name);
-    for text in job.warnings().iter().map(ToString::to_string).filter(|text| text.contains(&own)) {
+    let own = ['.', ':'].map(|end| format!("contacts.{}{end}", subject.name));
+    let is_own = |text: &String| own.iter().any(|own| text.contains(own));
+    for text in job.warnings().iter().map(ToString::to_string).filter(is_own) {
         complain(format_args!("warning: {text}"));
     }
     let normal = arguments.pressed.given().unwrap_or_else(|| subject.pressed());
@@ -87,8 +88,7 @@ fn answer(arguments: &ContactArguments) -> Result<(), ContactFailure> {
     Ok(())
 }
 
-/// Returns the requested loading history: from a CSV file if the text ends in ".csv", otherwise from corners in the
-/// text.
+/// Returns the requested loading history: from a CSV file if the text ends in ".csv", otherwise from corners in the text.
 fn history(arguments: &ContactArguments) -> Result<Option<History>, TheoryError> {
     let Some(text) = &arguments.history else { return Ok(None) };
     let path = Path::new(text);
