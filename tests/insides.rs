@@ -66,8 +66,7 @@ impl Rig {
         self.amplitude * (TAU * t).sin()
     }
 
-    /// Stretch (m) and state of a spring at x, taken from turning point to turning point: s + Δu, clamped to
-    /// ±κ(d-h), h = x²/R (4.22).
+    /// Stretch (m) and state of a spring at x, taken from turning point to turning point: s + Δu, clamped to ±κ(d-h), h = x²/R (4.22).
     fn spring(&self, x: f64, t: f64) -> (f64, &'static str) {
         let limit = self.slope * (self.d - x * x / RADIUS);
         let turns = (0..).map(|k| 0.25 + 0.5 * f64::from(k)).take_while(|turn| *turn < t);

@@ -69,8 +69,7 @@ pub struct Field {
 }
 
 impl<'a> Fields<'a> {
-    /// Creates the fields of a contact. Returns `None` for a list of springs and a normal law, which define no shape in three
-    /// dimensions.
+    /// Creates the fields of a contact. Returns `None` for a list of springs and a normal law, which define no shape in three dimensions.
     ///
     /// The fields of an open contact are 0.
     pub fn of(law: &'a Interface, memory: &Memory) -> Option<Self> {

@@ -196,8 +196,7 @@ impl Profile {
         of_kind!(self, kind => kind.gap(r))
     }
 
-    /// Returns the positions x > 0, m, ascending, at which g or a derivative of g is not smooth. A quadrature over g must be split
-    /// there.
+    /// Returns the positions x > 0, m, ascending, at which g or a derivative of g is not smooth. A quadrature over g must be split there.
     pub fn borders(&self) -> &[f64] {
         of_kind!(self, kind => kind.borders())
     }

@@ -59,8 +59,7 @@ impl<'a> Words<'a> {
         }
     }
 
-    /// Reads the number of items that follow, each of at least one word. Accepts at most `most`, and at most the number of words
-    /// left.
+    /// Reads the number of items that follow, each of at least one word. Accepts at most `most`, and at most the number of words left.
     // A caller can therefore never allocate more than the words left.
     pub fn count(&mut self, most: usize) -> Option<usize> {
         let count = usize::try_from(self.word()?).ok()?;

@@ -1,9 +1,8 @@
 //! Components: model elements with states, event functions (guards), a memory and an energy.
 //!
-//! A component reads waveforms, other components and the motion of bodies. It produces a signal that bodies and actuators may
-//! follow, or forces between bodies, or both. Between two events it obeys one smooth law. The event functions of a law are
-//! positive while it holds. When one crosses zero, the component chooses the next law. Contacts are components; a model may
-//! contain others, each a [`Block`].
+//! A component reads waveforms, other components and the motion of bodies. It produces a signal that bodies and actuators may follow, or
+//! forces between bodies, or both. Between two events it obeys one smooth law. The event functions of a law are positive while it holds.
+//! When one crosses zero, the component chooses the next law. Contacts are components; a model may contain others, each a [`Block`].
 //!
 //! ```text
 //! inputs ──► slopes, signal, efforts      evaluation uses shared references and changes nothing
@@ -104,9 +103,8 @@ pub struct Moment<'a, I: ?Sized> {
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Refused(pub String);
 
-/// A component that is added to a [`Scene`](crate::Scene): driver electronics, hysteresis or creep, for example. Its law is a
-/// number, its memory a list of numbers and its inputs are samples of signals. Law, memory and states determine its future; all
-/// are plain data.
+/// A component that is added to a [`Scene`](crate::Scene): driver electronics, hysteresis or creep, for example. Its law is a number, its
+/// memory a list of numbers and its inputs are samples of signals. Law, memory and states determine its future; all are plain data.
 pub trait Block:
     Component<
         Law = usize,

@@ -187,8 +187,7 @@ impl Contact {
         power > 1.0 && power < 2.0
     }
 
-    /// Whether an even step to its lift-off is as accurate as a graded one: for forces with a power of d of at least 2, or 3 with
-    /// damping.
+    /// Whether an even step to its lift-off is as accurate as a graded one: for forces with a power of d of at least 2, or 3 with damping.
     pub(crate) fn fades_evenly(&self) -> bool {
         let damped = if self.is_damped() { 1.0 } else { 0.0 };
         self.interface.profile().first_power() - damped >= 2.0

@@ -4,8 +4,7 @@
 //! energy and friction work of growing contacts. Steppers evaluate slopes, or only accelerations if no force depends on a
 //! velocity. Records and event functions use the same functions.
 //!
-//! An evaluation writes slopes only and leaves no other trace. It does not choose laws: laws are smooth beyond the event that
-//! ends them.
+//! An evaluation writes slopes only and leaves no other trace. It does not choose laws: laws are smooth beyond the event that ends them.
 
 mod balance;
 mod blocks;
@@ -71,8 +70,7 @@ impl<'a> Equations<'a> {
         waveform.sample(piece, t)
     }
 
-    /// Returns waveform `w` for a step that may cross corners. More than 1e-9 of its length beyond a piece, the right piece is
-    /// searched.
+    /// Returns waveform `w` for a step that may cross corners. More than 1e-9 of its length beyond a piece, the right piece is searched.
     #[inline(never)]
     fn across(&self, w: usize, t: f64) -> Sample {
         let (waveform, piece) = (&self.model.waveforms[w], &self.pieces[w]);
@@ -204,8 +202,7 @@ impl Equations<'_> {
 
     /// Computes accelerations without velocities, and the input power, W.
     ///
-    /// `out` has q̈ of the free coordinates, then the integral. Valid for models without dampers, varying loads, growth and
-    /// blocks only.
+    /// `out` has q̈ of the free coordinates, then the integral. Valid for models without dampers, varying loads, growth and blocks only.
     #[inline(never)]
     fn accelerate(&self, at: &Positions<'_>, out: &mut [f64]) {
         let (dv, input) = out.split_at_mut(self.layout.free);

@@ -35,8 +35,7 @@ pub struct Indentations {
     pub most: f64,
 }
 
-/// Mass, damping and stiffness matrix of the free coordinates with all contacts stuck. These are the stiffest motions of the
-/// model.
+/// Mass, damping and stiffness matrix of the free coordinates with all contacts stuck. These are the stiffest motions of the model.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Linearised {
     coordinates: Vec<String>,
@@ -129,8 +128,7 @@ impl Model {
         eigenvalue.is_finite().then(|| eigenvalue.sqrt())
     }
 
-    /// Whether the model is stiff: a decaying motion is much faster than all others. The stepper `event` then uses implicit
-    /// steps.
+    /// Whether the model is stiff: a decaying motion is much faster than all others. The stepper `event` then uses implicit steps.
     pub fn is_stiff(&self) -> bool {
         self.stiff
     }
@@ -218,8 +216,7 @@ impl Linearised {
         self.modes().last().map_or(0.0, |mode| mode.frequency)
     }
 
-    /// Returns the longest stable step of velocity Verlet with the predicted velocity in the damping, s; see
-    /// `stickslip_stepper::Verlet`.
+    /// Returns the longest stable step of velocity Verlet with the predicted velocity in the damping, s; see `stickslip_stepper::Verlet`.
     ///
     /// A motion x ξⁿ satisfies [ξ M + h²K ξ²/(ξ-1)² + hC (3ξ-1)/(2(ξ-1))] x = 0. It leaves the unit circle at ξ = -1, where an
     /// eigenvalue of M⁻¹(h²K/4 + hC) reaches 1. Without damping h = 2/ω; with one damped mode (hω)² + 8ζhω = 4.

@@ -210,8 +210,7 @@ pub(crate) fn is_undamped(contact: &Contact, branch: &Branch) -> bool {
     contact.interface.damping() == 0.0 || branch.is_gross()
 }
 
-/// Returns the treatment of a contact under a law, with its reason. `followed` says whether the prescribed part of u has a closed
-/// form.
+/// Returns the treatment of a contact under a law, with its reason. `followed` says whether the prescribed part of u has a closed form.
 #[inline(always)]
 pub(crate) fn treatment(contact: &Contact, mode: &Mode, followed: impl FnOnce() -> bool) -> (Treatment, Why) {
     match (mode, &contact.press) {

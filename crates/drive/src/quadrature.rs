@@ -1,9 +1,8 @@
 //! Gaussian quadrature with an error estimate.
 //!
-//! The time of an oscillation or a lift-off is a mean of a smooth function over [0, 1]. Rules with 4, 8, 16 and 32 nodes are
-//! tried in order. Each estimates its error from the last coefficients of the interpolating polynomial. Rules are constants. From
-//! turning point to turning point the nodes are those of Gauss–Chebyshev, equally spaced in the angle, because the function is
-//! periodic there.
+//! The time of an oscillation or a lift-off is a mean of a smooth function over [0, 1]. Rules with 4, 8, 16 and 32 nodes are tried in
+//! order. Each estimates its error from the last coefficients of the interpolating polynomial. Rules are constants. From turning point to
+//! turning point the nodes are those of Gauss–Chebyshev, equally spaced in the angle, because the function is periodic there.
 
 use crate::sine::sine;
 use std::array;

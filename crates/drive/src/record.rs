@@ -18,8 +18,7 @@ use stickslip_contact::{ContactState, Memory, Outcome, Segment};
 
 /// Receiver of a run's output. It does not affect the trajectory.
 ///
-/// Rows are in ascending time at the plan's interval, including the first and the last of the run. Events are in order between
-/// them.
+/// Rows are in ascending time at the plan's interval, including the first and the last of the run. Events are in order between them.
 pub trait Record {
     /// Receives a row with one value per [`Model::channels`].
     fn row(&mut self, values: &[f64]);
@@ -47,8 +46,7 @@ pub trait Record {
     /// Receives a path that the memory of contact `c` (its index) has committed. Paths are in order; those of a step precede the
     /// next sample.
     ///
-    /// Displacements count from the initial positions. A path that is not committed at the end of a run is part of its last
-    /// sample only.
+    /// Displacements count from the initial positions. A path that is not committed at the end of a run is part of its last sample only.
     fn path(&mut self, c: usize, segment: Segment) {
         let _ = (c, segment);
     }
@@ -94,8 +92,7 @@ pub trait Record {
         let _ = state;
     }
 
-    /// Receives the state at the beginning of an interval with its laws: at the start of a run with event location, and after
-    /// every event.
+    /// Receives the state at the beginning of an interval with its laws: at the start of a run with event location, and after every event.
     fn enters(&mut self, state: &State) {
         let _ = state;
     }

@@ -70,8 +70,7 @@ impl Scene {
         ""
     }
 
-    /// Returns the waveform behind a signal: the signal itself, or the source of the first input of a block. None if there is
-    /// none.
+    /// Returns the waveform behind a signal: the signal itself, or the source of the first input of a block. None if there is none.
     #[must_use]
     pub fn waveform_of(&self, signal: usize) -> Option<usize> {
         let Some(block) = signal.checked_sub(self.waveforms.len()) else { return Some(signal) };
@@ -246,8 +245,7 @@ pub struct Load {
     pub pitch: Varying,
 }
 
-/// Gravity. The slide rises by `incline` from the horizontal, so the force is -m g sin(incline) along x and -m g cos(incline)
-/// along z.
+/// Gravity. The slide rises by `incline` from the horizontal, so the force is -m g sin(incline) along x and -m g cos(incline) along z.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Gravity {
     /// Acceleration g, m/s².

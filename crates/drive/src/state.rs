@@ -322,8 +322,7 @@ impl State {
         &self.tally
     }
 
-    /// Returns the memories of the contacts in order. Their displacements count from shifted origins and may differ from u in the
-    /// rows.
+    /// Returns the memories of the contacts in order. Their displacements count from shifted origins and may differ from u in the rows.
     pub fn memories(&self) -> &[Memory] {
         &self.memories
     }

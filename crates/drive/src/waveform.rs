@@ -1,8 +1,7 @@
 //! Prescribed functions of time (motions, forces, strokes) with exact corners.
 //!
-//! A waveform is a chain of smooth pieces on half-open intervals [start, end). A stepper samples its present [`Piece`] up to its
-//! end, where it gives the limit from the left, and continues with the piece [`Waveform::after`] it. Jumps occur between two
-//! pieces.
+//! A waveform is a chain of smooth pieces on half-open intervals [start, end). A stepper samples its present [`Piece`] up to its end,
+//! where it gives the limit from the left, and continues with the piece [`Waveform::after`] it. Jumps occur between two pieces.
 //!
 //! The pieces of an input are supplied during the run; without a caller it has one piece, its initial value. A generator has a
 //! chain for its initial command; after another command its pieces follow from the state of the run.
@@ -260,8 +259,7 @@ impl Waveform {
         &self.shape
     }
 
-    /// Returns its timing, as given; for a pattern that of one cycle of its shape. With [`Self::shape`] it makes the same
-    /// waveform.
+    /// Returns its timing, as given; for a pattern that of one cycle of its shape. With [`Self::shape`] it makes the same waveform.
     #[must_use]
     pub fn given(&self) -> &Timing {
         &self.given

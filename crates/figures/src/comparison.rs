@@ -76,8 +76,7 @@ pub fn draw(
     Ok((bytes, curves.iter().map(|curve| curve.channel.name.clone()).collect()))
 }
 
-/// Numeric channels with the largest difference relative to the tolerance. If no channel exceeds its tolerance, all
-/// are candidates.
+/// Numeric channels with the largest difference relative to the tolerance. If no channel exceeds its tolerance, all are candidates.
 fn curves<'a>(
     (a, b): (&'a Results, &'a Results),
     comparison: &'a Comparison,

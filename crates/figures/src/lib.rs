@@ -1,7 +1,6 @@
 //! Plots of results, drawn equally from a finished run and from its result folder.
 //!
-//! [`draw`] converts [`Sources`] to picture files in a [`Look`]. [`Origin`] reads the scenario and fingerprint back
-//! from a picture.
+//! [`draw`] converts [`Sources`] to picture files in a [`Look`]. [`Origin`] reads the scenario and fingerprint back from a picture.
 //!
 //! Modules in reading order:
 //!

@@ -13,8 +13,7 @@ pub struct Look {
     pub themes: Vec<Colours>,
     /// Scale: 1 for a width of 1600 px, 2 for twice as many (`NAME@2x.png`).
     pub scale: u32,
-    /// Print width in tenths of a millimetre (`NAME-85mm.png`); letters and lines keep their size in points. `None`:
-    /// no print width.
+    /// Print width in tenths of a millimetre (`NAME-85mm.png`); letters and lines keep their size in points. `None`: no print width.
     pub width: Option<u32>,
     /// Whether the title is drawn.
     pub title: bool,

@@ -80,8 +80,7 @@ fn value(field: &Field, place: [f64; 2]) -> f64 {
     node(0, 0) + node(0, 1) + node(1, 0) + node(1, 1)
 }
 
-/// Class at a position: that of the nearest grid point, changed at each border crossed from there. `None` without a
-/// result.
+/// Class at a position: that of the nearest grid point, changed at each border crossed from there. `None` without a result.
 fn class(map: &Map, field: &Field, place: [f64; 2]) -> Option<usize> {
     let counts = [field.xs.len(), field.ys.len()];
     // Points on the rim may have a class without an area, such as stick at zero amplitude.

@@ -204,8 +204,7 @@ fn of_all(title: &str, which: &str, (shown, all): (usize, usize)) -> String {
     if shown < all { format!("{title} ({which}{shown} of {all} in the table)") } else { title.to_owned() }
 }
 
-/// Title of a plot that requires all events: with the time range in which they are available, if that is not the
-/// whole run.
+/// Title of a plot that requires all events: with the time range in which they are available, if that is not the whole run.
 fn whole_title(job: &Job, kept: &Kept) -> String {
     let time = |t: f64| quantity(Real(t), "s");
     let (title, until, end) = (job.title(), kept.whole_until(), kept.end());

@@ -34,8 +34,7 @@ pub fn all_files() -> Vec<String> {
     Look::all_files_of(&NAMES)
 }
 
-/// Draws all plots, the animation only if `is_animated`. Each plot has its own result; an error does not affect the
-/// others.
+/// Draws all plots, the animation only if `is_animated`. Each plot has its own result; an error does not affect the others.
 pub fn draw(
     subject: &Subject<'_>,
     sheet: &Sheet,
@@ -127,8 +126,7 @@ fn profile<T>(law: &Interface, sheet: &Sheet, walk: &Walk, drawn: impl FnOnce(&P
     drawn(&ProfilePair { x: &x, f: f.as_deref(), g: &g, d, a })
 }
 
-/// Profile f at given distances, m: from its formula, or as d - deflection of a contact with that radius. `None` for
-/// lists of springs.
+/// Profile f at given distances, m: from its formula, or as d - deflection of a contact with that radius. `None` for lists of springs.
 fn gaps(law: &Interface, x: &[f64]) -> Option<Vec<f64>> {
     let farthest = x.last().copied().unwrap_or(0.0);
     let d = law.profile().depth(farthest);

@@ -21,8 +21,7 @@ const MOST: f64 = 200_000.0;
 const PERIODS: u32 = 400;
 /// Change of the range from period to period at which the range counts as steady, as a fraction of the commanded range.
 const SETTLED: f64 = 1e-6;
-/// Longest substep of the low-pass in units of 1/ω, and largest number of substeps in a step. Beyond this number there is no
-/// forecast.
+/// Longest substep of the low-pass in units of 1/ω, and largest number of substeps in a step. Beyond this number there is no forecast.
 const FINE: f64 = 0.1;
 const MOST_FINE: f64 = 50.0;
 

@@ -1,5 +1,4 @@
-//! Quadratic interpolation of a rate within a step: p(σ) = a + bσ + cσ², 0 ≤ σ ≤ 1. The integral of p over σ is the change in the
-//! step.
+//! Quadratic interpolation of a rate within a step: p(σ) = a + bσ + cσ², 0 ≤ σ ≤ 1. The integral of p over σ is the change in the step.
 
 /// Rate within a step, as the coefficients of a quadratic polynomial in σ.
 #[derive(Debug, Clone, Copy, PartialEq)]

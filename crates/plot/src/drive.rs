@@ -45,8 +45,7 @@ pub struct DriveCourse<'a> {
     pub is_upright: bool,
 }
 
-/// Draws voltage, current, positions and contact forces below each other on one time axis. Active driver limits are
-/// shaded.
+/// Draws voltage, current, positions and contact forces below each other on one time axis. Active driver limits are shaded.
 pub fn drive_figure<'a>(title: &str, course: &DriveCourse<'a>) -> Figure<'a> {
     let mut panels = Vec::new();
     if !course.supplies.is_empty() {

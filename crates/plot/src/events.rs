@@ -79,8 +79,7 @@ fn counts(times: &[f64], from: f64, width: f64) -> [usize; BINS] {
     counts
 }
 
-/// Number of events in each bin, with each event distributed over the two nearest bins. This avoids aliasing of
-/// regular events.
+/// Number of events in each bin, with each event distributed over the two nearest bins. This avoids aliasing of regular events.
 fn density(times: &[f64], from: f64, width: f64) -> [f64; BINS] {
     let mut density = [0.0; BINS];
     for t in times {

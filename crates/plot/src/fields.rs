@@ -40,9 +40,8 @@ pub struct FieldsZone {
 /// Stresses above this multiple of the median pressure are gaps: pressure is unbounded at tips and edges.
 const TALL: f64 = 3.5;
 
-/// Draws two panels per time, side by side, over both sides of the axis. The left one shows p, τ and the friction
-/// limit ±μp; the right one shows displacement and slip. The state of each ring is shaded. All times have the same
-/// scales.
+/// Draws two panels per time, side by side, over both sides of the axis. The left one shows p, τ and the friction limit ±μp; the right one
+/// shows displacement and slip. The state of each ring is shaded. All times have the same scales.
 pub fn fields_figure<'a>(title: &str, moments: &[FieldsMoment<'a>]) -> Figure<'a> {
     if moments.iter().all(|moment| moment.r.is_empty()) {
         let words = if moments.is_empty() {

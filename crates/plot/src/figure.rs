@@ -68,17 +68,15 @@ impl Figure<'_> {
 
     /// Print width for which the theme's sizes are defined, mm.
     pub const PRINT_WIDTH: f64 = 160.0;
-    /// Resolution of figures with a print width, px per inch. It is halved if the figure would exceed
-    /// [`Figure::MOST`].
+    /// Resolution of figures with a print width, px per inch. It is halved if the figure would exceed [`Figure::MOST`].
     pub const PRINT_DENSITY: f64 = 600.0;
     const LEAST_DENSITY: f64 = 300.0;
     const INCH: f64 = 25.4;
 
     /// Returns the figure for a print width in mm.
     ///
-    /// Letters and lines keep their size in points, so the frames become smaller. Fewer panels stand side by side
-    /// where columns would be too narrow for their labels. The height increases where legends, tick labels, lane
-    /// names or notes need it.
+    /// Letters and lines keep their size in points, so the frames become smaller. Fewer panels stand side by side where columns would be
+    /// too narrow for their labels. The height increases where legends, tick labels, lane names or notes need it.
     #[must_use]
     pub fn printed(mut self, width: f64) -> Self {
         let (lost, names) = (lost_notes(&self), least_names(&self));
@@ -117,8 +115,7 @@ impl Figure<'_> {
         self
     }
 
-    /// Increases the height by 10 %. Halves the resolution if the maximum size is reached. Returns false if neither
-    /// is possible.
+    /// Increases the height by 10 %. Halves the resolution if the maximum size is reached. Returns false if neither is possible.
     fn grow(&mut self, density: &mut f64) -> bool {
         if self.size.1 >= Self::MOST {
             if *density <= Self::LEAST_DENSITY {

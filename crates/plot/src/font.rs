@@ -21,8 +21,7 @@ pub(crate) fn advance(text: &str) -> Result<f64, PlotError> {
     Ok(units / f64::from(face.units_per_em()))
 }
 
-/// Adds the outlines of a text to a path. The baseline runs from the origin to the right, y points downwards, and 1
-/// em is `em` px.
+/// Adds the outlines of a text to a path. The baseline runs from the origin to the right, y points downwards, and 1 em is `em` px.
 pub(crate) fn outline(text: &str, em: f64, path: &mut PathBuilder) -> Result<(), PlotError> {
     let face = face()?;
     let scale = em / f64::from(face.units_per_em());

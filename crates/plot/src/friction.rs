@@ -25,14 +25,12 @@ const CLASSES: usize = RAMP.len();
 /// Maximum number of curves over r.
 const MOST_CURVES: usize = 6;
 
-/// Draws a map of the friction work per area over radius and time, and below its radial distribution at the named
-/// moments.
+/// Draws a map of the friction work per area over radius and time, and below its radial distribution at the named moments.
 pub fn friction_figure<'a>(title: &str, work: &FrictionWork<'a>) -> Figure<'a> {
     friction_figures(title, &[("", work)])
 }
 
-/// Draws the figure of [`friction_figure`] for several contacts, one below the other. Contacts without friction work
-/// are left out.
+/// Draws the figure of [`friction_figure`] for several contacts, one below the other. Contacts without friction work are left out.
 pub fn friction_figures<'a>(title: &str, works: &[(&str, &FrictionWork<'a>)]) -> Figure<'a> {
     let mut panels = Vec::new();
     for (name, work) in works {

@@ -25,8 +25,7 @@ const COLUMNS: usize = 3;
 /// Minimum range of the cost axis as a ratio, so that constant costs look flat.
 const LEAST: f64 = 10.0;
 
-/// Draws one double-logarithmic panel per part: the measured cost, and a dashed line of proportional cost through the
-/// first point.
+/// Draws one double-logarithmic panel per part: the measured cost, and a dashed line of proportional cost through the first point.
 pub fn growth_figure<'a>(title: &str, cost: &str, curves: &[GrowthCurve<'a>]) -> Figure<'a> {
     if curves.iter().all(|curve| curve.sizes.is_empty()) {
         return Figure::without_data(title, "nothing grows");

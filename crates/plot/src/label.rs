@@ -37,8 +37,7 @@ impl Label {
         Self { runs: vec![Run { text: text.to_owned(), subscript: false }] }
     }
 
-    /// Creates a label from markup: `_x` is a subscript of one character, `_{text}` one of several, `\_` an
-    /// underscore.
+    /// Creates a label from markup: `_x` is a subscript of one character, `_{text}` one of several, `\_` an underscore.
     pub fn markup(text: &str) -> Self {
         let mut label = Self::default();
         let text = clean(text);

@@ -78,8 +78,7 @@ pub(crate) struct Sizes {
     pub(crate) margin: f64,
 }
 
-/// Maximum fraction of the figure's height for a legend, and the number of rows that is always allowed. Further
-/// entries are only counted.
+/// Maximum fraction of the figure's height for a legend, and the number of rows that is always allowed. Further entries are only counted.
 const LEGEND_SHARE: f64 = 0.4;
 const LEGEND_ROWS: usize = 4;
 /// Maximum number of lines of the title and of a panel heading.
@@ -143,8 +142,7 @@ impl<'f, 'a> Layout<'f, 'a> {
 }
 
 impl Figure<'_> {
-    /// Increases the height by the rows of the legends beyond one each, so that long legends do not shrink the
-    /// panels.
+    /// Increases the height by the rows of the legends beyond one each, so that long legends do not shrink the panels.
     pub(crate) fn with_room_for_legends(mut self) -> Self {
         let more: usize = self.legend_rows().into_iter().map(|rows| rows.saturating_sub(1)).sum();
         let height = f64::from(self.size.1) + more as f64 * ROW * Sizes::of(&self).tick;

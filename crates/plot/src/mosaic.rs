@@ -77,8 +77,7 @@ fn laid_off(places: &[f64], axis: &Axis) -> Vec<f64> {
     places.iter().map(|place| axis.measure(*place)).collect()
 }
 
-/// Midpoints between positions. The outer edges are `beyond` times the adjacent distance away from the first and the
-/// last position.
+/// Midpoints between positions. The outer edges are `beyond` times the adjacent distance away from the first and the last position.
 fn edges(places: &[f64], beyond: f64) -> Vec<f64> {
     let [first, second, ..] = places else { return [places, places].concat() };
     let [.., before, last] = places else { return Vec::new() };
@@ -182,8 +181,7 @@ mod tests {
 
     #[test]
     fn a_train_finer_than_pixels_shows_neither_beats_nor_gaps() {
-        // Stick and slip alternate 7.3 times per pixel: all pixels have the same mixture, and none has a pure class
-        // colour.
+        // Stick and slip alternate 7.3 times per pixel: all pixels have the same mixture, and none has a pure class colour.
         let columns = 7300;
         let cells = (0..columns).map(|i| 1 + u8::from(i % 2 == 0)).collect();
         let image = image(&mosaic(columns, 1, cells), (1000, 1));

@@ -40,8 +40,7 @@ const WIDEST: f64 = 0.3;
 const BROKEN: usize = 3;
 /// Maximum number of notes that are placed; the others are only counted.
 const MOST: usize = 200;
-/// Maximum number of candidate positions that are checked for pointers, in order of cost. This bounds the time in
-/// crowded frames.
+/// Maximum number of candidate positions that are checked for pointers, in order of cost. This bounds the time in crowded frames.
 const TRIED: usize = 10_000;
 
 /// Finds positions for the notes of a panel. The number of notes left out appears inside the frame, or in the label

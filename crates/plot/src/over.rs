@@ -9,12 +9,10 @@ use std::borrow::Cow;
 /// Width of a curve in an overlay, as a multiple of the usual width.
 const FINE: f64 = 0.75;
 
-/// Overlays the curves of figures of the same kind. Each figure has a colour and a legend entry; its curves differ in
-/// dashes.
+/// Overlays the curves of figures of the same kind. Each figure has a colour and a legend entry; its curves differ in dashes.
 ///
-/// Pale curves are left out, and muted ones are taken from the first figure only. Reference lines that differ between
-/// figures are named after their figure. Panels that not all figures have are left out. Returns `None` if no panel
-/// with curves remains.
+/// Pale curves are left out, and muted ones are taken from the first figure only. Reference lines that differ between figures are named
+/// after their figure. Panels that not all figures have are left out. Returns `None` if no panel with curves remains.
 pub fn overlaid<'a>(title: &str, figures: &[(String, Figure<'a>)]) -> Option<Figure<'a>> {
     let (_, first) = figures.first()?;
     let of_all = |place: usize| -> Option<Vec<(&str, Panel<'a>)>> {
@@ -30,8 +28,7 @@ pub fn overlaid<'a>(title: &str, figures: &[(String, Figure<'a>)]) -> Option<Fig
     Some(Figure { title: Label::plain(title), panels, provenance: Vec::new(), ..stands })
 }
 
-/// Panel of a figure that shows the same quantities as panel `place` of the first figure. Among several it is the one
-/// at the same rank.
+/// Panel of a figure that shows the same quantities as panel `place` of the first figure. Among several it is the one at the same rank.
 fn like<'a>(figure: &Figure<'a>, first: &Figure<'a>, place: usize) -> Option<Panel<'a>> {
     let shown = |panel: &Panel<'_>| {
         let [x, y] = [&panel.x, &panel.y].map(|axis| (axis.label.text(), axis.unit.clone()));

@@ -1,7 +1,6 @@
 //! Indexed images: one byte per pixel instead of three.
 //!
-//! Line art has few colours, mainly inks and their mixtures from anti-aliasing. Indexed images compress faster and
-//! smaller.
+//! Line art has few colours, mainly inks and their mixtures from anti-aliasing. Indexed images compress faster and smaller.
 
 /// Red, green, blue.
 pub(crate) type Rgb = [u8; 3];
@@ -26,8 +25,7 @@ pub(crate) struct Indexed {
 
 /// Number of slots of the hash table, a power of two. A picture with more than half as many colours has no palette.
 const SLOTS: usize = 1 << 14;
-/// Multiplier of the hash function, an odd number near 2³² divided by the golden ratio (Knuth, The Art of Computer
-/// Programming 3, 6.4).
+/// Multiplier of the hash function, an odd number near 2³² divided by the golden ratio (Knuth, The Art of Computer Programming 3, 6.4).
 const SPREAD: u32 = 0x9E37_79B1;
 
 /// Hash table that counts and numbers the colours of a picture. It is faster than that of the standard library, which
@@ -55,8 +53,7 @@ impl Indexed {
 }
 
 impl Colours {
-    /// Numbers the colours in order of appearance. Returns `None` if there are more than the table or the number type
-    /// allows.
+    /// Numbers the colours in order of appearance. Returns `None` if there are more than the table or the number type allows.
     fn number<N: Copy + Default + TryFrom<u16>>(
         count: usize,
         pixels: impl Iterator<Item = Word>,

@@ -3,8 +3,7 @@
 use crate::{Ink, Label, PlotError, Style};
 use std::borrow::Cow;
 
-/// One pair of axes with its data. Drawn from back to front: mosaic, grid, bands, shapes, reference lines, series,
-/// notes.
+/// One pair of axes with its data. Drawn from back to front: mosaic, grid, bands, shapes, reference lines, series, notes.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Panel<'a> {
     /// Heading above the frame; empty for none.
@@ -207,8 +206,7 @@ impl Reference {
 }
 
 impl Panel<'_> {
-    /// Index of a reference line's name among the names in the panel; it selects the line style. 0 for lines without
-    /// a name.
+    /// Index of a reference line's name among the names in the panel; it selects the line style. 0 for lines without a name.
     pub(crate) fn place_of(&self, reference: &Reference) -> usize {
         let mut names: Vec<&Label> = Vec::new();
         for label in self.references.iter().map(Reference::label).filter(|label| !label.is_empty()) {

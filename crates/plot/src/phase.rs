@@ -72,8 +72,7 @@ fn panel<'a>(group: &[(usize, &PhasePath<'a>)]) -> Panel<'a> {
         series.push(curve(path.name, path, from..path.velocity.len(), Ink::Palette(*place)));
     }
     if let Some(((place, path), _)) = group.iter().zip(&last).find(|(_, from)| **from > 0) {
-        // A series without points at the end of the list: its legend entry comes last, while the pale curves are
-        // drawn first.
+        // A series without points at the end of the list: its legend entry comes last, while the pale curves are drawn first.
         series.push(curve("earlier cycles", path, 0..0, Ink::Pale(*place)));
     }
     let [x, y] = match group.first().and_then(|(_, path)| path.coordinate) {

@@ -151,8 +151,7 @@ impl Placer<'_, '_> {
         let mut left: Vec<f64> = numbers.iter().zip(labels).map(|(numbers, label)| numbers + label).collect();
         let notes = self.placed.iter().map(|place| notes(place, sizes)).collect::<Result<Vec<_>, _>>()?;
         let mut right = most(columns, column, notes.into_iter());
-        // Numbers beyond the ends of an axis need room, which narrows the frames and changes the ticks. The iteration
-        // converges quickly.
+        // Numbers beyond the ends of an axis need room, which narrows the frames and changes the ticks. The iteration converges quickly.
         for _ in 0..3 {
             self.assign_widths(&left, &right);
             for (i, place) in self.placed.iter_mut().enumerate() {
@@ -184,8 +183,7 @@ impl Placer<'_, '_> {
         }
     }
 
-    /// Sets the positions of headings and legends above the frames. Legends wider than their frame start further
-    /// left.
+    /// Sets the positions of headings and legends above the frames. Legends wider than their frame start further left.
     fn set_legends(&mut self) -> Result<(), PlotError> {
         for place in &mut self.placed {
             let (frame, cell) = (place.frame, place.cell);

@@ -84,8 +84,7 @@ fn pixels(figure: &Figure<'_>) -> Result<Raster, PlotError> {
     Ok(raster)
 }
 
-/// Returns the text chunks: first uncompressed Latin-1 (`tEXt`), then compressed Latin-1 (`zTXt`), then Unicode
-/// (`iTXt`).
+/// Returns the text chunks: first uncompressed Latin-1 (`tEXt`), then compressed Latin-1 (`zTXt`), then Unicode (`iTXt`).
 pub(crate) fn read_png(bytes: &[u8]) -> Result<Vec<(String, String)>, PlotError> {
     let mut options = png::DecodeOptions::default();
     // By default the decoder ignores damaged texts.
@@ -197,8 +196,7 @@ fn write_text<W: Write>(
     }
 }
 
-/// Checks PNG's rule for keywords: 1 to 79 printable Latin-1 characters, without blanks at the ends and double
-/// blanks.
+/// Checks PNG's rule for keywords: 1 to 79 printable Latin-1 characters, without blanks at the ends and double blanks.
 fn check_key(key: &str) -> Result<(), PlotError> {
     let printable = |c: char| matches!(u32::from(c), 0x20..=0x7E | 0xA1..=0xFF);
     let blanks = key.starts_with(' ') || key.ends_with(' ') || key.contains("  ");

@@ -46,8 +46,7 @@ impl Extent {
     }
 }
 
-/// Ranges of a panel in x and y in axis coordinates, including reference lines. Points that cannot be drawn are
-/// ignored.
+/// Ranges of a panel in x and y in axis coordinates, including reference lines. Points that cannot be drawn are ignored.
 pub(crate) fn extents(panel: &Panel<'_>) -> (Extent, Extent) {
     let (mut x, mut y) = (Extent::default(), Extent::default());
     for point in panel.series.iter().flat_map(|series| panel.points(series).flatten()) {

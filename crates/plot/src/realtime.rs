@@ -106,8 +106,7 @@ pub fn times_grid<'a>(title: &str, columns: usize, panels: &[TimesPanel<'a>]) ->
         let highest = counts.map(|(.., count)| *count).max().unwrap_or(1).max(1) as f64;
         let colour = |name: &str| mark(most + kinds.iter().position(|kind| *kind == name).unwrap_or(0));
         let marked = times.marked.iter().map(|marked| points(marked, colour(marked.name), &times.curves));
-        // The first panel names all kinds, so that one legend serves all panels. Values not above 0 are not drawn on
-        // logarithmic axes.
+        // The first panel names all kinds, so that one legend serves all panels. Values not above 0 are not drawn on logarithmic axes.
         let named = if place == 0 { &kinds[..] } else { &[] };
         let keys = named.iter().map(|name| {
             let key = points(&MarkedTimes { name, times: Vec::new(), on: 0 }, colour(name), &[]);

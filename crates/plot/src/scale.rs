@@ -7,8 +7,7 @@ use stickslip_quantity::{Prefix, takes_prefix};
 /// Scale of an axis.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Scale {
-    /// Offset subtracted from the values, in the unit of the axis; not 0 if the values differ only in their last
-    /// digits.
+    /// Offset subtracted from the values, in the unit of the axis; not 0 if the values differ only in their last digits.
     offset: f64,
     /// Ends of the axis minus the offset.
     low: f64,
@@ -244,8 +243,7 @@ fn ticks((low, high): (f64, f64), along: Along, em: f64) -> Result<Vec<(f64, Str
     Ok(best)
 }
 
-/// Ticks at powers of ten whose labels do not overlap. A range with fewer than two powers also has ticks at 2 and 5
-/// times them.
+/// Ticks at powers of ten whose labels do not overlap. A range with fewer than two powers also has ticks at 2 and 5 times them.
 fn decades((low, high): (f64, f64), along: Along, em: f64) -> Result<Vec<(f64, String)>, PlotError> {
     let span = high - low;
     if !(span > 0.0 && span.is_finite()) {

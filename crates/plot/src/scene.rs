@@ -165,13 +165,11 @@ const MOST_PARTS: usize = 200;
 
 /// Draws the model in the x-z plane.
 ///
-/// Points of bodies are to scale, and so are contact profiles that are large enough. Outlines of bodies only enclose
-/// their points. A body whose points all coincide with its reference point is drawn at its contacts. Symbols, arrows
-/// and outlines have a fixed size.
+/// Points of bodies are to scale, and so are contact profiles that are large enough. Outlines of bodies only enclose their points. A body
+/// whose points all coincide with its reference point is drawn at its contacts. Symbols, arrows and outlines have a fixed size.
 ///
-/// The origin of the axes is the reference point of the first group of connected bodies, and the ground. Both axes
-/// have the same scale unless the drawing would be very narrow. A slide that rises at more than 45 degrees is drawn
-/// upright.
+/// The origin of the axes is the reference point of the first group of connected bodies, and the ground. Both axes have the same scale
+/// unless the drawing would be very narrow. A slide that rises at more than 45 degrees is drawn upright.
 pub fn layout_figure(title: &str, scene: &Scene<'_>) -> Figure<'static> {
     let parts = scene.bodies.len() + scene.contacts.len() + scene.links.len() + scene.loads.len();
     if scene.bodies.is_empty() {

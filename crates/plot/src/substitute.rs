@@ -1,5 +1,4 @@
-//! Contact as the MDR substitute: the profile g(x) pressed into a row of springs (Handbook of Contact Mechanics,
-//! figure 4.2).
+//! Contact as the MDR substitute: the profile g(x) pressed into a row of springs (Handbook of Contact Mechanics, figure 4.2).
 
 use crate::figure::{Arrangement, Figure};
 use crate::panel::{Axis, Note, Panel, Series, Shape};
@@ -22,8 +21,7 @@ pub struct SubstituteMoment<'a> {
     pub scale: f64,
     /// Indentation by which depths are scaled, m: the largest of all times.
     pub deepest: f64,
-    /// Stretch by which stretches are scaled, m: the gross slip displacement at that indentation, or a larger
-    /// stretch.
+    /// Stretch by which stretches are scaled, m: the gross slip displacement at that indentation, or a larger stretch.
     pub largest_stretch: f64,
     /// Normal and tangential force, N.
     pub forces: (f64, f64),
@@ -59,9 +57,8 @@ const SHOWN: usize = 25;
 const UNIT: f64 = 0.5;
 const DIGITS: usize = 3;
 
-/// Draws one sketch per time. The springs are sheared by their stretch and coloured by their state. Dimension lines
-/// show the widths 2a of the contact and 2c of the stick zone, arrows the forces. Depths and stretches are not to
-/// scale.
+/// Draws one sketch per time. The springs are sheared by their stretch and coloured by their state. Dimension lines show the widths 2a of
+/// the contact and 2c of the stick zone, arrows the forces. Depths and stretches are not to scale.
 pub fn substitute_figure(title: &str, moments: &[SubstituteMoment<'_>]) -> Figure<'static> {
     if moments.iter().all(|moment| moment.x.is_empty() || moment.scale <= 0.0) {
         return Figure::without_data(title, "the contact is always open");

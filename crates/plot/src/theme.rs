@@ -44,8 +44,7 @@ pub enum Dash {
 pub struct Style {
     /// Ink. `None`: the palette colour at the index of the series.
     pub ink: Option<Ink>,
-    /// Dash pattern. `None`: the pattern of the palette index; solid for other inks. Very long curves are always
-    /// solid.
+    /// Dash pattern. `None`: the pattern of the palette index; solid for other inks. Very long curves are always solid.
     pub dash: Option<Dash>,
     /// Line width as a multiple of the theme's line width, 0.1 to 10.
     pub width: f64,

@@ -84,8 +84,7 @@ fn square_distance((x, y): Point, ((x0, y0), (x1, y1)): (Point, Point)) -> f64 {
     away_x * away_x + away_y * away_y
 }
 
-/// Drops segments that repeat earlier ones within a quarter of a pixel, as in many cycles of a closed loop. Short
-/// polylines are unchanged.
+/// Drops segments that repeat earlier ones within a quarter of a pixel, as in many cycles of a closed loop. Short polylines are unchanged.
 pub(crate) fn without_repeats(lines: Vec<Vec<Point>>) -> Vec<Vec<Point>> {
     if lines.iter().map(Vec::len).sum::<usize>() <= LONG {
         return lines;

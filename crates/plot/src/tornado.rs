@@ -33,8 +33,7 @@ pub struct Bar {
 /// Height of heading and axis, in lanes.
 const FRAME: usize = 3;
 
-/// Draws one panel per result, with a height proportional to the number of bars. Positive and negative sensitivities
-/// differ in colour.
+/// Draws one panel per result, with a height proportional to the number of bars. Positive and negative sensitivities differ in colour.
 pub fn tornado_figure<'a>(title: &str, tornados: &[Tornado<'a>]) -> Figure<'a> {
     if tornados.is_empty() {
         return Figure::without_data(title, "no figure");

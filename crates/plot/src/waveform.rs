@@ -26,8 +26,7 @@ pub struct WaveformCourse<'a> {
 
 const NOTHING: &str = "no waveform";
 
-/// Draws each waveform next to its rate, one waveform per row. Dots are corners, between which the waveform is
-/// smooth.
+/// Draws each waveform next to its rate, one waveform per row. Dots are corners, between which the waveform is smooth.
 pub fn waveform_figure<'a>(title: &str, courses: &[WaveformCourse<'a>]) -> Figure<'a> {
     if courses.is_empty() {
         return Figure::without_data(title, NOTHING);

@@ -11,9 +11,8 @@ use plotters_backend::DrawingBackend;
 /// Minimum width of a shaded range, px of a figure 1600 px wide.
 const LEAST: f64 = 5.0;
 
-/// Places each panel of `part` right of the same panel of `whole`, as an enlargement of the range `of`. The range is
-/// shaded in the left panels; `heading` stands above the right ones. Returns `whole` unchanged unless both are
-/// columns with equally many panels.
+/// Places each panel of `part` right of the same panel of `whole`, as an enlargement of the range `of`. The range is shaded in the left
+/// panels; `heading` stands above the right ones. Returns `whole` unchanged unless both are columns with equally many panels.
 pub fn enlarged_beside<'a>(whole: Figure<'a>, part: Figure<'a>, of: (f64, f64), heading: &str) -> Figure<'a> {
     let is_column = |figure: &Figure<'_>| figure.arrangement == Arrangement::Column { share_x: true };
     if whole.panels.len() != part.panels.len() || !is_column(&whole) || !is_column(&part) {

@@ -1,7 +1,6 @@
 //! Properties of a model before it runs, for JSON.
 //!
-//! In reading order: [`bodies`] and [`waveforms`], [`contacts`], [`modes`], [`piezos`]; [`Stepping`]; [`Expectation`];
-//! [`Usage`].
+//! In reading order: [`bodies`] and [`waveforms`], [`contacts`], [`modes`], [`piezos`]; [`Stepping`]; [`Expectation`]; [`Usage`].
 
 mod ceramic;
 mod contacts;

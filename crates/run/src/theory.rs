@@ -1,8 +1,7 @@
 //! Solution of one contact of a scenario without a run, by section 4.4 of the handbook.
 //!
-//! In reading order: [`Subject`] (the contact); [`Sheet`] (its constants and curves) with [`Loading`] (one first
-//! loading); [`History`] (a load history) and [`Walk`] (forces, fields, springs and friction work along it);
-//! [`write()`] (the files).
+//! In reading order: [`Subject`] (the contact); [`Sheet`] (its constants and curves) with [`Loading`] (one first loading); [`History`] (a
+//! load history) and [`Walk`] (forces, fields, springs and friction work along it); [`write()`] (the files).
 //!
 //! All values follow from the exact memory curve, even if the scenario selects a row of springs.
 

@@ -3,10 +3,9 @@
 //! Accelerations depend on time and positions only, so stages need no velocities. A step costs 8 evaluations instead of the 12 of
 //! [`DormandPrince`](crate::DormandPrince).
 //!
-//! Source: J. R. Dormand, M. E. A. El-Mikkawy, P. J. Prince, *High-order embedded Runge–Kutta–Nyström formulae*, IMA Journal of
-//! Numerical Analysis 7 (1987) 423–430. The dense output is a Hermite–Birkhoff interpolant of accelerations at seven nodes; the
-//! inner ones are evaluated again at interpolated positions. [Steps with few stages](crate::Grade::Few) use Nyström's method of
-//! order 5.
+//! Source: J. R. Dormand, M. E. A. El-Mikkawy, P. J. Prince, *High-order embedded Runge–Kutta–Nyström formulae*, IMA Journal of Numerical
+//! Analysis 7 (1987) 423–430. The dense output is a Hermite–Birkhoff interpolant of accelerations at seven nodes; the inner ones are
+//! evaluated again at interpolated positions. [Steps with few stages](crate::Grade::Few) use Nyström's method of order 5.
 
 mod dense;
 mod estimate;

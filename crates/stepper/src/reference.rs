@@ -8,8 +8,7 @@ use std::ops::Range;
 
 /// A system that is notified of each accepted step and then updates its memory.
 pub trait Accepting: System {
-    /// Accepts the step that ended at time `t` (s) in the state `y` (`total` components). Returning `false` ends the integration
-    /// there.
+    /// Accepts the step that ended at time `t` (s) in the state `y` (`total` components). Returning `false` ends the integration there.
     fn accept(&mut self, t: f64, y: &[f64]) -> bool;
 }
 

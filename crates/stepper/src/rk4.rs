@@ -89,9 +89,8 @@ impl<S: System + ?Sized> Stepping<S> for Rk4 {
         self.evaluations += 4;
     }
 
-    /// Integrates by σ with the time t + aσ(2 - σ), a = h + left, from 0 to s = 1 - √(left/a). In σ the square root of the
-    /// remaining time is linear; the derivatives by σ/s are 2as(1 - σ)f. The linear motion with the first slope is split off, so
-    /// k₁ = 0 for the rest.
+    /// Integrates by σ with the time t + aσ(2 - σ), a = h + left, from 0 to s = 1 - √(left/a). In σ the square root of the remaining time
+    /// is linear; the derivatives by σ/s are 2as(1 - σ)f. The linear motion with the first slope is split off, so k₁ = 0 for the rest.
     fn step_to_a_root(&mut self, system: &S, t: f64, y: &mut [f64], (h, left): (f64, f64)) {
         let a = h + left;
         let s = 1.0 - (left / a).sqrt();

@@ -1,8 +1,7 @@
 //! Curves of a drive: step length, velocity or power of the steady motion versus one parameter.
 //!
-//! A [`Curve`] has a scenario and a [`Kind`]. Each [`Point`] is a variant of the scenario, given by arguments of
-//! `--set`. A point that cannot be computed contains the
-//! reason; the other points are still computed.
+//! A [`Curve`] has a scenario and a [`Kind`]. Each [`Point`] is a variant of the scenario, given by arguments of `--set`. A point that
+//! cannot be computed contains the reason; the other points are still computed.
 //!
 //! Modules in reading order:
 //! * `kind`: types of curves; `variation`: the varied parameter; `range`: the values of the points.
@@ -113,9 +112,8 @@ impl Curve {
         Ok([forward, Self { reversal, sense: Some(Sense::Backward), ..backward }])
     }
 
-    /// Returns a default range of the parameter in SI units, around its value in the scenario. Ranges of loads end
-    /// slightly above the stall force. Returns `None` if no default is
-    /// known.
+    /// Returns a default range of the parameter in SI units, around its value in the scenario. Ranges of loads end slightly above the
+    /// stall force. Returns `None` if no default is known.
     #[must_use]
     pub fn range(&self, watcher: &dyn Watcher) -> Option<[f64; 2]> {
         let [from, most] = self.variation.range?;
@@ -142,9 +140,8 @@ impl Curve {
         Bracket::narrow(vec![(from, sense * unloaded.step)], to, ROUGHLY, try_at).ok().flatten()
     }
 
-    /// Returns a load slightly above the largest load that a drive without steps of its own withstands. At this load
-    /// the drive still has a steady motion. The load is at most
-    /// `most`.
+    /// Returns a load slightly above the largest load that a drive without steps of its own withstands. At this load the drive still has a
+    /// steady motion. The load is at most `most`.
     fn held(&self, most: f64, sense: f64, watcher: &dyn Watcher) -> Option<f64> {
         let try_at = |load, _: f64| -> Result<Option<f64>, Infallible> {
             let motion = self.motion_at(load, sense, watcher).ok();
@@ -158,11 +155,9 @@ impl Curve {
         Some(if self.motion_at(beyond, sense, watcher).is_ok() { beyond } else { held.steps })
     }
 
-    /// Returns the given end of a range, or the nearest value that gives a valid scenario. Returns the end itself if
-    /// there is none.
+    /// Returns the given end of a range, or the nearest value that gives a valid scenario. Returns the end itself if there is none.
     ///
-    /// Invalid values are, for example, a frequency that leaves no time for the rise of a waveform, or a load without
-    /// initial equilibrium.
+    /// Invalid values are, for example, a frequency that leaves no time for the rise of a waveform, or a load without initial equilibrium.
     fn allowed(&self, end: f64, direction: f64) -> f64 {
         let makes = |at: f64| self.variant(&self.overrides(at, direction)).is_ok();
         let Some(present) = self.variation.present.filter(|_| !makes(end)) else { return end };
@@ -173,9 +168,8 @@ impl Curve {
         if nearest == present { end } else { nearest }
     }
 
-    /// Shortens a range so that the stacks' commands stay within the driver window and the nominal voltage of the data
-    /// sheet. Commands are linear in the varied parameter.
-    /// Returns the range unchanged if its smaller end already exceeds these limits.
+    /// Shortens a range so that the stacks' commands stay within the driver window and the nominal voltage of the data sheet. Commands are
+    /// linear in the varied parameter. Returns the range unchanged if its smaller end already exceeds these limits.
     fn within_data_sheets(&self, range: [f64; 2]) -> [f64; 2] {
         let is_mirrored = range[0].abs() > range[1].abs();
         let [from, to] = if is_mirrored { [range[1], range[0]] } else { range };
@@ -202,8 +196,7 @@ impl Curve {
 
     /// Computes the points at the given values on `cores` threads. The result does not depend on the number of threads.
     ///
-    /// The watcher receives the number of finished points. If it interrupts, the remaining points are
-    /// [`Motionless::NotRun`].
+    /// The watcher receives the number of finished points. If it interrupts, the remaining points are [`Motionless::NotRun`].
     pub fn trace(&self, values: &[f64], cores: usize, watcher: &(dyn Watcher + Sync)) -> Traced {
         let unloaded = self.kind.is_of_load().then(|| self.unloaded(watcher));
         let is_known = unloaded.as_ref().is_none_or(Result::is_ok);

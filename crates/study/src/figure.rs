@@ -66,13 +66,11 @@ impl Figure {
     }
 }
 
-/// Record that evaluates results during a run, from the first and last row and the rows at both ends of the last whole
-/// period.
+/// Record that evaluates results during a run, from the first and last row and the rows at both ends of the last whole period.
 pub(crate) struct Reading<'a> {
     figures: &'a [Placed],
     watcher: &'a dyn Watcher,
-    /// Results so far. Before the end of the run, an entry is the channel's value at the start of the run or of the
-    /// last whole period.
+    /// Results so far. Before the end of the run, an entry is the channel's value at the start of the run or of the last whole period.
     pub(crate) values: Vec<f64>,
     /// Times at which rows are needed, s, ascending; and the index of the next one.
     moments: Vec<f64>,
@@ -140,8 +138,7 @@ impl<'a> Reading<'a> {
     }
 }
 
-/// Returns start and end of the last whole period of a waveform before `end`, s. Returns infinite times if there is
-/// none.
+/// Returns start and end of the last whole period of a waveform before `end`, s. Returns infinite times if there is none.
 fn last_period(scene: &Scene, waveform: usize, end: f64) -> [f64; 2] {
     let never = [f64::INFINITY; 2];
     let Some(waveform) = scene.waveforms.get(waveform).map(|named| &named.part) else { return never };

@@ -32,8 +32,7 @@ const WEAK: f64 = 1e-6;
 const SHARE: f64 = 0.2;
 /// Number of harmonics along the loop that contain most of the residual of a wrong model.
 const HARMONICS: usize = 6;
-/// Quantile of the normal distribution above which the model does not fit; each of two tests has a significance level
-/// of 0.0005.
+/// Quantile of the normal distribution above which the model does not fit; each of two tests has a significance level of 0.0005.
 const MISFIT: f64 = 3.29;
 /// Residual relative to the largest force below which a model fits, whatever the noise; and the 97.5 % quantile of the
 /// normal distribution.

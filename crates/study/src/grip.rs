@@ -1,5 +1,4 @@
-//! Detects whether friction holds a body. A distance that the body flies or slides in a period does not count as a
-//! step.
+//! Detects whether friction holds a body. A distance that the body flies or slides in a period does not count as a step.
 
 use stickslip_drive::scene::Side;
 use stickslip_drive::{Event, Model, Run, Source};

@@ -1,10 +1,8 @@
-//! Journal: file with the results of a study, written as they are computed. After an interruption, the same command
-//! reads it and computes only the missing
-//! results.
+//! Journal: file with the results of a study, written as they are computed. After an interruption, the same command reads it and computes
+//! only the missing results.
 //!
-//! Each line has one result: its key and its value as JSON, separated by a tab. Numbers are restored to all bits. A
-//! result depends only on its key and on the first line of
-//! the file.
+//! Each line has one result: its key and its value as JSON, separated by a tab. Numbers are restored to all bits. A result depends only on
+//! its key and on the first line of the file.
 
 use serde::{Serialize, de::DeserializeOwned};
 use std::collections::BTreeMap;
@@ -82,8 +80,7 @@ impl Journal {
         Ok((Self(Some(Mutex::new(Lines { path, head, known, file, fault: None }))), held))
     }
 
-    /// Returns the result for a key from the journal, or computes it. A computed result is written if `is_kept` accepts
-    /// it.
+    /// Returns the result for a key from the journal, or computes it. A computed result is written if `is_kept` accepts it.
     pub(crate) fn found<T: Serialize + DeserializeOwned>(
         &self,
         key: &impl Serialize,

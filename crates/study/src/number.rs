@@ -1,6 +1,5 @@
-//! Numeric parameters of a scenario that sweeps set directly, without reading the scenario file again. The general form
-//! for any key of the file is
-//! [`stickslip_scenario::Parameter`].
+//! Numeric parameters of a scenario that sweeps set directly, without reading the scenario file again. The general form for any key of the
+//! file is [`stickslip_scenario::Parameter`].
 
 use crate::sketch::{Quantity, Sketch};
 use std::fmt;
@@ -23,8 +22,7 @@ pub(crate) enum Number {
     Velocity(usize, Axis),
     /// `contacts.NAME.friction`: coefficient of friction.
     Friction(usize),
-    /// `contacts.NAME.normal.force` (N), `.indentation` (m) or `.radius` (m): the one that the contact has, if
-    /// constant.
+    /// `contacts.NAME.normal.force` (N), `.indentation` (m) or `.radius` (m): the one that the contact has, if constant.
     Normal(usize),
     /// `contacts.NAME.gap`, m.
     Gap(usize),

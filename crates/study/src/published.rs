@@ -1,5 +1,4 @@
-//! Output files of a study: table, JSON report and plots. An interrupted study has its own file names and does not
-//! replace a complete one.
+//! Output files of a study: table, JSON report and plots. An interrupted study has its own file names and does not replace a complete one.
 
 use serde::Serialize;
 use std::io;

@@ -49,8 +49,7 @@ pub struct Asked {
     pub to: Vec<String>,
     /// Adds the step length and velocity of the periodic orbit to the results.
     pub steady: bool,
-    /// Tolerance of the local error per time step, relative to natural scales: 1e-13 to 1e-6. It replaces the
-    /// integrator of the scenario.
+    /// Tolerance of the local error per time step, relative to natural scales: 1e-13 to 1e-6. It replaces the integrator of the scenario.
     pub tolerance: f64,
 }
 
@@ -94,8 +93,7 @@ const UNMEASURED: f64 = 100.0;
 /// quadratures may have the same nodes and the same error.
 const DECADES: f64 = 100.0;
 const FINEST: f64 = 1e-13;
-/// Error of the slopes, as a fraction of their difference between both tolerances: if the other tolerance is finer,
-/// and if it is coarser.
+/// Error of the slopes, as a fraction of their difference between both tolerances: if the other tolerance is finer, and if it is coarser.
 const MISSED: [f64; 2] = [2.0, 0.1];
 /// Tolerance of the outer runs, unless a larger one is requested.
 const COARSE: f64 = 1e-9;
@@ -138,10 +136,9 @@ impl Sensitivity {
 
     /// Computes the derivatives on `cores` threads. The result does not depend on the number of threads.
     ///
-    /// Four runs per parameter are sufficient if results are smooth, eight if events occur between them. Otherwise a
-    /// series of decreasing distances is used, and runs at another tolerance give the
-    /// integration error. The watcher receives the number of finished runs. If it interrupts, missing derivatives are
-    /// [`Missing::NotRun`].
+    /// Four runs per parameter are sufficient if results are smooth, eight if events occur between them. Otherwise a series of decreasing
+    /// distances is used, and runs at another tolerance give the integration error. The watcher receives the number of finished runs. If
+    /// it interrupts, missing derivatives are [`Missing::NotRun`].
     pub fn take(&self, cores: usize, watcher: &(dyn Watcher + Sync)) -> Taken {
         let has_rows = self.figures.iter().any(Figure::needs_rows);
         let done = AtomicUsize::new(0);
@@ -303,8 +300,7 @@ impl Sensitivity {
 }
 
 impl Taken {
-    /// Returns the elasticity: relative change of a result per relative change of a parameter. Returns `None` if one of
-    /// them is 0.
+    /// Returns the elasticity: relative change of a result per relative change of a parameter. Returns `None` if one of them is 0.
     #[must_use]
     pub fn elasticity(asked: &Sensitivity, (f, q): (usize, usize), slope: f64) -> Option<f64> {
         let (figure, quantity) = (asked.figures[f].value, asked.quantities[q].value);
@@ -312,8 +308,7 @@ impl Taken {
         (figure != 0.0 && quantity != 0.0 && elasticity.is_finite()).then_some(elasticity)
     }
 
-    /// Returns the parameters ordered by elasticity of a result, the largest first. Parameters without elasticity are
-    /// last.
+    /// Returns the parameters ordered by elasticity of a result, the largest first. Parameters without elasticity are last.
     #[must_use]
     pub fn order(&self, asked: &Sensitivity, f: usize) -> Vec<usize> {
         let size = |q: usize| {

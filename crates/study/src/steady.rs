@@ -1,10 +1,9 @@
 //! Periodic orbits of a drive, found by shooting, and their stability.
 //!
-//! On a periodic orbit, one period of the waveforms brings the drive back to the same state, displaced by one step
-//! length. The state is a fixed point of the Poincaré map P,
-//! P(s) = s. A few simulated periods give a start value; Newton's method then solves P(s) - s = 0, also for unstable
-//! orbits. The eigenvalues of the Jacobian of P are the
-//! Floquet multipliers; they give the growth or decay of a disturbance per period.
+//! On a periodic orbit, one period of the waveforms brings the drive back to the same state, displaced by one step length. The state is a
+//! fixed point of the Poincaré map P, P(s) = s. A few simulated periods give a start value; Newton's method then solves P(s) - s = 0, also
+//! for unstable orbits. The eigenvalues of the Jacobian of P are the Floquet multipliers; they give the growth or decay of a disturbance
+//! per period.
 //!
 //! Modules in reading order:
 //! * `endless`: waveforms without end, and the common period; `moment`: instant of the Poincaré section; `tally`: event
@@ -94,24 +93,20 @@ pub struct Steady {
     pub model: Model,
     /// State at the fixed point; a run from here is periodic.
     pub state: State,
-    /// Floquet multipliers in descending order of modulus, without those of drifts. Empty if there are contacts of
-    /// [`Self::holding`].
+    /// Floquet multipliers in descending order of modulus, without those of drifts. Empty if there are contacts of [`Self::holding`].
     pub multipliers: Vec<Multiplier>,
     /// Number of drifts: directions along which only positions change. Each would have a multiplier of 1.
     pub drifts: usize,
     /// Names of the unknowns of the Poincaré map.
     pub unknowns: Vec<String>,
-    /// Names of the unknowns without a multiplier: a disturbance of them changes the number of corners of a slip
-    /// memory.
+    /// Names of the unknowns without a multiplier: a disturbance of them changes the number of corners of a slip memory.
     pub untold: Vec<String>,
-    /// Indices of contacts whose slip memory is simulated but is not an unknown of the map. Multipliers do not include
-    /// it.
+    /// Indices of contacts whose slip memory is simulated but is not an unknown of the map. Multipliers do not include it.
     pub carried: Vec<usize>,
     /// Indices of contacts that never slip grossly in a period and keep their memory near the centre for ever. Such
     /// orbits form a family (shakedown); this is the nearest member.
     pub shaken_down: Vec<usize>,
-    /// True if the body named in `figures` slips on all its contacts during the whole period. It is dragged along and
-    /// makes no step.
+    /// True if the body named in `figures` slips on all its contacts during the whole period. It is dragged along and makes no step.
     pub is_dragged: bool,
     /// Largest defect in each period of the search, in natural scales, with the method that led to it.
     pub defects: Vec<Defect>,
@@ -194,8 +189,7 @@ impl Steady {
         self.multipliers.iter().all(|multiplier| multiplier.kind() != Kind::Grows)
     }
 
-    /// Returns whether the orbit belongs to a family of periodic orbits, so that its step length is one of many: a
-    /// multiplier is 1.
+    /// Returns whether the orbit belongs to a family of periodic orbits, so that its step length is one of many: a multiplier is 1.
     #[must_use]
     pub fn is_one_of_many(&self) -> bool {
         let is_one = |multiplier: &Multiplier| {
@@ -226,9 +220,8 @@ impl Steady {
 ///
 /// # Errors
 ///
-/// Fails if no waveform is periodic, no body is free, a calling program commands a waveform, or waveforms have no
-/// common period. Fails if a run stops with an error. Fails if there is no fixed point within the allowed periods; the
-/// error gives the smallest defect.
+/// Fails if no waveform is periodic, no body is free, a calling program commands a waveform, or waveforms have no common period. Fails if
+/// a run stops with an error. Fails if there is no fixed point within the allowed periods; the error gives the smallest defect.
 pub fn find(job: &Job, options: &Options<'_>) -> Result<Steady, SteadyError> {
     let endless = Endless::of(job)?;
     let model = &endless.model;

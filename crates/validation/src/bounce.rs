@@ -113,8 +113,7 @@ fn rounded(speed: f64) -> f64 {
 }
 
 impl Rebound {
-    /// Returns the tangential restitution: the tangential velocity of the centre after the impact divided by that
-    /// before.
+    /// Returns the tangential restitution: the tangential velocity of the centre after the impact divided by that before.
     pub(crate) fn restitution(&self) -> f64 {
         self.along / self.shot.along
     }

@@ -1,9 +1,8 @@
 //! Validation: comparison of the program with measurements, other programs and closed forms.
 //!
-//! A [`Subject`] is a known result. [`Subject::page`] computes it and returns a [`Page`] with reference, result,
-//! deviation and limit. [`Page::markdown`] and [`Page::picture`] are its files; [`index`] lists all pages. No parameter
-//! is
-//! fitted, and limits were set before the comparison. A [`Check`] states whether a limit is met.
+//! A [`Subject`] is a known result. [`Subject::page`] computes it and returns a [`Page`] with reference, result, deviation and limit.
+//! [`Page::markdown`] and [`Page::picture`] are its files; [`index`] lists all pages. No parameter is fitted, and limits were set before
+//! the comparison. A [`Check`] states whether a limit is met.
 //!
 //! Modules in reading order:
 //! * `subject`: list of comparisons; `page` and `check`: content of a page; `table` and `picture`: its parts.

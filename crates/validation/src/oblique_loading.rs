@@ -216,8 +216,7 @@ fn figure(paths: &[Path], walked: &[Walked]) -> Figure<'static> {
 mod tests {
     use super::*;
 
-    /// Limits of this page, independent of the page itself: last digits, 1e-6 N for the falling load, 1e-10 N for the
-    /// growing load.
+    /// Limits of this page, independent of the page itself: last digits, 1e-6 N for the falling load, 1e-10 N for the growing load.
     #[test]
     fn forces_follow_mindlin_and_deresiewicz() {
         let page = page().unwrap();

@@ -14,8 +14,7 @@ use stickslip_run::Watcher;
 
 /// Time between two checks for seeds that do not finish.
 const PAUSE: Duration = Duration::from_millis(200);
-/// Wall time after which a scenario is abandoned. The time includes all runs of the scenario, each of which has a limit of twenty
-/// seconds.
+/// Wall time after which a scenario is abandoned. The time includes all runs of the scenario, each of which has a limit of twenty seconds.
 const GIVEN_UP: Duration = Duration::from_secs(400);
 
 /// Seeds to judge.

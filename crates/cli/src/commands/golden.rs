@@ -210,8 +210,7 @@ impl Workshop {
         }
     }
 
-    /// Runs scenarios in parallel and stores their results. Returns the names of the stored ones and the worst exit
-    /// status.
+    /// Runs scenarios in parallel and stores their results. Returns the names of the stored ones and the worst exit status.
     fn keep(&self, goldens: &[&Golden]) -> (Vec<String>, Verdict) {
         let keep = |(place, golden): (usize, &&Golden)| {
             let (_, results) = self.run(golden, place)?;

@@ -87,8 +87,7 @@ fn title(text: &str) -> String {
     Scenario::from_str(text, "template", "").map(|scenario| scenario.title).unwrap_or_default()
 }
 
-/// Writes a template as NAME.json, and the schema unless `at` gives another location. Only an older schema is
-/// overwritten.
+/// Writes a template as NAME.json, and the schema unless `at` gives another location. Only an older schema is overwritten.
 fn write(name: &Path, text: &str, at: Option<&str>) -> Result<PathBuf, NewError> {
     let mut file = name.to_owned();
     // "drives/" is a folder, and ".json" has no name.

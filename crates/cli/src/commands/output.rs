@@ -32,16 +32,14 @@ pub(crate) struct Output {
 }
 
 impl Output {
-    /// Prepares the requested folder, or `results/` with the name `own`. Called before the first run, so that errors
-    /// are found early.
+    /// Prepares the requested folder, or `results/` with the name `own`. Called before the first run, so that errors are found early.
     pub(crate) fn ready(asked: Option<&Path>, own: &str) -> Result<Self, OutputFailure> {
         let path = asked.map_or_else(|| Path::new("results").join(own), Path::to_owned);
         let folder = place::ready(&path)?;
         Ok(Self { path, folder })
     }
 
-    /// Opens the journal of a study whose results depend on `of`. The same command resumes from it after an
-    /// interruption.
+    /// Opens the journal of a study whose results depend on `of`. The same command resumes from it after an interruption.
     pub(crate) fn journal(
         &self,
         name: &str,

@@ -133,8 +133,7 @@ fn tell(asked: &Sensitivity, taken: &Taken) {
     }
 }
 
-/// Formats a value with as many digits as its error allows, and the error. A value below its error is shown as an upper
-/// bound.
+/// Formats a value with as many digits as its error allows, and the error. A value below its error is shown as an upper bound.
 fn known((value, error): (f64, f64), digits: impl Fn(i32) -> String) -> [String; 2] {
     match error {
         0.0 => [digits(i32::MAX), format!("{error:.0e}")],

@@ -159,8 +159,7 @@ impl SteadyFailure {
     }
 }
 
-/// Returns the exit status of an unsuccessful search. A scenario without a period is bad input; a search without
-/// convergence is not.
+/// Returns the exit status of an unsuccessful search. A scenario without a period is bad input; a search without convergence is not.
 pub(super) fn verdict(error: &SteadyError) -> Verdict {
     match error {
         SteadyError::Interrupted(_) => Verdict::Interrupted,

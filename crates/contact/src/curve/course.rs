@@ -13,8 +13,7 @@ pub enum Course {
     #[default]
     Open,
     /// The contact grows in full stick: s₊ ≤ 0 ≤ s₋. The force then depends on the path and is integrated as a state.
-    // For the other kinds straight paths are exact. Here a straight path is of second order, and error estimates do not see the
-    // error.
+    // For the other kinds straight paths are exact. Here a straight path is of second order, and error estimates do not see the error.
     Grow,
     /// Forward slip: s₊ > 0.
     Forward,

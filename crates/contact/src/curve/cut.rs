@@ -74,8 +74,7 @@ pub(super) fn anchor_and_slope(knots: &[Knot], h: f64) -> [f64; 2] {
 
 /// Returns whether the piece that ends in a knot is parallel to the limit line of a direction.
 pub(super) fn runs_along(slope: f64, sense: f64, end: &Knot) -> bool {
-    // The tolerance is far above rounding and far below the slopes that growth leaves. A piece this close to the slope κ was made by
-    // slip.
+    // The tolerance is far above rounding and far below the slopes that growth leaves. A piece this close to the slope κ was made by slip.
     slope - sense * end.slope <= 1e-9 * slope
 }
 

@@ -194,8 +194,7 @@ impl<'a> Sweep<'a> {
         self.leaving_one_way(lower, upper, below, beyond, rate)
     }
 
-    /// Returns the work of leaving springs that slip in one direction, by `below` at the lower and `beyond` at the upper end of the
-    /// piece.
+    /// Returns the work of leaving springs that slip in one direction, by `below` at the lower and `beyond` at the upper end of the piece.
     fn leaving_one_way(&self, lower: &Knot, upper: &Knot, below: f64, beyond: f64, rate: f64) -> f64 {
         let sense = if below + beyond >= 0.0 { 1.0 } else { -1.0 };
         let curl = curl(self.law, [self.rise, self.travel], sense);

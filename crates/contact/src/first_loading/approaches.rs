@@ -12,9 +12,8 @@ const DEEPEST: u32 = 40;
 impl FirstLoading {
     /// Returns `F_x` as the integral of the line load over the springs (4.39), N, and an estimate of its error.
     ///
-    /// `F_x` = 2 ∫₀ᵃ q_x dx with q_x = μE\*[d-g(c)] for x < c and q_x = μE\*[d-g(x)] for x > c (4.31). The quadrature uses g only.
-    /// For a list of springs the integral is a sum. An interface [on a row of springs](Interface::on_springs) is evaluated with its
-    /// profile.
+    /// `F_x` = 2 ∫₀ᵃ q_x dx with q_x = μE\*[d-g(c)] for x < c and q_x = μE\*[d-g(x)] for x > c (4.31). The quadrature uses g only. For a
+    /// list of springs the integral is a sum. An interface [on a row of springs](Interface::on_springs) is evaluated with its profile.
     // g' is not used, because some profiles have none.
     pub fn force_by_integral(&self, law: &Interface) -> (f64, f64) {
         let slope = law.stick_slope();

@@ -10,8 +10,7 @@ const LAST_PLACE: f64 = 1e-17;
 /// Series of the energy N(h) = c h^{2+1/n} Σ aₖ (h/L)ᵏ of a profile.
 ///
 /// The form exists for power laws r, r², r³, r⁴ with a single term, and for the sphere. Divided differences of the energy are then
-/// rational functions of n-th roots of the heights. The mean of a force over any range therefore has a closed form without
-/// cancellation.
+/// rational functions of n-th roots of the heights. The mean of a force over any range therefore has a closed form without cancellation.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct RootSeries {
     /// Root n, 1 to 4.

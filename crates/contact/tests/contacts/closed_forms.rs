@@ -260,8 +260,7 @@ fn unloading_and_reloading() {
 
 /// Hysteresis by Masing's and Madelung's rules for |Ũ| < 1, without a contact model.
 ///
-/// A branch is the first loading curve scaled by two. The branch ends at the reversal before its own start, or on the first loading
-/// curve.
+/// A branch is the first loading curve scaled by two. The branch ends at the reversal before its own start, or on the first loading curve.
 struct Masing {
     p: f64,
     at: f64,
@@ -408,11 +407,10 @@ fn loop_energy_below_and_above_gross_slip() {
 
 #[test]
 fn small_amplitudes_obey_the_cubic_law() {
-    // (2/3)p(p-1)μF_N u_c Ũ³(1 + O(Ũ)). On a thick strip each half of a loop is a difference of two terms
-    // 2U·M(d) and of 4κΔN, N = dM/(p+1), all rounded by 2ε or so (M is a root and two products): a loop may miss
-    // (24Ũ + 32/(p+1))ε μF_N u_c. That is a share ε/Ũ³ of the loop, and would be 2e-7 of it at Ũ = 1e-3. Below
-    // 1/16 of the depth a strip takes its length from m instead, without ΔM and ΔN: terms of size Ũ², 24εŨ², a
-    // share of ε/Ũ (seen: 2e-13 at Ũ = 1e-3).
+    // (2/3)p(p-1)μF_N u_c Ũ³(1 + O(Ũ)). On a thick strip each half of a loop is a difference of two terms 2U·M(d) and of 4κΔN, N =
+    // dM/(p+1), all rounded by 2ε or so (M is a root and two products): a loop may miss (24Ũ + 32/(p+1))ε μF_N u_c. That is a share ε/Ũ³
+    // of the loop, and would be 2e-7 of it at Ũ = 1e-3. Below 1/16 of the depth a strip takes its length from m instead, without ΔM and
+    // ΔN: terms of size Ũ², 24εŨ², a share of ε/Ũ (seen: 2e-13 at Ũ = 1e-3).
     for case in &cases()[..3] {
         for k in 0..=30 {
             let part = 10f64.powf(-0.1 * f64::from(k)) * 0.999;
@@ -687,9 +685,8 @@ fn exact_sphere() {
 
 #[test]
 fn third_party_values() {
-    // Two bodies G 200, ν .42, R 50 (effective), F_N 9.1954023, μ .4, F_x = .875μF_N (mm, N); half a unit of the
-    // last digit. The boundary-element program CONTACT prints .01998, 8.155e-3, 8.525e-5, 2.750e-6, its own
-    // discretisation 0.1 to 0.2 % away.
+    // Two bodies G 200, ν .42, R 50 (effective), F_N 9.1954023, μ .4, F_x = .875μF_N (mm, N); half a unit of the last digit. The
+    // boundary-element program CONTACT prints .01998, 8.155e-3, 8.525e-5, 2.750e-6, its own discretisation 0.1 to 0.2 % away.
     let body = Material::new(2.0 * 200.0 * 1.42, 0.42).unwrap();
     let law = Interface::new(Pair::new(body, body), Profile::paraboloid(50.0).unwrap(), 0.4).unwrap();
     let (normal, force) = (9.1954023, 0.875 * 0.4 * 9.1954023);

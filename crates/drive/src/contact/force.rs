@@ -21,8 +21,7 @@ pub(crate) struct GrowthRates {
 }
 
 impl Contact {
-    /// Returns F_x of one contact under its law, N. `grown` returns the force of a contact that grows in full stick, which is a
-    /// state.
+    /// Returns F_x of one contact under its law, N. `grown` returns the force of a contact that grows in full stick, which is a state.
     ///
     /// A branch does not cover motions that cross the path of growth. The memory computes the force there, so that the law is
     /// smooth up to the event that ends the step.

@@ -160,8 +160,7 @@ impl Guard {
         }
     }
 
-    /// Returns deadband and nearness. Both contain the rounding of displacements as large as `u` (m), and of the velocities that
-    /// follow.
+    /// Returns deadband and nearness. Both contain the rounding of displacements as large as `u` (m), and of the velocities that follow.
     ///
     /// With the natural scale s (u_cω, u_c or the depth) they are 1e-13 s + 4ε|u| and max(1e-3·tolerance, 2e-13)s + 8ε|u|. The
     /// terms of u prevent infinite events of closing loops after long travel.

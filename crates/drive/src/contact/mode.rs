@@ -22,8 +22,7 @@ pub(crate) enum Mode {
         /// Sense of sliding.
         sense: f64,
     },
-    /// Full force law of the committed memory with its kinks, in one sense of sliding. Used without event location, and without
-    /// friction.
+    /// Full force law of the committed memory with its kinks, in one sense of sliding. Used without event location, and without friction.
     Whole {
         /// Sense of sliding.
         sense: f64,

@@ -11,8 +11,7 @@ use crate::model::{Link, Stroke};
 impl Equations<'_> {
     /// Adds forces of all contacts and the slopes of their additional components.
     ///
-    /// Without an interval every contact uses the general law. Open contacts and those never pressed are in neither list of an
-    /// interval.
+    /// Without an interval every contact uses the general law. Open contacts and those never pressed are in neither list of an interval.
     #[inline(always)]
     pub(super) fn contacts(&self, at: &impl View, sum: &mut Sum<'_>, extra: &mut [f64]) {
         let Some(interval) = self.interval else {
@@ -99,8 +98,7 @@ impl Equations<'_> {
         extra[self.layout.friction(slot) - from] = rates.friction;
     }
 
-    /// Adds the forces of springs, dampers and actuators: k(s - e) + c(ṡ - ė) + preload along the elongation e, with the free
-    /// stroke s.
+    /// Adds the forces of springs, dampers and actuators: k(s - e) + c(ṡ - ė) + preload along the elongation e, with the free stroke s.
     ///
     /// The input power of the stroke is (k(s - e) + c(ṡ - ė))ṡ. The work of the preload is a potential energy.
     #[inline(never)]

@@ -89,8 +89,7 @@ impl<'a> Search<'a> {
     /// Solves forces = missing from y by Newton's method with a pseudo-time: (K + D/τ)·Δq = forces - missing. D is the natural
     /// stiffness of each coordinate. For small τ a body moves along its load until it is held; for large τ the step is Newton's.
     ///
-    /// Returns the best balance, or the last position if there is none. Near a known equilibrium the search may begin with τ =
-    /// [`NEWTON`].
+    /// Returns the best balance, or the last position if there is none. Near a known equilibrium the search may begin with τ = [`NEWTON`].
     pub(super) fn from(mut self, y: &[f64], mut tau: f64) -> Rc<Balance> {
         let mut now = self.at(y.to_vec());
         let (mut best, mut idle) = (Rc::clone(&now), 0);

@@ -9,8 +9,7 @@ use std::f64::consts::TAU;
 pub struct Mode {
     /// Frequency with the indentations of t = 0, Hz; 0 for a free motion.
     pub frequency: f64,
-    /// Frequencies of the mode of this index at the smallest and the largest indentations, Hz. None if all normal loads are
-    /// constant.
+    /// Frequencies of the mode of this index at the smallest and the largest indentations, Hz. None if all normal loads are constant.
     pub range: Option<(f64, f64)>,
     /// Damping ratio, a fraction of critical damping.
     pub damping_ratio: f64,

@@ -1,8 +1,7 @@
 //! Contacts whose path (u, d) waveforms prescribe: stick, partial and gross slip without a run.
 //!
-//! A spring at height h of the profile slips when its stretch reaches κ(d-h), with κ = μE\*/G\*. The last spring to slip is that
-//! at h = 0. It sticks permanently at u = p if max(u-κd) ≤ p ≤ min(u+κd) over a period. Without such a p the whole contact slips
-//! in every period.
+//! A spring at height h of the profile slips when its stretch reaches κ(d-h), with κ = μE\*/G\*. The last spring to slip is that at h = 0.
+//! It sticks permanently at u = p if max(u-κd) ≤ p ≤ min(u+κd) over a period. Without such a p the whole contact slips in every period.
 
 use crate::contact::{Contact, Press};
 use crate::{Model, Piece, Waveform};

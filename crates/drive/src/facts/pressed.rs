@@ -1,8 +1,7 @@
 //! A contact at a given indentation: force, stiffness, and the stroke that an ideal inertia drive needs for a step.
 //!
-//! For `info` and summaries only. For varying loads the values are evaluated at the extreme
-//! [indentations](crate::Model::indentations). The ideal inertia drive is quasi-static except for its flyback; a real slider
-//! comes close to S₀ only with damping.
+//! For `info` and summaries only. For varying loads the values are evaluated at the extreme [indentations](crate::Model::indentations).
+//! The ideal inertia drive is quasi-static except for its flyback; a real slider comes close to S₀ only with damping.
 
 use super::Setup;
 use crate::scene::{Contact, Freedom, Normal, Scene, Side, Varying};
@@ -83,8 +82,7 @@ pub fn has_constant_load(contact: &Contact) -> bool {
     }
 }
 
-/// Returns the zero-step stroke S₀ against a load λμF_N, m, with `share` = λ: the stroke below which an ideal inertia drive makes
-/// no step.
+/// Returns the zero-step stroke S₀ against a load λμF_N, m, with `share` = λ: the stroke below which an ideal inertia drive makes no step.
 ///
 /// The flyback is instantaneous, in gross slip. Then u increases quasi-statically from F_x = -μF_N to λμF_N. By Masing's rule
 /// this is twice the displacement of a first loading to ½(1+λ)μF_N. For f ~ rⁿ this is 2u_c[1 - ((1-λ)/2)^{n/(n+1)}]. None if the

@@ -1,8 +1,7 @@
 //! Contacts whose force is a closed form of u until the next event.
 //!
-//! At constant depth one slipping edge moves along one piece of memory: F_x = F₀ + gM(h_c), with the height h_c of the slip front
-//! linear in u. Event functions are linear in the state, and one evaluation needs one M. The memory is updated at the next event
-//! by one chord.
+//! At constant depth one slipping edge moves along one piece of memory: F_x = F₀ + gM(h_c), with the height h_c of the slip front linear
+//! in u. Event functions are linear in the state, and one evaluation needs one M. The memory is updated at the next event by one chord.
 
 use super::Followed;
 use crate::Sample;

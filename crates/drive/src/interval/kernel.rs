@@ -164,8 +164,7 @@ impl<'a> Kernel<'a> {
         Sums { forces: std::array::from_fn(|i| self.forces[i]), input: 0.0, damping: 0.0 }
     }
 
-    /// Writes the slopes for N coordinates. `MOVING` says whether a contact has variable depth or damping, whose laws need all
-    /// registers.
+    /// Writes the slopes for N coordinates. `MOVING` says whether a contact has variable depth or damping, whose laws need all registers.
     ///
     /// The order of arguments avoids moves at the call.
     #[inline(never)]

@@ -249,9 +249,8 @@ impl<'a> Swing<'a> {
         }
         (self.low, self.high) = (low, high);
         self.slips.iter_mut().for_each(|slip| slip.swing_between(low, high));
-        // In the angle the integrand is smooth at both ends, where 1/ν diverges. A loop that closes almost at the turning point,
-        // as in periodic motions, ends there. Both laws differ by the square of the rest; the time to the end of the piece would
-        // be inaccurate.
+        // In the angle the integrand is smooth at both ends, where 1/ν diverges. A loop that closes almost at the turning point, as in
+        // periodic motions, ends there. Both laws differ by the square of the rest; the time to the end of the piece would be inaccurate.
         (self.clock, self.turns) = (Clock::Angle, high <= self.reach + self.grazing * (high - low));
         // From rest the angle is exactly 0.
         self.from = if low < 0.0 { self.angle(0.0) } else { 0.0 };
@@ -330,8 +329,7 @@ impl<'a> Swing<'a> {
 mod tests {
     use super::*;
 
-    /// Motion from a given velocity against one contact with N = h^{2+1/n} and unit constants, whose piece of memory ends in the
-    /// centre.
+    /// Motion from a given velocity against one contact with N = h^{2+1/n} and unit constants, whose piece of memory ends in the centre.
     fn swing(root: u32, push: f64, speed: f64) -> Swing<'static> {
         let law = RootSeries { root, factor: 1.0, curvature: 0.0, terms: &[1.0] };
         Swing {
@@ -348,8 +346,7 @@ mod tests {
         }
     }
 
-    /// Every start has a solution. Its time agrees to 1e-5 with a midpoint rule of dq/ν over the root of the remaining
-    /// displacement.
+    /// Every start has a solution. Its time agrees to 1e-5 with a midpoint rule of dq/ν over the root of the remaining displacement.
     #[test]
     fn every_start_has_its_swing() {
         for (root, push, k) in all() {

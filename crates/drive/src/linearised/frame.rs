@@ -16,8 +16,7 @@ const STABLE: f64 = 0.5;
 const TRUNCATION: f64 = 120.0;
 
 impl Model {
-    /// Returns the number of steps in a frame of a length (s) for an error of `accuracy` per stroke, relative to the stroke; an
-    /// integer.
+    /// Returns the number of steps in a frame of a length (s) for an error of `accuracy` per stroke, relative to the stroke; an integer.
     ///
     /// The step h is the smallest of these:
     ///

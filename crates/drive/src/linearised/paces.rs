@@ -74,8 +74,7 @@ impl Rates {
         self.least = Some(self.least.map_or(size, |least| least.min(size)));
     }
 
-    /// Returns the largest rate that does not decay, 1/s: oscillations, periods and waves of waveforms. Without any, the smallest
-    /// rate.
+    /// Returns the largest rate that does not decay, 1/s: oscillations, periods and waves of waveforms. Without any, the smallest rate.
     fn pace(&self, model: &Model) -> f64 {
         let waves = model.waveforms.iter().flat_map(|waveform| {
             [std::f64::consts::TAU / waveform.extent(), FRAC_PI_2 / waveform.resolution()]

@@ -33,9 +33,8 @@ pub(super) fn rk4_reach(rate: &Complex<f64>) -> f64 {
     longest(3.0 / rate.modulus(), |h| h * rate.modulus() < 2.6 || growth(h).modulus() <= 1.0)
 }
 
-/// Returns the longest stable step of velocity Verlet for a first-order state, s. It is the Adams–Bashforth method of order 2
-/// there: the roots of ξ² - (1 + 3z/2) ξ + z/2 must be in the unit circle; for a real decay up to z = -1. For a growing state it
-/// returns 1/|λ|.
+/// Returns the longest stable step of velocity Verlet for a first-order state, s. It is the Adams–Bashforth method of order 2 there: the
+/// roots of ξ² - (1 + 3z/2) ξ + z/2 must be in the unit circle; for a real decay up to z = -1. For a growing state it returns 1/|λ|.
 fn verlet_reach(rate: &Complex<f64>) -> f64 {
     let most = 1.0 / rate.modulus();
     if rate.re >= 0.0 {

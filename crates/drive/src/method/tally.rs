@@ -1,7 +1,6 @@
 //! Counts of methods and treatments in a run.
 //!
-//! One count per accepted step, and one per contact and interval. The counts are part of the state and continue when a run is
-//! resumed.
+//! One count per accepted step, and one per contact and interval. The counts are part of the state and continue when a run is resumed.
 
 use super::{Method, Treatment};
 use stickslip_contact::Words;

@@ -130,9 +130,8 @@ impl Surroundings<'_> {
 
 /// Returns the engine of a contact: the memory curve, or a row of springs.
 ///
-/// Without a given span the row has the width of the largest indentation. For a given force it is wide enough to carry that
-/// force; for a coupled contact it covers the largest indentation that the start can cause. Fails if the row is invalid or too
-/// narrow at the start.
+/// Without a given span the row has the width of the largest indentation. For a given force it is wide enough to carry that force; for a
+/// coupled contact it covers the largest indentation that the start can cause. Fails if the row is invalid or too narrow at the start.
 fn engine(
     part: &scene::Contact,
     press: &Press,

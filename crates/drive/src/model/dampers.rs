@@ -7,8 +7,7 @@ use crate::{Field, Part, SceneError, SceneFault};
 
 /// Refuses dampers of links and contacts whose length jumps.
 ///
-/// Reports the first part, in the order springs, actuators, contacts, and the name of the waveform, also if blocks pass on its
-/// jumps.
+/// Reports the first part, in the order springs, actuators, contacts, and the name of the waveform, also if blocks pass on its jumps.
 pub(super) fn check(
     scene: &Scene,
     links: &[Link],

@@ -37,8 +37,7 @@ impl Measure {
         measure
     }
 
-    /// Adds a multiple of a coordinate. A fixed coordinate contributes to the constant; coefficients of the same coordinate are
-    /// summed.
+    /// Adds a multiple of a coordinate. A fixed coordinate contributes to the constant; coefficients of the same coordinate are summed.
     fn add(&mut self, place: Binding, coefficient: f64) {
         if coefficient == 0.0 {
             return;

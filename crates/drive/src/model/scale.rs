@@ -37,8 +37,7 @@ impl Room {
     }
 }
 
-/// Sets the scales of contacts and free coordinates: u_c along the slide, d along the normal, and velocities by the stuck
-/// stiffness.
+/// Sets the scales of contacts and free coordinates: u_c along the slide, d along the normal, and velocities by the stuck stiffness.
 ///
 /// `deepest` is the largest indentation of each contact, `pushes` the largest force on each free coordinate.
 ///
@@ -140,9 +139,8 @@ fn find_springs(
     }
 }
 
-/// Returns length and velocity scale of a coordinate without contacts, where no waveform is a length. The length is the
-/// displacement by a load against springs, or against inertia at the largest frequency of the waveforms, and by the initial
-/// velocity.
+/// Returns length and velocity scale of a coordinate without contacts, where no waveform is a length. The length is the displacement by a
+/// load against springs, or against inertia at the largest frequency of the waveforms, and by the initial velocity.
 fn untouched(free: &Free, (push, stiffness): (f64, f64), quickest: Option<f64>) -> (f64, f64) {
     let own = (stiffness / free.mass).sqrt();
     let frequency = own.max(quickest.unwrap_or(0.0));

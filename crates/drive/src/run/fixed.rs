@@ -169,8 +169,7 @@ impl<'a, F: FixedStep + for<'e> Stepping<Equations<'e>>> Fixed<'a, F> {
         self.chords.remembers()
     }
 
-    /// Commits the slip memories of contacts that keep to a branch. All others are at the current state after every
-    /// step.
+    /// Commits the slip memories of contacts that keep to a branch. All others are at the current state after every step.
     pub(super) fn settle_books(&mut self, state: &mut State) {
         self.chords.settle(state);
     }
@@ -288,8 +287,7 @@ impl<'a, F: FixedStep + for<'e> Stepping<Equations<'e>>> Fixed<'a, F> {
         pieces.fold(self.grid.step, f64::min)
     }
 
-    /// Returns when contact damping vanishes, s, if it does so within [`NEAR`] steps. The stages are adapted to that
-    /// time.
+    /// Returns when contact damping vanishes, s, if it does so within [`NEAR`] steps. The stages are adapted to that time.
     fn root_ahead(&mut self, state: &State, end: f64) -> Option<f64> {
         let root = self.chords.gives_way_after(state, (end, &self.y))?;
         (root - state.t < NEAR * (end - state.t)).then_some(root)

@@ -166,9 +166,8 @@ impl<'m> Run<'m> {
 
     /// Advances the run to time `until`, s. Rows are written at the interval of the plan; the stop adds none.
     ///
-    /// Many short advances give the same result as a long one. The bits are equal where the motion has a closed form (a
-    /// single slider on paraboloids, straight waveforms). Otherwise results agree within the tolerance, because the
-    /// last step of each advance is cut.
+    /// Many short advances give the same result as a long one. The bits are equal where the motion has a closed form (a single slider on
+    /// paraboloids, straight waveforms). Otherwise results agree within the tolerance, because the last step of each advance is cut.
     ///
     /// A plan without rows (`every: None`) and the record `&mut ()` are the fastest.
     ///
@@ -191,8 +190,7 @@ impl<'m> Run<'m> {
     ///
     /// # Errors
     ///
-    /// Fails with a [`RunError`] if the run stops. After [`RunError::Interrupted`], another call continues the run with
-    /// the same bits.
+    /// Fails with a [`RunError`] if the run stops. After [`RunError::Interrupted`], another call continues the run with the same bits.
     pub fn approach(&mut self, record: &mut dyn Record) -> Result<(), RunError> {
         let end = self.plan.duration;
         self.go(Goal::BeforeEnd(end), Opening::Row, end, record)
@@ -238,11 +236,9 @@ impl<'m> Run<'m> {
 
     /// Moves the linear input at index `input` of the waveforms on a straight line to `value` at time `until`, s.
     ///
-    /// The line begins where the last supplied piece ends, or at the current value. One piece may be supplied in
-    /// advance.
+    /// The line begins where the last supplied piece ends, or at the current value. One piece may be supplied in advance.
     ///
-    /// Before its first piece, an input keeps its initial value. After its last piece it has no value, and the run
-    /// cannot advance.
+    /// Before its first piece, an input keeps its initial value. After its last piece it has no value, and the run cannot advance.
     ///
     /// # Errors
     ///

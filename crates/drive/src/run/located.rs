@@ -1,12 +1,10 @@
 //! Runs with located events: smooth contact laws between two events.
 //!
-//! Each contact follows the law that its last event has set. The law stays smooth beyond the event that will end it. A
-//! step is attempted on these laws. If an event function crosses zero inside the step, the event is located on the
-//! dense output, and the step ends there.
+//! Each contact follows the law that its last event has set. The law stays smooth beyond the event that will end it. A step is attempted
+//! on these laws. If an event function crosses zero inside the step, the event is located on the dense output, and the step ends there.
 //!
-//! Then the slip memories commit their paths, and contacts with an event get their next law. A contact with a
-//! closed-form force commits at its own events only. Waveform corners end steps exactly. An interval with a closed-form
-//! solution is passed in one leap, without steps.
+//! Then the slip memories commit their paths, and contacts with an event get their next law. A contact with a closed-form force commits at
+//! its own events only. Waveform corners end steps exactly. An interval with a closed-form solution is passed in one leap, without steps.
 //!
 //! [`Located::step`] advances a run by one step or leap. It uses these parts:
 //!

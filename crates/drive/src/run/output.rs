@@ -1,8 +1,7 @@
 //! Output of a run: rows on a regular time grid, events, snapshots of slip memories, and sample rows.
 //!
-//! A record requests the times of snapshots and sample rows. This module decides when output is due. The run computes
-//! its values from the dense output of a step or from the closed form of a leap. Output never ends a step, and its
-//! evaluations are counted separately.
+//! A record requests the times of snapshots and sample rows. This module decides when output is due. The run computes its values from the
+//! dense output of a step or from the closed form of a leap. Output never ends a step, and its evaluations are counted separately.
 
 mod marks;
 mod rows;
@@ -88,8 +87,7 @@ impl Output {
         self.grid.due(t).is_some() || self.looks.due(t).is_some() || self.marks.due(t).is_some()
     }
 
-    /// Sets the end of the rows, s, where the last row lies. Returns the time from which on the end counts as reached,
-    /// s.
+    /// Sets the end of the rows, s, where the last row lies. Returns the time from which on the end counts as reached, s.
     pub(super) fn end_at(&mut self, end: f64) -> f64 {
         self.grid.end_at(end)
     }

@@ -24,8 +24,7 @@ pub(super) struct Steps {
     due: f64,
     /// Time from which on `due` counts as reached, s.
     nearly: f64,
-    /// Largest change of a constant step length (`change`), relative to the step length or to `natural`, m, if that is
-    /// longer.
+    /// Largest change of a constant step length (`change`), relative to the step length or to `natural`, m, if that is longer.
     change: f64,
     natural: f64,
     /// Period ends and step lengths found so far.
@@ -114,12 +113,10 @@ impl Steps {
         Some(if t > self.due * (1.0 + SAME) { self.due } else { t })
     }
 
-    /// Adds the position at a period end: its origin and the distance from there, m. Returns whether steps are
-    /// constant.
+    /// Adds the position at a period end: its origin and the distance from there, m. Returns whether steps are constant.
     ///
-    /// The step length is constant if [`AGREEING`] consecutive values each differ little from the previous one. The
-    /// limit is `change` times the step length, or times the body's natural length if that is longer. Steps of zero
-    /// length agree.
+    /// The step length is constant if [`AGREEING`] consecutive values each differ little from the previous one. The limit is `change`
+    /// times the step length, or times the body's natural length if that is longer. Steps of zero length agree.
     pub(super) fn take(&mut self, origin: f64, place: f64) -> bool {
         self.advance();
         let Some(before) = self.so_far.place.replace((origin, place)) else { return false };

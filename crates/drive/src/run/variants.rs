@@ -10,13 +10,11 @@ use thiserror::Error;
 
 /// Storage for consecutive runs, in which model, state and workspace are reused.
 ///
-/// The results agree to the last bit with [`Model::new`], [`Model::start`] and [`run`](crate::run()) of each [`Scene`]
-/// alone.
+/// The results agree to the last bit with [`Model::new`], [`Model::start`] and [`run`](crate::run()) of each [`Scene`] alone.
 ///
-/// A [`Scene`] has the same shape as an earlier one if numbers and bindings of bodies, contacts, links and loads are
-/// equal. Its run allocates nothing if it has one free coordinate, no block, a given start and the stepper
-/// [`Stepper::Event`]. Other runs allocate, for example for eigenvalues, an equilibrium or blocks. A slip memory that
-/// is deeper than before allocates, too.
+/// A [`Scene`] has the same shape as an earlier one if numbers and bindings of bodies, contacts, links and loads are equal. Its run
+/// allocates nothing if it has one free coordinate, no block, a given start and the stepper [`Stepper::Event`]. Other runs allocate, for
+/// example for eigenvalues, an equilibrium or blocks. A slip memory that is deeper than before allocates, too.
 pub struct Variants {
     model: Model,
     state: State,

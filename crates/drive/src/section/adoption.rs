@@ -8,8 +8,7 @@ use crate::{Model, State};
 
 impl Section<'_> {
     /// Returns a state at this section as a state of another model at a time (s), with changed coordinates, in their units. Free
-    /// coordinates, velocities, states of blocks and the form of memories are kept. Prescribed motions are those of the other
-    /// model.
+    /// coordinates, velocities, states of blocks and the form of memories are kept. Prescribed motions are those of the other model.
     ///
     /// The energy balance is that of the original state. None if the models differ in structure, a contact is closed in one model
     /// only, or a memory cannot have this form.

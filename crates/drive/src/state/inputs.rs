@@ -79,8 +79,7 @@ impl State {
         Ok(())
     }
 
-    /// Moves input `w` linearly to a value at a time (s), from the end of its last piece, or from the present time if that has no
-    /// end.
+    /// Moves input `w` linearly to a value at a time (s), from the end of its last piece, or from the present time if that has no end.
     pub(crate) fn lead(
         &mut self,
         model: &Model,

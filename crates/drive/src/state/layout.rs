@@ -4,9 +4,8 @@ use super::State;
 use crate::Model;
 use crate::model::Wired;
 
-/// Order of the components: positions, velocities, forces of growing contacts, states of blocks, balanced coordinates with
-/// growing contacts. Then follow the integrals: input work, dissipation, and for each growing contact elastic energy and friction
-/// work.
+/// Order of the components: positions, velocities, forces of growing contacts, states of blocks, balanced coordinates with growing
+/// contacts. Then follow the integrals: input work, dissipation, and for each growing contact elastic energy and friction work.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct Layout {
     /// Number of free coordinates.

@@ -205,8 +205,7 @@ pub(crate) struct Crawl {
 }
 
 impl Window {
-    /// Returns the number of event windows: one for the events of each contact and block, and one for the closed loops of each
-    /// contact.
+    /// Returns the number of event windows: one for the events of each contact and block, and one for the closed loops of each contact.
     pub(crate) fn count(model: &Model) -> usize {
         2 * model.contacts.len() + model.blocks.len()
     }

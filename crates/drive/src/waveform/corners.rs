@@ -93,8 +93,7 @@ impl Corners {
         corners
     }
 
-    /// Returns corners of segments that occur once, after a delay (s), with the last segment ending at `end` (s). None without
-    /// segments.
+    /// Returns corners of segments that occur once, after a delay (s), with the last segment ending at `end` (s). None without segments.
     pub(super) fn once(legs: &[Leg], end: f64, delay: f64) -> Option<Self> {
         let (first, last) = (legs.first()?, (legs.len() as u64).checked_sub(1)?);
         let end = delay + end;

@@ -295,8 +295,7 @@ fn model_load(points: &[f64], place: f64) -> f64 {
     points[i] + (place - i as f64) * (points[i + 1] - points[i])
 }
 
-/// Sinusoidal load with a varying normal force, compared with fine chords of second order. Paths of growth in full stick are
-/// curved.
+/// Sinusoidal load with a varying normal force, compared with fine chords of second order. Paths of growth in full stick are curved.
 #[test]
 fn a_normal_force_that_varies_is_followed_to_the_tolerance() {
     let mut lot = Lot(7);

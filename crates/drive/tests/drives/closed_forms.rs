@@ -196,8 +196,7 @@ fn hold_at_nine_tenths_of_the_limit() {
     }
 }
 
-/// Maxima of a mass released at 0.3 u_c on a sphere: 0.26603, 0.18644, 0.13775, 0.09176, 0.05576 of u_c after
-/// 1, 5, 10, 20, 40 periods.
+/// Maxima of a mass released at 0.3 u_c on a sphere: 0.26603, 0.18644, 0.13775, 0.09176, 0.05576 of u_c after 1, 5, 10, 20, 40 periods.
 #[test]
 fn free_decay() {
     let published = [(1, 0.26603), (5, 0.18644), (10, 0.13775), (20, 0.09176), (40, 0.05576)];

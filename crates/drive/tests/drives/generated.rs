@@ -141,8 +141,7 @@ fn steps_are_counted_and_end_in_rest() {
     }
 }
 
-/// Points (time, value) of the table at every corner until `end`, for commands at given times. Equal cycles count from their
-/// first one.
+/// Points (time, value) of the table at every corner until `end`, for commands at given times. Equal cycles count from their first one.
 fn by_the_rule(
     initial: Command,
     commands: &[(f64, Command)],

@@ -61,8 +61,7 @@ fn a_load_outside_the_support_leaves_its_moment_about_the_last_foot() {
     check(&scene, "in pitch", 8e-3 + MASS * 9.81 * SIX[0].x);
 }
 
-/// A block on two feet at ±a, h below its centre, tilts at F h = m g a, for any stiffness of the feet. Beyond it there is no
-/// equilibrium.
+/// A block on two feet at ±a, h below its centre, tilts at F h = m g a, for any stiffness of the feet. Beyond it there is no equilibrium.
 #[test]
 fn a_block_stands_up_to_the_load_that_tips_it_and_no_further() {
     let (a, h) = (8e-3, 20e-3);

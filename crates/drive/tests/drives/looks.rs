@@ -20,8 +20,7 @@ fn rig(shape: Shape) -> Scene {
     }
 }
 
-/// The same with a load that starts at zero, separates the bodies and closes the contact again, at other times than the foot's
-/// reversals.
+/// The same with a load that starts at zero, separates the bodies and closes the contact again, at other times than the foot's reversals.
 fn pounding_rig() -> Scene {
     let mut scene = rig(Shape::Sine { amplitude: 80e-9, phase: 0.0, offset: 0.0 });
     let depth = Shape::Sine { amplitude: 1e-6, phase: -0.5 * PI, offset: 0.6e-6 };
@@ -100,8 +99,7 @@ fn a_look_sees_what_the_row_beside_it_says() {
 
 #[test]
 fn a_look_is_the_end_of_a_run_that_ends_there() {
-    // In a run with other steps memory knots agree within the tolerance, and in growth within the resolution of a path (256
-    // chords).
+    // In a run with other steps memory knots agree within the tolerance, and in growth within the resolution of a path (256 chords).
     for (scene, period, bound) in
         [(pounding_rig(), PERIOD, 1e-6), (p1(), PERIOD, 1e-8), (deal(5).scene, deal(5).period, 1e-6)]
     {

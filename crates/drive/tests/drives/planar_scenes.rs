@@ -177,8 +177,7 @@ fn a_missing_equilibrium_names_its_coordinate() {
         pitch: Varying::Constant(pitch),
     };
     let weight = MASS * 9.81;
-    // Friction holds 0.2 of the weight, the ground exerts no tension, and the block tilts when the moment exceeds the weight
-    // times 8 mm.
+    // Friction holds 0.2 of the weight, the ground exerts no tension, and the block tilts when the moment exceeds the weight times 8 mm.
     let cases = [
         (push(0.21 * weight, 0.0, 0.0), "along x"),
         (push(0.0, 1.01 * weight, 0.0), "along z"),

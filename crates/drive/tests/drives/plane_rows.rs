@@ -1,5 +1,4 @@
-//! Bodies in the plane by two independent methods: the memory curve with event location, and rows of springs with velocity
-//! Verlet.
+//! Bodies in the plane by two independent methods: the memory curve with event location, and rows of springs with velocity Verlet.
 
 use crate::lottery::on_rows;
 use crate::parts::{
@@ -41,8 +40,7 @@ fn clamp(stiffness: f64, damping: f64, preload: f64, on: usize) -> Spring {
     Spring { direction: Direction::Z, stiffness, preload, ..damper(between, damping) }
 }
 
-/// Stage on three ruby balls with an eccentric load, on a foot with a sawtooth. Stroke and period are those of the drive in every
-/// case.
+/// Stage on three ruby balls with an eccentric load, on a foot with a sawtooth. Stroke and period are those of the drive in every case.
 fn three_ball_stage() -> Case {
     let between = [Side::Body(0), Side::Body(1)];
     let ball = |x| ball(between, pair(400e9, 0.27), (0.5e-3, 0.2), (x, -6e-3));

@@ -1,5 +1,4 @@
-//! Drive on three ruby balls on steel: steady steps, smallest stroke with steps, and contact damping of free oscillations after a
-//! flyback.
+//! Drive on three ruby balls on steel: steady steps, smallest stroke with steps, and contact damping of free oscillations after a flyback.
 
 use crate::parts::{
     FOOT_SLIDER, channel, contact, damped, end, event, foot_and_slider, of_pair, plan, push, trace, wave,

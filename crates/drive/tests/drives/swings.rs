@@ -142,8 +142,7 @@ fn rows_lie_on_the_swing() {
     }
 }
 
-/// Random drives, with strokes from a thousandth to ten thousand times the gross slip displacement, agree with their stepped
-/// copies.
+/// Random drives, with strokes from a thousandth to ten thousand times the gross slip displacement, agree with their stepped copies.
 #[test]
 fn drawn_drives_move_as_their_stepped_twins() {
     let mut seed = 12345_u64;

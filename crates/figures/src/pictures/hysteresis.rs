@@ -122,8 +122,7 @@ fn curves(job: &Job, kept: &Kept, group: &[usize], (place, is_alone): (usize, bo
     }
 }
 
-/// Points of a path inside the output window. Without events the path between the window and the first and last row
-/// of the run is unknown.
+/// Points of a path inside the output window. Without events the path between the window and the first and last row of the run is unknown.
 fn windowed(path: &Trail, [from, to]: [f64; 2]) -> Trail {
     // The rows are rounded differently from the window.
     let hair = SAME * (to - from);

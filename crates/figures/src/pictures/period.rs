@@ -28,8 +28,7 @@ impl LastPeriod {
         Self::of(job, kept).filter(|period| period.number > MOST_PERIODS)
     }
 
-    /// Returns the last period and its rows. `None` for short runs without fast oscillations, and if the period has
-    /// too few rows.
+    /// Returns the last period and its rows. `None` for short runs without fast oscillations, and if the period has too few rows.
     pub(super) fn with_rows(job: &Job, kept: &Kept) -> Option<(Self, Series)> {
         let period = Self::of(job, kept)?;
         let is_long = period.number > MOST_PERIODS || (period.number > 2 && rings(job, &kept.series));

@@ -1,9 +1,8 @@
 //! Implementation of the block contract for the driver.
 //!
-//! The states are the voltage, the work of the source, the losses and, with a low-pass, its output and output rate. Without a
-//! resistance the voltage in the mode [`Output::Free`] equals the followed signal exactly. The voltage state is integrated at the
-//! same rate. The memory stores the difference between both as an offset, with which integration continues when a current limit
-//! begins.
+//! The states are the voltage, the work of the source, the losses and, with a low-pass, its output and output rate. Without a resistance
+//! the voltage in the mode [`Output::Free`] equals the followed signal exactly. The voltage state is integrated at the same rate. The
+//! memory stores the difference between both as an offset, with which integration continues when a current limit begins.
 
 use super::course::{ABOVE, BELOW, FALLING, FREE, INSIDE, RISING};
 use super::stage::{At, LOST, LOW, LOW_RATE, Now, ROUNDING, VOLTAGE, WORK};
@@ -323,8 +322,7 @@ impl Block for Driver {
         (course != before).then(|| (EventKind::Own(course.word(before)), course.law()))
     }
 
-    /// Adds the energy of a jump that the driver transmits: ½C(V₂² - V₁²), with the capacitance of the held stack. A jump has no
-    /// losses.
+    /// Adds the energy of a jump that the driver transmits: ½C(V₂² - V₁²), with the capacitance of the held stack. A jump has no losses.
     fn jump(&self, standing: Now<'_>, at: &At<'_>, states: &mut [f64]) {
         if self.passes_jumps() {
             let course = Course::of(*standing.law);
@@ -340,8 +338,7 @@ impl Block for Driver {
         }
     }
 
-    /// Returns whether the voltage jumps with its command. Only a driver without resistance, low-pass and current limits transmits
-    /// jumps.
+    /// Returns whether the voltage jumps with its command. Only a driver without resistance, low-pass and current limits transmits jumps.
     fn passes_jumps(&self) -> bool {
         self.spec.current.is_none() && self.spec.resistance.is_none() && self.spec.low.is_none()
     }

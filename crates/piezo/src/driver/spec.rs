@@ -37,8 +37,7 @@ pub enum Control {
     /// The driver controls the voltage. The stack follows with hysteresis and creep.
     #[default]
     Voltage,
-    /// The driver controls the charge. The stack follows with little hysteresis and creep. The voltage V then stands for charge over
-    /// C.
+    /// The driver controls the charge. The stack follows with little hysteresis and creep. The voltage V then stands for charge over C.
     Charge,
 }
 
@@ -98,8 +97,7 @@ impl Spec {
         self.resistance.map(|resistance| resistance * self.capacitance)
     }
 
-    /// Returns the largest natural rate of the driver, 1/s: the maximum of ω and 1/RC; 0 for a driver without low-pass and
-    /// resistance.
+    /// Returns the largest natural rate of the driver, 1/s: the maximum of ω and 1/RC; 0 for a driver without low-pass and resistance.
     #[must_use]
     pub fn rate(&self) -> f64 {
         self.omega().max(self.time().map_or(0.0, f64::recip))

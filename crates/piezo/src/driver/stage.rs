@@ -29,8 +29,7 @@ impl Driver {
         let (low, high) = self.spec.reach();
         let held = |value: f64| Sample { value, rate: 0.0, acceleration: 0.0 };
         let cut = match course.window {
-            // With located events, the signal is smooth in each mode. Other steps may cross an end of the window and are limited
-            // there.
+            // With located events, the signal is smooth in each mode. Other steps may cross an end of the window and are limited there.
             Window::Inside if located => command,
             Window::Below if located => held(low),
             Window::Above if located => held(high),

@@ -56,8 +56,7 @@ impl BoucWen {
     ///
     /// # Errors
     ///
-    /// Fails if a parameter is out of its range: `share` in [½, 1], 0 < `slope` < 1/(2 share), `limit` above 0, `exponent` in [1,
-    /// 16].
+    /// Fails if a parameter is out of its range: `share` in [½, 1], 0 < `slope` < 1/(2 share), `limit` above 0, `exponent` in [1, 16].
     pub fn new(slope: f64, limit: f64, share: f64, exponent: f64) -> Result<Self, BoucWenError> {
         if !(0.5..=1.0).contains(&share) {
             return Err(BoucWenError::Share(share));

@@ -119,8 +119,7 @@ impl Plays {
     ///
     /// # Errors
     ///
-    /// Fails if the width is not above 0 or not below about ½, where w₀ becomes 0. Fails also if the stroke or the count is out of
-    /// range.
+    /// Fails if the width is not above 0 or not below about ½, where w₀ becomes 0. Fails also if the stroke or the count is out of range.
     pub fn of_loop(width: f64, stroke: f64, count: usize) -> Result<Self, PlaysError> {
         if !(1..=Self::MOST).contains(&count) {
             return Err(PlaysError::Count(count));
@@ -238,9 +237,8 @@ impl Plays {
 
     /// Returns the smallest and largest output for inputs within a range that contains 0.
     ///
-    /// The end of the range with the larger magnitude is reached on the initial curve. The other end is reached on the initial curve
-    /// or from the first end by a change of 2φ(½(high - low)). For negative weights, as of an inverse, the latter may exceed the
-    /// former.
+    /// The end of the range with the larger magnitude is reached on the initial curve. The other end is reached on the initial curve or
+    /// from the first end by a change of 2φ(½(high - low)). For negative weights, as of an inverse, the latter may exceed the former.
     pub fn range(&self, (low, high): (f64, f64)) -> (f64, f64) {
         let (down, up) = (-self.initial((-low).max(0.0)), self.initial(high.max(0.0)));
         let way = self.stroke(high - low);

@@ -211,8 +211,7 @@ impl Plan<'_, '_, '_> {
         Some(ground - own)
     }
 
-    /// Ground level of a group: its lowest contact with the ground, otherwise its lowest contact, otherwise its first
-    /// body.
+    /// Ground level of a group: its lowest contact with the ground, otherwise its lowest contact, otherwise its first body.
     fn floor(&self, members: &[usize]) -> f64 {
         let (mut ground, mut any) = (f64::MAX, f64::MAX);
         for &body in members {

@@ -117,8 +117,7 @@ impl<'d, 's, 'a> Attacher<'d, 's, 'a> {
                 continue;
             }
             let is_forward = !matches!(force, Amount::Constant(value) if value < 0.0);
-            // Vertical forces are drawn on top; horizontal ones pull at a face without other symbols, if there is
-            // one.
+            // Vertical forces are drawn on top; horizontal ones pull at a face without other symbols, if there is one.
             let mut face = Face::of(is_upright, is_forward || is_upright);
             let other = Face::of(is_upright, !is_forward);
             if !is_upright && !self.is_free(load.body, face, at) && self.is_free(load.body, other, at) {

@@ -20,8 +20,7 @@ const DRAWN_UPRIGHT: Point = (860.0, 1100.0);
 const NAMES: f64 = 75.0;
 /// Height of title, legend and axis outside the frame.
 const AROUND: f64 = 255.0;
-/// Maximum distance of a point from its body's reference point along x and z. Without such points, maximum radius of
-/// a profile.
+/// Maximum distance of a point from its body's reference point along x and z. Without such points, maximum radius of a profile.
 const REACH: Point = (420.0, 230.0);
 const PROFILE: f64 = 70.0;
 /// A drawing with a larger ratio of its sides is stretched to about the second ratio, at most by the third factor.

@@ -33,8 +33,7 @@ pub(super) struct Tip {
     pub(super) is_true: bool,
 }
 
-/// Half width of a body without points along the slide, for up to `FEW` bodies and for more; margin of other bodies
-/// around their points.
+/// Half width of a body without points along the slide, for up to `FEW` bodies and for more; margin of other bodies around their points.
 const HALF_WIDTH: f64 = 205.0;
 const NARROW: f64 = 100.0;
 const FEW: usize = 4;
@@ -161,8 +160,7 @@ impl Draft<'_, '_> {
         Tip { side, half, is_true: false }
     }
 
-    /// Radius in m of a ball: a body with one contact whose profile is curved around the reference point. `None` for
-    /// other bodies.
+    /// Radius in m of a ball: a body with one contact whose profile is curved around the reference point. `None` for other bodies.
     pub(super) fn ball(&self, body: usize) -> Option<f64> {
         let mut contacts = self.contacts_of(body);
         let (Some((place, side)), None) = (contacts.next(), contacts.next()) else { return None };

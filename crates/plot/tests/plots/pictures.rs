@@ -279,8 +279,7 @@ fn events() {
     draw_everywhere("events-many", &events_figure("Long names", (0.0, 0.1), &many));
 }
 
-/// The corners of the drive, every 5 ms from 0 to 100 ms, are marked from end to end of the frame. Dense events need
-/// few strokes.
+/// The corners of the drive, every 5 ms from 0 to 100 ms, are marked from end to end of the frame. Dense events need few strokes.
 fn assert_ticks_at_their_times(figure: &Figure<'_>) {
     let drawing = draw_svg(figure).unwrap();
     assert!(drawing.matches('<').count() < 1500 && drawing.len() < 200_000, "{} bytes", drawing.len());

@@ -1,5 +1,4 @@
-//! Drawings of models: true to scale, no text cut or overlapping texts and lines. They are drawn in both themes and
-//! at several sizes.
+//! Drawings of models: true to scale, no text cut or overlapping texts and lines. They are drawn in both themes and at several sizes.
 
 use crate::drawn::{Text, assert_texts_apart, draw_everywhere, texts, value};
 use proptest::prelude::*;

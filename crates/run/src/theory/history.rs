@@ -9,9 +9,8 @@ const MOST: usize = 1000;
 
 /// Piecewise straight path in the (d, u) plane.
 ///
-/// If there are several corners and the first one gives a normal value and no tangential force, the path begins there
-/// with unstretched springs. Otherwise it begins at u = 0, with the normal value of the first corner or else the
-/// default.
+/// If there are several corners and the first one gives a normal value and no tangential force, the path begins there with unstretched
+/// springs. Otherwise it begins at u = 0, with the normal value of the first corner or else the default.
 #[derive(Debug, Clone, PartialEq)]
 pub struct History {
     /// Corners of the path.

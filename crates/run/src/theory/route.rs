@@ -49,8 +49,7 @@ pub(super) fn route(law: &Interface, pressed: f64, history: &History) -> Result<
     Ok(route)
 }
 
-/// Returns the displacement nearest to the present one at which a straight path to the indentation d (m) gives the
-/// force (N).
+/// Returns the displacement nearest to the present one at which a straight path to the indentation d (m) gives the force (N).
 fn push(law: &Interface, memory: &Memory, d: f64, force: f64) -> Result<f64, FirstLoadingError> {
     let from = memory.apex();
     let limit = law.friction() * law.normal_force(d);

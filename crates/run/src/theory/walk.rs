@@ -213,8 +213,7 @@ fn grid(end: f64, count: usize) -> Vec<f64> {
     (0..count).map(|k| end * k as f64 / (count - 1) as f64).collect()
 }
 
-/// Returns the mid radii of `count` rings up to a radius, m. They exclude the centre and the edge, where pressures may
-/// be infinite.
+/// Returns the mid radii of `count` rings up to a radius, m. They exclude the centre and the edge, where pressures may be infinite.
 fn rings(radius: f64, count: usize) -> Vec<f64> {
     (0..count).map(|k| radius * (k as f64 + 0.5) / count as f64).collect()
 }
@@ -265,8 +264,7 @@ fn follow(
 }
 
 impl Stop {
-    /// Computes the point at the end of a straight path from the memory. `friction` (J) is the friction work before
-    /// this path.
+    /// Computes the point at the end of a straight path from the memory. `friction` (J) is the friction work before this path.
     fn at(
         law: &Interface,
         memory: &Memory,

@@ -7,8 +7,7 @@ use super::DormandPrince;
 use crate::System;
 
 impl DormandPrince {
-    /// Computes the end of a parabola and its slopes without an evaluation. Returns the error 0, or infinity if the end is not
-    /// finite.
+    /// Computes the end of a parabola and its slopes without an evaluation. Returns the error 0, or infinity if the end is not finite.
     pub(super) fn coast<S: System + ?Sized>(&mut self, system: &S) -> f64 {
         // The stages would give the same parabola after 12 evaluations, plus rounding.
         let (h, n) = (self.extent.step, system.positions());

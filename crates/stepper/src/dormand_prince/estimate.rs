@@ -7,8 +7,7 @@ use super::{DormandPrince, Grade, ORDER};
 use crate::System;
 
 impl DormandPrince {
-    /// Returns the length of a first step, at most `longest`, by the rule of Hairer, Nørsett, Wanner, section II.4. Costs one
-    /// evaluation.
+    /// Returns the length of a first step, at most `longest`, by the rule of Hairer, Nørsett, Wanner, section II.4. Costs one evaluation.
     pub(super) fn starting_step<S: System + ?Sized>(
         &mut self,
         system: &S,
@@ -40,14 +39,12 @@ impl DormandPrince {
 
     /// Returns the error estimate in units of `scale`, over all components that `scale` has values for.
     ///
-    /// The estimate of DOP853 is h e₅² / √(e₅² + 0.01 e₃²). e₅ and e₃ are maxima over the components instead of root mean
-    /// squares.
+    /// The estimate of DOP853 is h e₅² / √(e₅² + 0.01 e₃²). e₅ and e₃ are maxima over the components instead of root mean squares.
     pub(super) fn error(&self, scale: &[f64]) -> f64 {
         if self.extent.grade == Grade::Few { self.error_of_fifth(scale) } else { self.error_of_eighth(scale) }
     }
 
-    /// Returns the embedded estimate of DOPRI5, h e₄, raised to the power 8/5 so that it is of order h⁸. e₄ is the largest
-    /// component.
+    /// Returns the embedded estimate of DOPRI5, h e₄, raised to the power 8/5 so that it is of order h⁸. e₄ is the largest component.
     fn error_of_fifth(&self, scale: &[f64]) -> f64 {
         let (mut most, mut probe) = (0.0_f64, 0.0_f64);
         for (k, scales) in self.k.iter().zip(scale.chunks(2)) {

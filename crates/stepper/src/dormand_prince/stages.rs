@@ -125,8 +125,7 @@ impl DormandPrince {
         system: &S,
         node: f64,
     ) {
-        // The newest slope is added last: all other terms can be summed before it is known. The order of summation affects
-        // rounding.
+        // The newest slope is added last: all other terms can be summed before it is known. The order of summation affects rounding.
         let h = self.extent.step;
         let last = h * R::LAST;
         // Slices cut to one length: the compiler drops the bounds checks.

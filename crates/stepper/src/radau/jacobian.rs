@@ -80,8 +80,7 @@ impl Jacobian {
         row.iter().zip(changes).map(|(a, change)| a * change).sum()
     }
 
-    /// Returns Σ |∂(slope of `i`)/∂(component `j`) · component `j`|, the sensitivity of a slope to relative changes of all
-    /// components.
+    /// Returns Σ |∂(slope of `i`)/∂(component `j`) · component `j`|, the sensitivity of a slope to relative changes of all components.
     pub(super) fn size(&self, i: usize, y: &[f64]) -> f64 {
         let row = &self.entries[i * self.dimension..(i + 1) * self.dimension];
         row.iter().zip(y).map(|(a, y)| (a * y).abs()).sum()

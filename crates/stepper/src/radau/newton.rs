@@ -98,8 +98,7 @@ impl Radau {
 
     /// Corrects slopes and stages. Returns the size of the correction in units of the tolerance.
     ///
-    /// The Jacobian corrects quadratures, too: the power of a stiff damper depends on velocity differences far below the
-    /// tolerance.
+    /// The Jacobian corrects quadratures, too: the power of a stiff damper depends on velocity differences far below the tolerance.
     fn correct(&mut self, scale: &[f64]) -> f64 {
         let (p, n, h) = (self.positions, self.dimension, self.extent.step);
         let m = n - p;

@@ -1,8 +1,7 @@
 //! Accurate states inside a step, by a separate step to the moment.
 //!
-//! The dense output interpolates the stages. Between them a stiff component, such as a driver current, has a large interpolation
-//! error. A separate step from the same start has none. Its stages are close to the dense output, so one or two corrections
-//! suffice.
+//! The dense output interpolates the stages. Between them a stiff component, such as a driver current, has a large interpolation error. A
+//! separate step from the same start has none. Its stages are close to the dense output, so one or two corrections suffice.
 
 use super::{Radau, dense};
 use crate::System;

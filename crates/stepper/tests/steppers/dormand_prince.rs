@@ -264,8 +264,7 @@ impl System for Fading<'_> {
     }
 }
 
-/// A component has the same bits with or without others: for even, few-stage and graded steps, their ends, dense output and
-/// error.
+/// A component has the same bits with or without others: for even, few-stage and graded steps, their ends, dense output and error.
 #[test]
 fn neighbours_change_no_bit() {
     let rates = [0.3, 1.1, -0.7, 2.3, 0.9];

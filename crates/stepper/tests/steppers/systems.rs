@@ -30,8 +30,7 @@ impl System for Oscillator {
     }
 }
 
-/// Explicit in time and nonlinear, from (1/2, 1, 0):
-/// ẏ = 2t y², ṗ = p cos t + (y (2 - t²) - 1) p, q̇ = 6 t y³ as a quadrature.
+/// Explicit in time and nonlinear, from (1/2, 1, 0): ẏ = 2t y², ṗ = p cos t + (y (2 - t²) - 1) p, q̇ = 6 t y³ as a quadrature.
 ///
 /// Solution y = 1/(2 - t²), p = e^{sin t} (its bracket vanishes on the solution only), q = (3/2)(y² - 1/4).
 pub(crate) struct Forced;

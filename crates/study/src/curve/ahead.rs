@@ -1,17 +1,15 @@
 //! Speculative parallel search.
 //!
-//! A sequential search evaluates one point after another; each point depends on the earlier results. To use several
-//! cores, unknown results are replaced by guesses, and all
-//! points that the search then requests are computed in parallel. Afterwards the search starts again with the new
-//! results.
+//! A sequential search evaluates one point after another; each point depends on the earlier results. To use several cores, unknown results
+//! are replaced by guesses, and all points that the search then requests are computed in parallel. Afterwards the search starts again with
+//! the new results.
 //!
 //! Known results are never replaced by guesses. The search and its points are therefore the same for any number of
 //! cores. Wrong guesses only waste the time of idle cores.
 
 use crate::each::each;
 
-/// Evaluation function of a search. Arguments: the point and the progress of the search, 0 to 1. `Err(None)` ends the
-/// search for now.
+/// Evaluation function of a search. Arguments: the point and the progress of the search, 0 to 1. `Err(None)` ends the search for now.
 pub(super) type Ask<'a, A, E> = dyn FnMut(f64, f64) -> Result<A, Option<E>> + 'a;
 
 /// Result of a search.
@@ -25,8 +23,7 @@ pub(super) struct Found<T, A, E> {
 
 /// Runs a search on `cores` threads.
 ///
-/// `guess` predicts the result at a point from the known results. `of` computes it. `told` receives the progress of the
-/// search.
+/// `guess` predicts the result at a point from the known results. `of` computes it. `told` receives the progress of the search.
 pub(super) fn search<T, A: Clone + Send, E: Clone + Send>(
     cores: usize,
     mut search: impl FnMut(&mut Ask<'_, A, E>) -> Result<T, Option<E>>,

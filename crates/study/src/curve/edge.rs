@@ -1,10 +1,8 @@
 //! Bracketing of the value at which steps vanish: one end of the bracket has steps, the other has none.
 //!
-//! Beyond this value the step length is zero or reversed, so ordinary root finding does not apply. The step length is
-//! nearly linear before it. The line through the two
-//! nearest points with steps predicts the zero, and the next evaluation is 0.45 tolerances before or beyond the
-//! prediction. The bracket is bisected if the prediction fails
-//! to halve it.
+//! Beyond this value the step length is zero or reversed, so ordinary root finding does not apply. The step length is nearly linear before
+//! it. The line through the two nearest points with steps predicts the zero, and the next evaluation is 0.45 tolerances before or beyond
+//! the prediction. The bracket is bisected if the prediction fails to halve it.
 
 use super::CurveError;
 

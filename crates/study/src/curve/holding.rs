@@ -1,10 +1,9 @@
 //! Holding force: the largest load along x that the drive at rest holds.
 //!
-//! Waveforms rest at their values at t = 0. A load is held if the drive has a static equilibrium in which contacts
-//! creep but do not slip as a whole. The start in
-//! equilibrium ([`stickslip_drive::Model::start`]) searches for it with all loads increased in proportion. Without an
-//! equilibrium it reports the body that gives way. The
-//! largest load is found by bisection, because the search only reports whether a load is held.
+//! Waveforms rest at their values at t = 0. A load is held if the drive has a static equilibrium in which contacts creep but do not slip
+//! as a whole. The start in equilibrium ([`stickslip_drive::Model::start`]) searches for it with all loads increased in proportion.
+//! Without an equilibrium it reports the body that gives way. The largest load is found by bisection, because the search only reports
+//! whether a load is held.
 
 mod held;
 mod table;
@@ -46,8 +45,7 @@ pub struct Point {
 }
 
 impl Holding {
-    /// Creates the curve over the parameter at a key path, or by default over the preload of the body named in
-    /// `figures`.
+    /// Creates the curve over the parameter at a key path, or by default over the preload of the body named in `figures`.
     ///
     /// # Errors
     /// Fails if no body can be loaded, nothing has friction, or the parameter does not exist.
@@ -87,8 +85,7 @@ impl Holding {
     /// Computes the holding forces at the given values to a relative tolerance, on `cores` threads. The result does not
     /// depend on the number of threads.
     ///
-    /// The watcher receives the number of finished points. If it interrupts, the remaining points are
-    /// [`Holdless::NotRun`].
+    /// The watcher receives the number of finished points. If it interrupts, the remaining points are [`Holdless::NotRun`].
     ///
     /// # Errors
     /// Fails if the tolerance is outside 1e-9 to 0.1.

@@ -10,9 +10,8 @@ use thiserror::Error;
 /// Special point of a curve.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Landmark {
-    /// `zero_step` (S₀, the largest amplitude without a steady step), `stall` (the smallest load that stops the steps),
-    /// or the maxima `best_speed`, `best_power` and
-    /// `best_step`.
+    /// `zero_step` (S₀, the largest amplitude without a steady step), `stall` (the smallest load that stops the steps), or the maxima
+    /// `best_speed`, `best_power` and `best_step`.
     pub name: &'static str,
     /// Value of the parameter at this point, SI, or the reason why it was not found.
     pub at: Result<f64, Unfound>,
@@ -170,8 +169,7 @@ impl Curve {
         Landmark { turns, below, ..found }
     }
 
-    /// Finds the largest amplitude with a step. Returns `None` if the largest amplitude of the curve has a step, or no
-    /// amplitude has one.
+    /// Finds the largest amplitude with a step. Returns `None` if the largest amplitude of the curve has a step, or no amplitude has one.
     fn upper_edge(&self, search: &Search<'_>, name: &'static str) -> Option<Landmark> {
         let (sense, lengths) = self.lengths(search.traced);
         let known = from_steps(&lengths, true);
@@ -298,8 +296,7 @@ impl Curve {
     }
 }
 
-/// Returns the reason why the best point, with index `place`, has no neighbour with a motion on one side. Returns
-/// `None` if it has both.
+/// Returns the reason why the best point, with index `place`, has no neighbour with a motion on one side. Returns `None` if it has both.
 fn at_an_end(traced: &Traced, known: &[Seen], place: usize) -> Option<&'static str> {
     let is = |end: Option<&Point>| end.is_some_and(|point| point.value == known[place].at);
     match (place == 0, place + 1 == known.len()) {
@@ -340,8 +337,7 @@ struct Length {
     rest: f64,
 }
 
-/// Data around a zero of the step length: step lengths at all points, the nearest two points with a step, and the
-/// nearest without.
+/// Data around a zero of the step length: step lengths at all points, the nearest two points with a step, and the nearest without.
 struct Around {
     lengths: Vec<(f64, Length)>,
     nearest: Vec<(f64, f64)>,
@@ -376,8 +372,7 @@ impl Length {
 }
 
 impl Landmark {
-    /// Returns its name in words. `varied` is the name of the varied parameter: half of the zero-step stroke of a sine
-    /// is an amplitude.
+    /// Returns its name in words. `varied` is the name of the varied parameter: half of the zero-step stroke of a sine is an amplitude.
     #[must_use]
     pub fn words(&self, varied: &str) -> String {
         let is_amplitude = varied == "amplitude";
@@ -426,8 +421,7 @@ impl Landmark {
     }
 }
 
-/// Returns the step lengths of points, starting on the side with steps: the largest amplitude if steps grow with it, or
-/// the smallest load.
+/// Returns the step lengths of points, starting on the side with steps: the largest amplitude if steps grow with it, or the smallest load.
 fn from_steps(lengths: &[(f64, Length)], rises: bool) -> Vec<(f64, Option<f64>)> {
     let mut known: Vec<(f64, Option<f64>)> = lengths.iter().map(|(at, length)| (*at, length.step)).collect();
     let size = |place: Option<&(f64, Option<f64>)>| place.map_or(0.0, |(at, _)| at.abs());

@@ -1,7 +1,6 @@
 //! Steady motion of a drive: by shooting if possible, otherwise by simulation until it is steady.
 //!
-//! [`steady::find`] finds periodic orbits, stable or not. If it fails or the orbit is unstable, the drive is simulated
-//! (`waiting`).
+//! [`steady::find`] finds periodic orbits, stable or not. If it fails or the orbit is unstable, the drive is simulated (`waiting`).
 
 use super::waiting::{Unstable, waited};
 use crate::steady::{self, Multiplier, Options, SteadyError};
@@ -11,9 +10,8 @@ use stickslip_run::{Job, Watcher};
 use stickslip_scenario::ScenarioError;
 use thiserror::Error;
 
-/// Maximum number of periods of the shooting search: without and with piezo drivers or materials that have a state.
-/// Searches that succeed with such states are short; states
-/// of ceramic hysteresis (play operators) often have no periodic orbit.
+/// Maximum number of periods of the shooting search: without and with piezo drivers or materials that have a state. Searches that succeed
+/// with such states are short; states of ceramic hysteresis (play operators) often have no periodic orbit.
 const SHOT: u32 = 400;
 const SHOT_OF_BLOCKS: u32 = 100;
 /// Tolerance of the local error per time step.
@@ -35,8 +33,7 @@ pub enum Course {
 pub struct Motion {
     /// Step length along x per period of the waveform named in `figures`, m. Mean of oscillating or irregular steps.
     pub step: f64,
-    /// Estimated error of the step length, m. For oscillating or irregular steps: 95 % confidence half-width of their
-    /// long-term mean.
+    /// Estimated error of the step length, m. For oscillating or irregular steps: 95 % confidence half-width of their long-term mean.
     pub error: f64,
     /// Amplitude of oscillating steps or half the range of irregular steps, m. 0 for steady steps.
     pub spread: f64,
@@ -44,13 +41,11 @@ pub struct Motion {
     pub period: f64,
     /// Type of the motion.
     pub course: Course,
-    /// Floquet multiplier of largest modulus. `None` if the motion was found by simulation or the orbit has no
-    /// multipliers.
+    /// Floquet multiplier of largest modulus. `None` if the motion was found by simulation or the orbit has no multipliers.
     pub multiplier: Option<Multiplier>,
     /// Number of simulated periods.
     pub work: u32,
-    /// Smallest gross slip displacement u_c of the body's contacts, m: the scale of the step length. 0 without
-    /// contacts.
+    /// Smallest gross slip displacement u_c of the body's contacts, m: the scale of the step length. 0 without contacts.
     pub natural: f64,
 }
 
@@ -73,8 +68,7 @@ pub enum Motionless {
     /// The run or the search for the periodic orbit stopped with an error.
     #[error("{0}")]
     Stopped(String),
-    /// The body is dragged away: it accelerates, or it slips during the whole period and moves the same distance in
-    /// each.
+    /// The body is dragged away: it accelerates, or it slips during the whole period and moves the same distance in each.
     #[error("slides away: after {periods} periods the body moves by {step:.3e} m per period, {}", away(*step, *change))]
     SlidesAway {
         /// Number of simulated periods.

@@ -1,8 +1,7 @@
 //! Maximum of a curve by golden section search between the neighbours of the best known point.
 //!
-//! Source: Kiefer, *Proc. Amer. Math. Soc.* 4 (1953) 502. The search finds the maximum of a unimodal curve. For other
-//! curves it returns a value at least as large as the best
-//! known one.
+//! Source: Kiefer, *Proc. Amer. Math. Soc.* 4 (1953) 502. The search finds the maximum of a unimodal curve. For other curves it returns a
+//! value at least as large as the best known one.
 
 /// 1/φ.
 const GOLDEN: f64 = 0.618_033_988_749_894_9;
@@ -108,9 +107,8 @@ mod tests {
         assert_eq!((peak.best.at, peak.best.value), (0.6, 9.0));
     }
 
-    /// Values with an uncertainty of 1e-4 determine the maximum of a parabola only to ±√2e-4: beyond that, two values
-    /// on the parabola are equal. The inner points of golden section
-    /// search are 0.236 of the interval apart.
+    /// Values with an uncertainty of 1e-4 determine the maximum of a parabola only to ±√2e-4: beyond that, two values on the parabola are
+    /// equal. The inner points of golden section search are 0.236 of the interval apart.
     #[test]
     fn errors_end_the_search_where_they_hide_the_peak() {
         for top in [0.6, 0.7, 0.83] {

@@ -1,5 +1,4 @@
-//! The varied parameter of a curve. It gives the arguments of `--set` for each point, so that every point can be run
-//! separately.
+//! The varied parameter of a curve. It gives the arguments of `--set` for each point, so that every point can be run separately.
 
 use super::{CurveError, Kind};
 use serde_json::Value;
@@ -85,8 +84,7 @@ impl Variation {
         CurveError::NoRange { file: job.name.clone(), varied: self.name.clone(), why }
     }
 
-    /// Returns the overrides that reverse all waveforms of the steps' period in time, so that the drive steps in the
-    /// opposite direction.
+    /// Returns the overrides that reverse all waveforms of the steps' period in time, so that the drive steps in the opposite direction.
     pub(super) fn reversal(job: &Job, kind: &Kind) -> Result<Overrides, CurveError> {
         let tree = serde_json::from_str(&job.resolved).unwrap_or_default();
         let scene = &job.scenario.scene;
@@ -190,8 +188,7 @@ impl Variation {
         }
     }
 
-    /// Varies the normal forces of all contacts of the body that are pressed by a constant force, in proportion. The
-    /// value is their sum.
+    /// Varies the normal forces of all contacts of the body that are pressed by a constant force, in proportion. The value is their sum.
     ///
     /// # Errors
     /// Returns a message if there is no such contact.
@@ -222,8 +219,7 @@ pub(super) fn not_here(job: &Job, kind: &'static str, why: String, help: &str) -
     CurveError::NotHere { file: job.name.clone(), kind, why, help: help.to_owned() }
 }
 
-/// Returns the sum of the friction limits μF_N of a body's contacts at t = 0, N. It is an upper bound of the holding
-/// force.
+/// Returns the sum of the friction limits μF_N of a body's contacts at t = 0, N. It is an upper bound of the holding force.
 fn held(job: &Job, body: usize) -> f64 {
     let contacts = job.scenario.scene.contacts.iter().enumerate();
     let own = contacts.filter(|(_, contact)| contact.part.between.contains(&Side::Body(body)));

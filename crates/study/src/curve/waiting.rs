@@ -5,10 +5,9 @@
 //! per period. The remaining change is then eₖ r/(1-r) (Aitken, *Proc. R. Soc. Edinburgh* 46 (1926) 289). The motion is
 //! steady if the remaining change is negligible.
 //!
-//! Creep decays slowly, so the simulation does not wait for its end. If three successive limits by Aitken's rule agree,
-//! their value is the step length. Rounding errors
-//! of a limit grow as 1/(1-r)²; limits that rounding could have made equal are rejected. An example is a load that
-//! drags the body away, with r = 1.
+//! Creep decays slowly, so the simulation does not wait for its end. If three successive limits by Aitken's rule agree, their value is the
+//! step length. Rounding errors of a limit grow as 1/(1-r)²; limits that rounding could have made equal are rejected. An example is a load
+//! that drags the body away, with r = 1.
 //!
 //! A body that flies or slides may move a constant distance per period. Such periods do not count as steady: a contact
 //! must hold the body in every period.
@@ -28,15 +27,13 @@ const WAITED: u32 = 400;
 const LEAVING: u32 = 10_000;
 /// Largest remaining change of a steady step length, relative to the larger of the step length and u_c.
 const LEFT: f64 = 1e-6;
-/// Number of periods for which a limit must remain the same. Slowly decaying parts of the slip memory become visible in
-/// this time.
+/// Number of periods for which a limit must remain the same. Slowly decaying parts of the slip memory become visible in this time.
 const LASTING: u32 = 16;
 /// Minimum number of steps for a decision.
 const FEWEST: usize = 5;
 /// Number of successive limits that must agree.
 const AGREEING: usize = 3;
-/// Largest relative change of the range of an oscillation with constant amplitude, from the third to the last quarter
-/// of the periods.
+/// Largest relative change of the range of an oscillation with constant amplitude, from the third to the last quarter of the periods.
 const STAYS: f64 = 0.05;
 /// Safety factor on the extrapolated remaining change of a mean whose drift slows down.
 const SURE: f64 = 2.0;
@@ -48,8 +45,7 @@ const LAGS: f64 = 0.1;
 const OUTGROWN: f64 = 80.0;
 /// Largest steps that count as ringing about zero, as a multiple of the smallest step, for waveforms that end.
 const RINGS: f64 = 10.0;
-/// Largest relative change of the range of a motion that has left its orbit, from the third to the last quarter of the
-/// periods.
+/// Largest relative change of the range of a motion that has left its orbit, from the third to the last quarter of the periods.
 const WIDER: f64 = 0.25;
 /// Changes of the step length below this fraction of its scale are rounding errors.
 const ROUNDING: f64 = 1e-11;
@@ -62,8 +58,7 @@ pub(super) struct Unstable {
     pub(super) growth: f64,
 }
 
-/// Simulates a job until its steps are steady. If `leaves` is given, the steps must not be those of this unstable
-/// orbit.
+/// Simulates a job until its steps are steady. If `leaves` is given, the steps must not be those of this unstable orbit.
 ///
 /// # Errors
 /// Fails if the waveform ends too early, the run fails, or the steps are not steady after the maximum number of
@@ -163,9 +158,8 @@ impl Unstable {
     }
 }
 
-/// Returns the drift of the mean of oscillating steps if it exceeds statistical scatter and rounding errors. Returns
-/// `None` otherwise or for too few steps.
-/// `period` is the period of the oscillation in steps.
+/// Returns the drift of the mean of oscillating steps if it exceeds statistical scatter and rounding errors. Returns `None` otherwise or
+/// for too few steps. `period` is the period of the oscillation in steps.
 fn moved(steps: &[f64], period: f64) -> Option<Moved> {
     let scale = steps.iter().fold(0.0, |most: f64, step| most.max(step.abs()));
     Mean::moved(steps, period).filter(|moved| moved.by > ROUNDING * scale)
@@ -174,8 +168,7 @@ fn moved(steps: &[f64], period: f64) -> Option<Moved> {
 /// Periods in which contacts held the body.
 #[derive(Debug, Clone, Copy, Default)]
 struct Hold {
-    /// Number of periods until the end of the last one in which no contact held the body, and of the last one in which
-    /// a contact held it.
+    /// Number of periods until the end of the last one in which no contact held the body, and of the last one in which a contact held it.
     loose_until: usize,
     held_until: usize,
     /// State of the body in the last period if no contact held it.
@@ -221,8 +214,7 @@ fn limit(steps: &[f64], natural: f64, change: f64) -> Option<Mean> {
     (is_creep && agree).then(|| Mean { value: limits[0], error: 10.0 * apart + rounding })
 }
 
-/// Evaluates steps that have not become steady. Returns the type of motion, its mean step length and the amplitude of
-/// the oscillation.
+/// Evaluates steps that have not become steady. Returns the type of motion, its mean step length and the amplitude of the oscillation.
 ///
 /// # Errors
 /// Fails if the body slides away or flies, or the steps have no stationary behaviour yet.
@@ -261,8 +253,7 @@ fn judged(
         }
         Settling::Beats { period, growth, amplitude, .. } => {
             let Mean { value, error } = mean(period, amplitude);
-            // A growing or decaying oscillation changes the mean by an unknown amount. Motions that leave an orbit are
-            // examined below.
+            // A growing or decaying oscillation changes the mean by an unknown amount. Motions that leave an orbit are examined below.
             let [before, after] = extents(half);
             let drifts = growth.is_some_and(|growth| (math::ln(growth) * half.len() as f64).abs() > DRIFTS);
             let stays = leaves.is_some() || !drifts && (after - before).abs() <= STAYS * before;

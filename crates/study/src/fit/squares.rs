@@ -25,8 +25,7 @@ pub(super) struct Squares<'a> {
 
 /// Result of the minimisation.
 pub(super) struct Found {
-    /// Coordinates of the parameters: logarithms of their ratios to the initial values, or values if the initial value
-    /// is 0.
+    /// Coordinates of the parameters: logarithms of their ratios to the initial values, or values if the initial value is 0.
     pub(super) place: Vec<f64>,
     /// Weighted sum of squared residuals, N².
     pub(super) squares: f64,

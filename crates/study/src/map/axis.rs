@@ -19,8 +19,7 @@ pub struct Axis {
 }
 
 impl Axis {
-    /// Creates the axis from a key path and a range such as `0.1N..10N`. `option` is the command-line option, for
-    /// messages.
+    /// Creates the axis from a key path and a range such as `0.1N..10N`. `option` is the command-line option, for messages.
     ///
     /// # Errors
     /// Fails if the parameter does not exist or the range is invalid.

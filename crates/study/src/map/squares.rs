@@ -5,8 +5,7 @@ use std::collections::BTreeMap;
 /// Edge of the grid: from the point (i, j) one step in x (0) or in y (1).
 pub(super) type Edge = (usize, usize, u8);
 
-/// Returns the lines that separate inside from outside points, as lists of crossed edges. Closed lines end at their
-/// first edge.
+/// Returns the lines that separate inside from outside points, as lists of crossed edges. Closed lines end at their first edge.
 ///
 /// Cells with an unknown corner have no lines. In a saddle cell, the lower left corner is separated from the others.
 pub(super) fn lines(

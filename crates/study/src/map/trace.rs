@@ -1,5 +1,4 @@
-//! Tracing of borders between regimes. Crossings are located on the edges of a coarse grid, then points are added
-//! between them.
+//! Tracing of borders between regimes. Crossings are located on the edges of a coarse grid, then points are added between them.
 
 use super::regime::{Looks, Regime, Seen, Unseen};
 use super::squares::{self, Edge};

@@ -66,8 +66,7 @@ pub(super) fn most(dimensions: usize) -> usize {
     2 * DISTANCES.len() * dimensions
 }
 
-/// Returns the sections through a point, and the best point on them with its result. The best point is `None` if there
-/// are no results.
+/// Returns the sections through a point, and the best point on them with its result. The best point is `None` if there are no results.
 pub(super) fn sections(
     space: &Space,
     point: &[f64],

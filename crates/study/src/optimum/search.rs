@@ -1,10 +1,9 @@
 //! Multistart optimisation: local searches by the Nelder–Mead simplex method from the best of several Sobol points.
 //!
-//! Source: Nelder, Mead, A simplex method for function minimization (Comput. J. 7, 308, 1965), with the factors of Gao
-//! and Han (Comput. Optim. Appl. 51, 259, 2012) for n coordinates: expansion 1 + 2/n, shrinkage 1 - 1/n. The method
-//! uses only + - * / and square roots, so results have the same bits on every machine. Methods with linear or quadratic
-//! models are unsuitable, because results of drives have sharp ridges. Ridges occur where a contact begins to slip, or
-//! where the worst of several results changes.
+//! Source: Nelder, Mead, A simplex method for function minimization (Comput. J. 7, 308, 1965), with the factors of Gao and Han (Comput.
+//! Optim. Appl. 51, 259, 2012) for n coordinates: expansion 1 + 2/n, shrinkage 1 - 1/n. The method uses only + - * / and square roots, so
+//! results have the same bits on every machine. Methods with linear or quadratic models are unsuitable, because results of drives have
+//! sharp ridges. Ridges occur where a contact begins to slip, or where the worst of several results changes.
 
 use crate::each::each;
 use crate::sweep::points::{Points, Sampling};
@@ -172,8 +171,7 @@ impl CostFunction for Problem<'_> {
     type Param = Point;
     type Output = f64;
 
-    /// Returns minus the result, relative to the spread, above the worst result. Points outside the unit cube are
-    /// projected onto it.
+    /// Returns minus the result, relative to the spread, above the worst result. Points outside the unit cube are projected onto it.
     fn cost(&self, point: &Point) -> Result<f64, Error> {
         let mut local = self.best.borrow_mut();
         if local.evaluations >= self.most {

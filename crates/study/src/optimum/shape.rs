@@ -9,8 +9,7 @@ use stickslip_scenario::{Basis, Shaped};
 const LEAST_SHARE: f64 = 0.05;
 /// Largest coefficient of harmonic k relative to the first, times k.
 const WIDEST: f64 = 2.0;
-/// Number of grid points for the extremes of harmonics, per period of the highest one. Newton's method refines the
-/// extremes.
+/// Number of grid points for the extremes of harmonics, per period of the highest one. Newton's method refines the extremes.
 const GRID: usize = 32;
 /// Number of Newton steps.
 const NEWTON: usize = 4;

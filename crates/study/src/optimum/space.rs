@@ -89,8 +89,7 @@ impl Space {
         self.periods.iter().any(|period| period.path == number.path)
     }
 
-    /// Returns the point nearest to the unchanged scenario. Parameters without a value are at the middle of their
-    /// range.
+    /// Returns the point nearest to the unchanged scenario. Parameters without a value are at the middle of their range.
     pub(crate) fn present(&self, job: &Job) -> Vec<f64> {
         let share = |[low, high]: [f64; 2], value: f64| ((value - low) / (high - low)).clamp(0.0, 1.0);
         let over =

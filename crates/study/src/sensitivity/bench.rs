@@ -34,8 +34,7 @@ pub(super) struct Bench<'a> {
 }
 
 impl Bench<'_> {
-    /// Runs variants, given by index of the parameter, relative distance and level flag. Returns them grouped by
-    /// parameter.
+    /// Runs variants, given by index of the parameter, relative distance and level flag. Returns them grouped by parameter.
     pub(super) fn run(&self, scales: &[f64], variants: &[(usize, (f64, bool))]) -> Vec<Vec<Tried>> {
         let asked = self.asked;
         let tried = each(variants.len(), self.cores, |place| {

@@ -12,8 +12,7 @@ use stickslip_scenario::suggestion;
 /// A result that is differentiated.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Figure {
-    /// Name: path of a number in `summary.json`, a channel such as `slider.x_m`, or `steady.step_m` or
-    /// `steady.speed_m_s`.
+    /// Name: path of a number in `summary.json`, a channel such as `slider.x_m`, or `steady.step_m` or `steady.speed_m_s`.
     pub name: String,
     /// SI unit; empty for a plain number.
     pub unit: &'static str,

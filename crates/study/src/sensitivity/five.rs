@@ -37,9 +37,8 @@ impl Five {
         (above - self.own) + (below - self.own)
     }
 
-    /// Returns the standard deviation of the noise of a value, from the fourth difference of the five values. For a
-    /// smooth function the second difference of the inner pair is a sixteenth of
-    /// that of the outer pair.
+    /// Returns the standard deviation of the noise of a value, from the fourth difference of the five values. For a smooth function the
+    /// second difference of the inner pair is a sixteenth of that of the outer pair.
     pub(super) fn noise(&self) -> f64 {
         let square = RATIO * RATIO;
         // For independent noise the variance of this difference is 2 (r⁴ + 1) + 4 (r² - 1)² times that of a value.

@@ -51,8 +51,7 @@ pub(super) struct Ran {
     happened: Happened,
 }
 
-/// Events this close to the end of a run, relative to its duration, are ignored. Rounding decides on which side of the
-/// end they are.
+/// Events this close to the end of a run, relative to its duration, are ignored. Rounding decides on which side of the end they are.
 const END: f64 = 1e-9;
 
 impl Ran {

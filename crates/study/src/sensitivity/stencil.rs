@@ -118,8 +118,7 @@ fn weight(points: &[(f64, f64)], i: usize, wanted: Wanted) -> f64 {
     }
 }
 
-/// Returns the standard deviation of noise from fourth differences of equidistant values. Returns `None` for fewer than
-/// five values.
+/// Returns the standard deviation of noise from fourth differences of equidistant values. Returns `None` for fewer than five values.
 ///
 /// Smooth functions have small fourth differences; for independent noise, their variance is 70 times its own (J. J.
 /// Moré, S. M. Wild, *SIAM J. Sci. Comput.* 33 (2011) 1292).

@@ -1,8 +1,7 @@
 //! Motion after leaving an unstable periodic orbit.
 //!
-//! All unknowns of the orbit are disturbed slightly and the drive is simulated until its states repeat. The result is
-//! another orbit of the same or a multiple period (period
-//! doubling), an oscillation that never repeats, or irregular motion.
+//! All unknowns of the orbit are disturbed slightly and the drive is simulated until its states repeat. The result is another orbit of the
+//! same or a multiple period (period doubling), an oscillation that never repeats, or irregular motion.
 
 use super::map::Map;
 use super::{Options, Steady, SteadyError};
@@ -13,8 +12,7 @@ use stickslip_drive::{RunError, State};
 use stickslip_measure::{Bounds, Settling};
 use stickslip_run::{Job, Real, quantity};
 
-/// Disturbance of every unknown, in natural scales. The smaller ones are used if a slip memory does not allow the
-/// larger ones.
+/// Disturbance of every unknown, in natural scales. The smaller ones are used if a slip memory does not allow the larger ones.
 const DISTURBED: [f64; 3] = [1e-2, 1e-4, 1e-6];
 /// Distance from the orbit, in disturbances, at which the run has left it.
 const LEFT: f64 = 10.0;
@@ -177,8 +175,7 @@ impl Way {
 
     /// Returns the number of periods after which the states repeat, away from the orbit that was left.
     ///
-    /// All states of one cycle must agree with those of the cycle before. A decaying oscillation approaches itself only
-    /// occasionally.
+    /// All states of one cycle must agree with those of the cycle before. A decaying oscillation approaches itself only occasionally.
     fn repeats(&self, map: &Map<'_>, (left, far): (&State, f64)) -> Option<usize> {
         let last = self.states.len() - 1;
         let apart = |k: usize, back: usize| -> Option<f64> {

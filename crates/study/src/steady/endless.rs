@@ -66,8 +66,7 @@ impl Endless {
     }
 }
 
-/// Returns whether the waveform with index `w` is periodic. A waveform of one cycle counts as finished, unless it is
-/// named in `figures`.
+/// Returns whether the waveform with index `w` is periodic. A waveform of one cycle counts as finished, unless it is named in `figures`.
 fn repeats(job: &Job, w: usize) -> bool {
     let Some(Named { part, .. }) = job.scenario.scene.waveforms.get(w) else { return false };
     let once =

@@ -1,7 +1,6 @@
 //! Poincaré map of a period. Its Jacobian: [`gradient`].
 //!
-//! Unknowns are measured in natural scales: the gross slip displacement u_c of a coordinate's contacts, and u_c ω for
-//! its velocity.
+//! Unknowns are measured in natural scales: the gross slip displacement u_c of a coordinate's contacts, and u_c ω for its velocity.
 
 mod gradient;
 
@@ -135,8 +134,7 @@ impl<'m> Map<'m> {
         self.steps
     }
 
-    /// Returns a displacement, m, relative to the smallest natural scale of a position. Returns 0 if no position is an
-    /// unknown.
+    /// Returns a displacement, m, relative to the smallest natural scale of a position. Returns 0 if no position is an unknown.
     pub(super) fn natural(&self, way: f64) -> f64 {
         let Some(section) = &self.section else { return 0.0 };
         let places = section.unknowns().iter().zip(self.scales.iter());
@@ -236,11 +234,9 @@ impl<'m> Map<'m> {
         Image { state, way, happened: None }
     }
 
-    /// Returns the deviation of a state some periods after a fixed point, in natural scales: of unknowns and
-    /// displacements.
+    /// Returns the deviation of a state some periods after a fixed point, in natural scales: of unknowns and displacements.
     ///
-    /// If a memory has another number of corners, only displacements are compared, because an additional corner may be
-    /// due to rounding.
+    /// If a memory has another number of corners, only displacements are compared, because an additional corner may be due to rounding.
     pub(super) fn missed_after(&self, state: State, (fixed, periods): (&Fixed, f64)) -> f64 {
         let Some(section) = &self.section else { return 0.0 };
         let (state, way) = section.back(state);

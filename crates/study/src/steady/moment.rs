@@ -1,8 +1,7 @@
 //! Choice of the instant of the Poincaré section.
 //!
-//! Gross slip and lift-off erase the memory of a contact. If all contacts have done so, the state consists of positions
-//! and velocities only. Two simulated periods determine the
-//! best instant: the first records events, the second compares the midpoints between events.
+//! Gross slip and lift-off erase the memory of a contact. If all contacts have done so, the state consists of positions and velocities
+//! only. Two simulated periods determine the best instant: the first records events, the second compares the midpoints between events.
 
 use super::SteadyError;
 use super::map::{Image, Map};
@@ -33,8 +32,7 @@ pub(super) struct Settled {
     pub(super) never_gave_way: Vec<usize>,
 }
 
-/// Recorder of event times, s, of contacts that slip grossly or lift off, and of the hold of the body named in
-/// `figures`.
+/// Recorder of event times, s, of contacts that slip grossly or lift off, and of the hold of the body named in `figures`.
 struct Moments {
     times: Vec<f64>,
     gave_way: Vec<bool>,
@@ -98,8 +96,7 @@ pub(super) fn settle(
     again(map, state)
 }
 
-/// Simulates two more periods from a state. Returns the state at the instant of the second period with the smallest
-/// slip memory.
+/// Simulates two more periods from a state. Returns the state at the instant of the second period with the smallest slip memory.
 pub(super) fn again(map: &mut Map<'_>, state: State) -> Result<Settled, SteadyError> {
     let (model, period, from) = (map.model(), map.period(), state.time());
     let contacts = model.contacts().count();
@@ -113,8 +110,7 @@ pub(super) fn again(map: &mut Map<'_>, state: State) -> Result<Settled, SteadyEr
 
 /// Simulates two periods from a fixed point to verify that the motion is periodic.
 ///
-/// Returns the contacts without gross slip, and the state of the observed body in the second period if no contact held
-/// it.
+/// Returns the contacts without gross slip, and the state of the observed body in the second period if no contact held it.
 ///
 /// # Errors
 /// Returns [`SteadyError::NoConvergence`] if the state after two periods deviates too much.
@@ -143,9 +139,8 @@ pub(super) fn twice(
 
 /// Returns the remaining change of the step length, m, due to slip memories that are not unknowns of the map.
 ///
-/// The change is measured in further simulated periods and extrapolated geometrically. If such a contact never slips
-/// grossly (`holds`), any significant change makes the whole
-/// step length uncertain.
+/// The change is measured in further simulated periods and extrapolated geometrically. If such a contact never slips grossly (`holds`),
+/// any significant change makes the whole step length uncertain.
 pub(super) fn creep(
     map: &mut Map<'_>,
     (fixed, holds): (&Fixed, bool),

@@ -4,10 +4,9 @@
 //! |λ| < 1 and grows if |λ| > 1. It oscillates with a period of
 //! 2π/|arg λ| drive periods, or alternates in sign if λ < 0.
 //!
-//! An error δA of the Jacobian changes an eigenvalue by κ δA, where 1/κ = |y* x| for its left and right unit
-//! eigenvectors (G. W. Stewart and J. Sun, Matrix Perturbation Theory, 1990, sec.
-//! IV.2.2). A double eigenvalue with one eigenvector, as of an undamped bouncing body, changes by √δA, and κ is about
-//! 1/√δA.
+//! An error δA of the Jacobian changes an eigenvalue by κ δA, where 1/κ = |y* x| for its left and right unit eigenvectors (G. W. Stewart
+//! and J. Sun, Matrix Perturbation Theory, 1990, sec. IV.2.2). A double eigenvalue with one eigenvector, as of an undamped bouncing body,
+//! changes by √δA, and κ is about 1/√δA.
 
 use super::map::Gradient;
 use nalgebra::{Complex, ComplexField, DMatrix, SVD, Schur};
@@ -19,8 +18,7 @@ const WITHIN: [f64; 3] = [f64::EPSILON, 1e-14, 1e-12];
 const SWEEPS: usize = 100;
 /// Smallest error of a multiplier. A modulus this close to 1 is neutral.
 const NEUTRAL: f64 = 1e-6;
-/// Error of the entries of the Jacobian relative to its norm, as a multiple of the tolerance or of the remaining
-/// defect.
+/// Error of the entries of the Jacobian relative to its norm, as a multiple of the tolerance or of the remaining defect.
 const ENTRIES: f64 = 20.0;
 /// Error of |λ| above which a neutral multiplier is described as uncertain.
 const KNOWN: f64 = 1e-4;
@@ -163,8 +161,7 @@ pub(super) fn of(gradient: &Gradient, (tolerance, defect): (f64, f64)) -> Vec<Mu
     all
 }
 
-/// Returns the error of an eigenvalue for a given error of the entries: κ times the error, at most that of a double
-/// eigenvalue.
+/// Returns the error of an eigenvalue for a given error of the entries: κ times the error, at most that of a double eigenvalue.
 fn moved(matrix: &DMatrix<f64>, value: Complex<f64>, entries: f64) -> f64 {
     let count = matrix.nrows();
     let shifted =
@@ -232,9 +229,8 @@ mod tests {
         assert_eq!((coarse(1.0001), coarse(0.9999), coarse(1.01)), (Kind::Stays, Kind::Stays, Kind::Grows));
     }
 
-    /// An undamped bouncing body has a double eigenvalue 1 with one eigenvector; an error splits it by its square root.
-    /// The multipliers of a growing rotation are simple and have a
-    /// small error.
+    /// An undamped bouncing body has a double eigenvalue 1 with one eigenvector; an error splits it by its square root. The multipliers of
+    /// a growing rotation are simple and have a small error.
     #[test]
     fn two_that_are_one_part_by_a_root() {
         let late = |off: f64| led(DMatrix::from_row_slice(2, 2, &[1.0, 3.0, off, 1.0]));

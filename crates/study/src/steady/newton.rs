@@ -1,10 +1,8 @@
 //! Fixed point of the Poincaré map by Newton's method.
 //!
-//! Periods are simulated as long as they reduce the defect quickly. Otherwise Newton's method follows, with a Jacobian
-//! by finite differences. Broyden's update corrects the
-//! Jacobian after each step, and a new one is computed if the convergence is slow. Steps that do not reduce the defect
-//! are halved. Singular directions, as in a shakedown, are
-//! excluded, so the nearest fixed point is found.
+//! Periods are simulated as long as they reduce the defect quickly. Otherwise Newton's method follows, with a Jacobian by finite
+//! differences. Broyden's update corrects the Jacobian after each step, and a new one is computed if the convergence is slow. Steps that
+//! do not reduce the defect are halved. Singular directions, as in a shakedown, are excluded, so the nearest fixed point is found.
 
 use super::SteadyError;
 use super::map::{Gradient, Map, near};
@@ -18,8 +16,7 @@ const GOAL: f64 = 10.0;
 const ROUNDING: f64 = 1e-8;
 /// Largest ratio of successive defects at which simulated periods continue.
 const BY_ITSELF: f64 = 0.05;
-/// Largest ratio of defects for which a Broyden-updated Jacobian is kept. It is also kept if it needs fewer periods
-/// than a new Jacobian.
+/// Largest ratio of defects for which a Broyden-updated Jacobian is kept. It is also kept if it needs fewer periods than a new Jacobian.
 const WORN: f64 = 0.1;
 /// Number of step sizes tried, each half of the one before.
 const HALVINGS: u32 = 4;
@@ -199,9 +196,8 @@ impl Search {
         Ok(())
     }
 
-    /// Fails if every period adds the same amount to the state: a load exceeds friction, or an undamped vibration is in
-    /// resonance. Newton's method cannot converge then, because
-    /// A r = r.
+    /// Fails if every period adds the same amount to the state: a load exceeds friction, or an undamped vibration is in resonance.
+    /// Newton's method cannot converge then, because A r = r.
     fn check_gains(&self, map: &Map<'_>) -> Result<(), SteadyError> {
         match (&self.same, map.section()) {
             (Some((defect, periods)), Some(section)) if *periods >= SAME => {
@@ -242,8 +238,7 @@ impl Search {
         Ok(self.size() <= self.least_sure())
     }
 
-    /// Returns the number of periods to convergence if each reduces the defect by `rate`. A new Jacobian takes one
-    /// period per unknown.
+    /// Returns the number of periods to convergence if each reduces the defect by `rate`. A new Jacobian takes one period per unknown.
     fn lasts(&self, rate: f64, size: f64) -> f64 {
         math::ln(size / self.goal).max(0.0) / -math::ln(rate)
     }

@@ -12,9 +12,8 @@ const BEYOND: f64 = 4.0 * f64::EPSILON;
 /// One period of a periodic orbit.
 #[derive(Debug, Clone)]
 pub struct Orbit {
-    /// State at the start: at the earliest time at which everything is periodic. Bodies have the positions of a run
-    /// from the start, apart from their motion in the orbit. The
-    /// energy balance starts at zero.
+    /// State at the start: at the earliest time at which everything is periodic. Bodies have the positions of a run from the start, apart
+    /// from their motion in the orbit. The energy balance starts at zero.
     pub start: State,
     /// Samples at regular times and after events.
     pub series: Series,

@@ -12,8 +12,7 @@ const TOLERANCE: f64 = 1e-9;
 const STEPS: u64 = 75_000;
 /// The search may cost this fraction (1/5) of the time steps of a run.
 const SHARE: u64 = 5;
-/// Minimum number of periods of a search: four simulated, one for Newton's method, two for the error estimate, two for
-/// verification.
+/// Minimum number of periods of a search: four simulated, one for Newton's method, two for the error estimate, two for verification.
 const LEAST: u64 = 9;
 /// Number of free coordinates and contacts up to which a model is small.
 const FEW: usize = 16;
@@ -98,9 +97,8 @@ fn too_few(steps: u64) -> Outlook {
 
 /// Searches for the periodic orbit of a job's drive at limited cost, or without limit if the scenario requests it.
 ///
-/// Returns `None` if the scenario excludes the search, has no period, or has no free body named in `figures`. With the
-/// counts of a run, the search costs at most a fifth of
-/// its time steps. `goes_on` is called before every period; `false` interrupts the search.
+/// Returns `None` if the scenario excludes the search, has no period, or has no free body named in `figures`. With the counts of a run,
+/// the search costs at most a fifth of its time steps. `goes_on` is called before every period; `false` interrupts the search.
 pub fn outlook(job: &Job, run: Option<Counts>, goes_on: &dyn Fn() -> bool) -> Option<Outlook> {
     let (_, waveform) = job.scenario.figures.body.zip(job.scenario.figures.waveform)?;
     let share = run.map(|run| (run.steps + run.rejected) / SHARE);

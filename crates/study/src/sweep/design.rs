@@ -30,9 +30,8 @@ pub(crate) enum Source {
 
 /// Cases of a study.
 ///
-/// Case i has sample ⌊i/G⌋ at point i mod G of the product of grids and lists, which has G points. The last axis in the
-/// file changes fastest. All grid points have the same samples, and additional cases are
-/// appended.
+/// Case i has sample ⌊i/G⌋ at point i mod G of the product of grids and lists, which has G points. The last axis in the file changes
+/// fastest. All grid points have the same samples, and additional cases are appended.
 #[derive(Debug, Clone)]
 pub(crate) struct Design {
     pub(crate) axes: Vec<Axis>,

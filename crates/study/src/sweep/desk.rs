@@ -13,8 +13,7 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::thread;
 use stickslip_run::{Watcher, folder};
 
-/// Number of cases that a thread takes at a time if cases cost microseconds. It keeps the wait for the last thread
-/// short.
+/// Number of cases that a thread takes at a time if cases cost microseconds. It keeps the wait for the last thread short.
 const BLOCK: u64 = 32;
 
 /// Result of a study command.
@@ -47,8 +46,7 @@ struct Begun {
 }
 
 impl Study {
-    /// Computes the missing parts of a shard in a folder, on `threads` threads. The watcher receives the number of
-    /// finished cases.
+    /// Computes the missing parts of a shard in a folder, on `threads` threads. The watcher receives the number of finished cases.
     ///
     /// A part is written to a temporary file and renamed when complete. Its content depends only on the study and the
     /// program version. Existing parts are not computed again.

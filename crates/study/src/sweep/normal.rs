@@ -71,8 +71,7 @@ const FAR_BOTTOM: [f64; 8] = [
 
 /// Returns the probability that a standard normal variable is at most `z`: erfc(-z / sqrt(2)) / 2.
 ///
-/// The relative accuracy holds in the lower tail, down to z = -37. For the upper tail use `cumulative(-z)`, the
-/// probability above `z`.
+/// The relative accuracy holds in the lower tail, down to z = -37. For the upper tail use `cumulative(-z)`, the probability above `z`.
 pub(crate) fn cumulative(z: f64) -> f64 {
     0.5 * math::erfc(-z * FRAC_1_SQRT_2)
 }

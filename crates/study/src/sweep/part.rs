@@ -1,9 +1,8 @@
 //! Part of the results: the rows of some cases as a Parquet file.
 //!
-//! Columns: `case` (from 0), the varied parameters in SI under their key paths, the results under their names in the
-//! study file, and `error`. Missing results are null; a word is stored as a code, and the words
-//! are in the metadata. `error` is null if the case ran. Numbers use byte-stream splitting and LZ4. The metadata
-//! identify study and program.
+//! Columns: `case` (from 0), the varied parameters in SI under their key paths, the results under their names in the study file, and
+//! `error`. Missing results are null; a word is stored as a code, and the words are in the metadata. `error` is null if the case ran.
+//! Numbers use byte-stream splitting and LZ4. The metadata identify study and program.
 
 use super::Study;
 use parquet::basic::{Compression, ConvertedType, Encoding, LogicalType, Repetition, Type as Physical};

@@ -218,8 +218,7 @@ mod tests {
         }
     }
 
-    /// Positions within the strata are uniform (mean 1/2, variance 1/12), and not correlated with each other or with
-    /// the strata.
+    /// Positions within the strata are uniform (mean 1/2, variance 1/12), and not correlated with each other or with the strata.
     #[test]
     fn places_in_the_strata_are_random() {
         let found = points(Sampling::LatinHypercube, 2, 3, 10_000);

@@ -12,8 +12,7 @@ pub struct Shard {
     count: u64,
 }
 
-/// Environment variables of array jobs: task number, smallest task number, number of tasks; and the name of the
-/// scheduler.
+/// Environment variables of array jobs: task number, smallest task number, number of tasks; and the name of the scheduler.
 const ARRAYS: [(&str, &str, &str, &str); 4] = [
     ("SLURM_ARRAY_TASK_ID", "SLURM_ARRAY_TASK_MIN", "SLURM_ARRAY_TASK_COUNT", "Slurm"),
     ("HQ_TASK_ID", "HQ_TASK_MIN", "HQ_TASK_COUNT", "HyperQueue"),

@@ -110,8 +110,7 @@ mod tests {
     use super::*;
     use std::f64::consts::PI;
 
-    /// Returns the indices of a function on the unit cube from n samples. A has the first k dimensions of a Sobol
-    /// point, B the others.
+    /// Returns the indices of a function on the unit cube from n samples. A has the first k dimensions of a Sobol point, B the others.
     fn indices<const K: usize>(n: u64, f: impl Fn(&[f64]) -> f64) -> Vec<Index> {
         let points = Points::unshifted(2 * K, n).unwrap();
         let mut accumulator = Accumulator::new(K);
@@ -145,9 +144,8 @@ mod tests {
         (std::array::from_fn(|i| found[i].first), std::array::from_fn(|i| found[i].total))
     }
 
-    /// Reference: S1 and ST of `SALib.analyze.sobol.analyze(..., calc_second_order=False)`, SALib 1.6.0, for the same
-    /// samples. Samples: SciPy 1.17.1's `qmc.Sobol(6, scramble=False, bits=32).random(1024) + 2**-33`;
-    /// Ishigami's function in NumPy 2.4.6.
+    /// Reference: S1 and ST of `SALib.analyze.sobol.analyze(..., calc_second_order=False)`, SALib 1.6.0, for the same samples. Samples:
+    /// SciPy 1.17.1's `qmc.Sobol(6, scramble=False, bits=32).random(1024) + 2**-33`; Ishigami's function in NumPy 2.4.6.
     const FIRST: [f64; 3] = [0.332955075203446, 0.4413139385461684, 0.01857841297473376];
     const TOTAL: [f64; 3] = [0.5581790457112, 0.44328458402858145, 0.24214937334017256];
 
@@ -166,8 +164,7 @@ mod tests {
         near(total, TOTAL, 2e-12);
     }
 
-    /// Reference: `S1_conf` and `ST_conf` of the same run divided by 1.96, bootstrap estimates from 2000 resamples
-    /// (seed 7).
+    /// Reference: `S1_conf` and `ST_conf` of the same run divided by 1.96, bootstrap estimates from 2000 resamples (seed 7).
     #[test]
     fn the_standard_errors_are_those_of_a_bootstrap() {
         let bootstrap = [
@@ -181,8 +178,7 @@ mod tests {
         }
     }
 
-    /// T. Ishigami and T. Homma, ISUMA 1990: V1 = (1 + b pi^4 / 5)^2 / 2, V2 = a^2 / 8, and V13 = b^2 pi^8 (1/18 -
-    /// 1/50).
+    /// T. Ishigami and T. Homma, ISUMA 1990: V1 = (1 + b pi^4 / 5)^2 / 2, V2 = a^2 / 8, and V13 = b^2 pi^8 (1/18 - 1/50).
     #[test]
     fn ishigamis_function_has_its_closed_indices() {
         let (first, total) = split(&indices::<3>(1 << 16, ishigami));

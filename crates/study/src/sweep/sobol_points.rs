@@ -21,9 +21,8 @@ pub(crate) struct Sobol {
 }
 
 impl Sobol {
-    /// Creates the sequence with one digital shift per dimension, a 32-bit number that is combined with all its
-    /// coordinates by exclusive or. Shifts of 0 give the original sequence. Shifts beyond
-    /// [`MOST_DIMENSIONS`] are ignored.
+    /// Creates the sequence with one digital shift per dimension, a 32-bit number that is combined with all its coordinates by exclusive
+    /// or. Shifts of 0 give the original sequence. Shifts beyond [`MOST_DIMENSIONS`] are ignored.
     pub(crate) fn new(shifts: impl IntoIterator<Item = u32>) -> Self {
         let directions =
             std::iter::once(first()).chain(INITIAL.iter().map(|&(polynomial, m)| later(polynomial, m)));

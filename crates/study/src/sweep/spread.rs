@@ -76,11 +76,9 @@ fn within(x: f64, low: f64, high: f64) -> f64 {
     x.max(low).min(high)
 }
 
-/// Returns the quantile of the standard normal distribution truncated to a..b: z with Phi(z) = Phi(a) + p P, where P =
-/// Phi(b) - Phi(a).
+/// Returns the quantile of the standard normal distribution truncated to a..b: z with Phi(z) = Phi(a) + p P, where P = Phi(b) - Phi(a).
 ///
-/// A positive z is computed from the probability above it, because a probability near 1 would lose digits in the upper
-/// tail.
+/// A positive z is computed from the probability above it, because a probability near 1 would lose digits in the upper tail.
 fn truncated(a: f64, b: f64, p: f64) -> f64 {
     let mass = probability(a, b);
     let below = normal::cumulative(a) + p * mass;

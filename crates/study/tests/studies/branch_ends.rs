@@ -311,9 +311,8 @@ fn branches_go_on_where_events_come_and_go() -> Checked {
     Ok(())
 }
 
-/// A slightly lower throw would touch the table once more. Finite differences must not extend across this touch: they
-/// would give a wrong multiplier. The branch has no period doubling, branching or break.
-/// It ends at the touch or continues beyond it, depending on rounding.
+/// A slightly lower throw would touch the table once more. Finite differences must not extend across this touch: they would give a wrong
+/// multiplier. The branch has no period doubling, branching or break. It ends at the touch or continues beyond it, depending on rounding.
 #[test]
 #[ignore = "takes long: .ci/full"]
 fn a_touch_beside_the_motion_is_none_of_its_own() -> Checked {

@@ -193,8 +193,7 @@ fn what_no_friction_holds_slides_away() -> Checked {
     Ok(())
 }
 
-/// A hopping slider: a run reports irregular motion and flight. Constant distances in the air must not count as steady
-/// steps.
+/// A hopping slider: a run reports irregular motion and flight. Constant distances in the air must not count as steady steps.
 #[test]
 fn what_it_flies_in_a_period_is_no_steady_step() -> Checked {
     let curve = Curve::new(prepared(&scene("hopper.json"), &[])?, Kind::StepAmplitude)?;

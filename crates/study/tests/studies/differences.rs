@@ -1,6 +1,5 @@
-//! Sensitivities at random parameter values of ten scenarios, compared with five-point differences of separate runs
-//! with other distances and another tolerance. Integrators without event location are not accurate
-//! enough for the comparison.
+//! Sensitivities at random parameter values of ten scenarios, compared with five-point differences of separate runs with other distances
+//! and another tolerance. Integrators without event location are not accurate enough for the comparison.
 
 use crate::five_points::{Drawn, chosen, example, moved, slopes};
 use crate::prepared;

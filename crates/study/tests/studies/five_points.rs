@@ -61,8 +61,7 @@ fn figures(file: &Path, set: &Set, names: &[String]) -> Result<Vec<f64>, Box<dyn
     Ok(names.iter().map(figure).collect::<Result<_, _>>()?)
 }
 
-/// Returns the slopes of results with their uncertainties. Each is the middle one of the three distances between which
-/// it changes least.
+/// Returns the slopes of results with their uncertainties. Each is the middle one of the three distances between which it changes least.
 pub(crate) fn slopes(
     file: &Path,
     set: &Set,

@@ -91,9 +91,8 @@ fn contacts_of_different_friction_hold_their_sum() -> Checked {
     Ok(())
 }
 
-/// A body on top of the slider slides with it. The holding force is μF_N of the slider's own contact, or of both if the
-/// upper body has a contact of its own. Equilibria of sliding pairs that rounding simulates at distances of hundreds
-/// of metres must not count.
+/// A body on top of the slider slides with it. The holding force is μF_N of the slider's own contact, or of both if the upper body has a
+/// contact of its own. Equilibria of sliding pairs that rounding simulates at distances of hundreds of metres must not count.
 #[test]
 fn what_slides_together_is_not_held_by_rounding() -> Checked {
     let body = ("bodies.rider", r#"{"mass": "10 g", "x": "free"}"#);
@@ -135,8 +134,7 @@ fn what_slides_under_its_own_weight_is_not_held_by_rounding() -> Checked {
     Ok(())
 }
 
-/// The load on the driven stage is carried by its balls, with a friction limit of 3·0.15·5 N, and through the foot by
-/// the stack.
+/// The load on the driven stage is carried by its balls, with a friction limit of 3·0.15·5 N, and through the foot by the stack.
 #[test]
 fn a_stage_is_held_by_the_contacts_of_its_foot() -> Checked {
     let holding = holding("driven_stage.json", &[], Some("contacts.balls.friction"))?;
@@ -148,8 +146,7 @@ fn a_stage_is_held_by_the_contacts_of_its_foot() -> Checked {
     Ok(())
 }
 
-/// A sledge presses three equal balls by its weight: two balls with friction hold μ 2mg/3; without friction nothing is
-/// held.
+/// A sledge presses three equal balls by its weight: two balls with friction hold μ 2mg/3; without friction nothing is held.
 #[test]
 fn what_its_weight_presses_is_held_by_its_weight() -> Checked {
     let set = [

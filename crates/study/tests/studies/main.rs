@@ -1,8 +1,7 @@
 //! Tests of studies with many runs: sweeps, curves, periodic orbits, branches and sensitivities, compared with closed
 //! forms and simulations.
 //!
-//! All are in one binary. `five_points` computes differences of runs; every other module is one topic. Allocations are
-//! counted by thread.
+//! All are in one binary. `five_points` computes differences of runs; every other module is one topic. Allocations are counted by thread.
 
 use std::path::Path;
 use stickslip_run::{Job, Refusal};

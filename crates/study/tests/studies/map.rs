@@ -1,5 +1,4 @@
-//! Maps: borders between slip regimes compared with closed forms, for prescribed motions and for runs; grids compared
-//! with studies.
+//! Maps: borders between slip regimes compared with closed forms, for prescribed motions and for runs; grids compared with studies.
 
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 

@@ -55,9 +55,8 @@ fn scene() -> Value {
     })
 }
 
-/// z and x are not coupled: λ = exp((-c/2m ± iω)T), ω² = k/m - (c/2m)². k is the sum of the spring stiffness and
-/// 2E*√(Rd) of the ball, with d at equilibrium. Reversals at the corners of the waveform must not accumulate errors of
-/// λ.
+/// z and x are not coupled: λ = exp((-c/2m ± iω)T), ω² = k/m - (c/2m)². k is the sum of the spring stiffness and 2E*√(Rd) of the ball,
+/// with d at equilibrium. Reversals at the corners of the waveform must not accumulate errors of λ.
 #[test]
 fn turns_at_the_corners_of_noise_do_not_accumulate() -> Result<(), Box<dyn Error>> {
     let folder = tempfile::tempdir()?;

@@ -32,10 +32,8 @@ fn half_stroke() -> f64 {
     (1.0 - y * y).sqrt() * (1.0 + y / 2.0)
 }
 
-/// A heavy slider whose contact is nearly always in gross slip. Its velocity is the median of the foot's velocity, so
-/// that friction forces balance. For A(sin ωt - b sin 2ωt) it is 2bAω up to b = 1/4; the maximum is 0.454167 in units
-/// of half the
-/// stroke times ω.
+/// A heavy slider whose contact is nearly always in gross slip. Its velocity is the median of the foot's velocity, so that friction forces
+/// balance. For A(sin ωt - b sin 2ωt) it is 2bAω up to b = 1/4; the maximum is 0.454167 in units of half the stroke times ω.
 fn heavy(keys: &Value) -> Value {
     let mut file = json!({
         "stickslip_study": 1, "scenario": "heavy.json", "maximise": "steady_motion.speed_m_s", "worst_of_period": false,
@@ -109,8 +107,7 @@ fn bounds_minima_and_failed_cases() {
     assert!(failing["best"]["value"].as_f64().unwrap() > 0.0);
 }
 
-/// The polygon for a driver with 2 A stays within window and rate, and is better than the sawtooth from which it
-/// starts.
+/// The polygon for a driver with 2 A stays within window and rate, and is better than the sawtooth from which it starts.
 #[test]
 fn corners_stay_within_window_and_current() {
     let file = json!({

@@ -19,10 +19,9 @@ fn found_with(tolerance: f64, factor: f64) -> Result<Steady, Box<dyn Error>> {
     Ok(steady::find(&job, &Options { tolerance, ..Options::default() })?)
 }
 
-/// The slider bounces undamped on two worn spherical caps: λ = e^{±iωT}, ω² = k/m. For a cap worn to the radius b, F =
-/// 2E*/3R (2a² + b²) √(a² - b²) and k = 2E*a (Popov, Heß, Willert, *Handbook of Contact Mechanics*, sec. 2.5.9). The
-/// bodies on it keep
-/// their memory for ever.
+/// The slider bounces undamped on two worn spherical caps: λ = e^{±iωT}, ω² = k/m. For a cap worn to the radius b, F = 2E*/3R (2a² + b²)
+/// √(a² - b²) and k = 2E*a (Popov, Heß, Willert, *Handbook of Contact Mechanics*, sec. 2.5.9). The bodies on it keep their memory for
+/// ever.
 #[test]
 fn an_undamped_bounce_beside_what_is_held_for_ever_keeps_its_modulus() -> Result<(), Box<dyn Error>> {
     let (modulus, flat, radius) = (210e9 / (2.0 * (1.0 - 0.3_f64.powi(2))), 1.3885066760561482e-5_f64, 1e-3);
@@ -46,8 +45,7 @@ fn an_undamped_bounce_beside_what_is_held_for_ever_keeps_its_modulus() -> Result
     Ok(())
 }
 
-/// The third body is not influenced by the others. Its multiplier agrees for loose and tight tolerances within the
-/// error.
+/// The third body is not influenced by the others. Its multiplier agrees for loose and tight tolerances within the error.
 #[test]
 fn multipliers_by_loose_tolerances_hold_within_their_errors() -> Result<(), Box<dyn Error>> {
     let [loose, tight] = [found(1e-8)?, found(1e-12)?];

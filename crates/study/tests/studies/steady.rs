@@ -32,8 +32,7 @@ fn x(model: &Model, state: &State, body: usize) -> Result<f64, Box<dyn Error>> {
     Ok(state.body(model, body).ok_or("a body")?.0)
 }
 
-/// Returns the mean of the last tenth of `periods` simulated step lengths, m. A single step of the walking drive has an
-/// error of 10⁻⁹ u_c.
+/// Returns the mean of the last tenth of `periods` simulated step lengths, m. A single step of the walking drive has an error of 10⁻⁹ u_c.
 fn last_steps(
     job: &Job,
     (plan, from): (&Plan, State),
@@ -153,8 +152,7 @@ fn strayed(job: &Job, found: &Steady, z: usize, (first, count): (u32, u32)) -> R
     Ok(sum.sqrt())
 }
 
-/// Over `beats` oscillations, a simulation that starts 1e-6 off grows or decays as the largest multiplier predicts,
-/// within 1 %.
+/// Over `beats` oscillations, a simulation that starts 1e-6 off grows or decays as the largest multiplier predicts, within 1 %.
 fn turns_as_told(name: &str, stable: bool, beats: f64) -> Checked {
     turns_as_told_with((name, &[]), stable, beats)
 }
@@ -315,8 +313,7 @@ fn a_swing_at_its_own_frequency_has_no_steady_motion() -> Checked {
     )?)
 }
 
-/// Contacts without gross slip are named: with the orbit of the vibrated slider, and in the error for a drive that only
-/// sticks.
+/// Contacts without gross slip are named: with the orbit of the vibrated slider, and in the error for a drive that only sticks.
 #[test]
 fn a_shakedown_is_named() -> Checked {
     let found = steady::find(&job("vibrated_slider.json", &[])?, &Options::default())?;
@@ -413,9 +410,8 @@ fn a_search_can_be_interrupted() -> Checked {
     Ok(())
 }
 
-/// Contacts without gross slip whose memory is not an unknown of the map: a flat end with an undamped oscillation, |λ|
-/// = 1, and a contact with oscillating normal force. Stability is reported as unknown, and the step length is within
-/// its error.
+/// Contacts without gross slip whose memory is not an unknown of the map: a flat end with an undamped oscillation, |λ| = 1, and a contact
+/// with oscillating normal force. Stability is reported as unknown, and the step length is within its error.
 #[test]
 fn of_what_holds_and_is_led_along_nothing_is_claimed() -> Checked {
     for name in ["flat_end", "pressed_glass"] {
@@ -437,10 +433,9 @@ fn of_what_holds_and_is_led_along_nothing_is_claimed() -> Checked {
     Ok(())
 }
 
-/// There are two final motions, and rounding decides between them. Simulations end on steps of -16.827 and 203.098 nm
-/// alternately, or on five steps of 408.302, -171.837, 275.318, 168.479 and 83.333 nm. During the approach an
-/// oscillation decays,
-/// which nearly repeats every few dozen periods.
+/// There are two final motions, and rounding decides between them. Simulations end on steps of -16.827 and 203.098 nm alternately, or on
+/// five steps of 408.302, -171.837, 275.318, 168.479 and 83.333 nm. During the approach an oscillation decays, which nearly repeats every
+/// few dozen periods.
 #[test]
 #[ignore = "takes long: .ci/full"]
 fn the_climber_ends_where_plain_runs_do() -> Checked {

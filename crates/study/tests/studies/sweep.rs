@@ -209,8 +209,7 @@ fn what_check_refuses_is_a_failed_case() {
     assert!(quick.iter().all(|row| row[2].is_empty() != row[3].is_empty()));
 }
 
-/// The content is the same for one and two threads, for shards in any order, after an interruption, and for a larger
-/// study.
+/// The content is the same for one and two threads, for shards in any order, after an interruption, and for a larger study.
 #[test]
 fn parts_depend_on_the_study_alone() {
     let folder = tempfile::tempdir().unwrap();
@@ -327,10 +326,9 @@ fn cases_are_samples_at_each_point_of_the_product() {
     }
 }
 
-/// The friction force at gross slip is μ (4/3) E* √R d^(3/2), a product with closed-form indices. For independent
-/// factors with means m_i, variances v_i and q_i = v_i / m_i², the variance is Π m² (Π(1 + q) - 1). The first-order
-/// index is q_i, the total index q_i Π (1 + q_j) over j
-/// other than i, both relative to Π(1 + q) - 1.
+/// The friction force at gross slip is μ (4/3) E* √R d^(3/2), a product with closed-form indices. For independent factors with means m_i,
+/// variances v_i and q_i = v_i / m_i², the variance is Π m² (Π(1 + q) - 1). The first-order index is q_i, the total index q_i Π (1 + q_j)
+/// over j other than i, both relative to Π(1 + q) - 1.
 #[test]
 fn indices_of_a_product_are_those_of_its_factors() {
     let file = json!({

@@ -1,9 +1,8 @@
 //! A ball with a flat end on a vibrating table, damped against the ground. The flat end is a spring that only pushes.
 //! Bounces once per period and their period doubling are compared with separate equations.
 //!
-//! In the air m z̈ = -m g - c ż. On the table m z̈ = -m g - c ż + k (A sin ωt - z). The stiffness is k = 2 E* a (4.13
-//! and the flat punch of the Handbook of Contact Mechanics). Both have closed-form solutions; touch and lift-off are
-//! their roots.
+//! In the air m z̈ = -m g - c ż. On the table m z̈ = -m g - c ż + k (A sin ωt - z). The stiffness is k = 2 E* a (4.13 and the flat punch
+//! of the Handbook of Contact Mechanics). Both have closed-form solutions; touch and lift-off are their roots.
 
 use std::error::Error;
 use std::f64::consts::TAU;
@@ -339,8 +338,7 @@ fn a_ball_bounces_once_a_period_as_its_own_equations_say() -> Result<(), Box<dyn
     Ok(())
 }
 
-/// Returns the touch time of the periodic bounce with the smallest amplitude, with velocity and amplitude, by golden
-/// section search.
+/// Returns the touch time of the periodic bounce with the smallest amplitude, with velocity and amplitude, by golden section search.
 fn own_fold() -> Result<(f64, [f64; 2]), Box<dyn Error>> {
     let told = touch(&job(QUIET)?, &steady::find(&job(QUIET)?, &Options::default())?)?;
     let [t, v] = QUIET.fixed(told).ok_or("a bounce")?;
@@ -369,8 +367,7 @@ fn own_fold() -> Result<(f64, [f64; 2]), Box<dyn Error>> {
     Ok((t, at(t, near)?))
 }
 
-/// The branch of the periodic bounce starts in a fold, at the smallest amplitude, and has a period doubling at a larger
-/// one.
+/// The branch of the periodic bounce starts in a fold, at the smallest amplitude, and has a period doubling at a larger one.
 #[test]
 fn a_branch_of_the_bounce_folds_and_doubles_where_its_own_equations_say() -> Result<(), Box<dyn Error>> {
     let branch = branch(QUIET, [1e-6, 8e-6])?;

@@ -87,8 +87,7 @@ pub(crate) fn run(
     report.with_pace(paced.map(|paced| paced.words()))
 }
 
-/// Writes all files except tables and gives them their names. `goes_on` is called during the search for the periodic
-/// orbit.
+/// Writes all files except tables and gives them their names. `goes_on` is called during the search for the periodic orbit.
 pub(crate) fn write(
     job: &Job,
     (look, goes_on): (&Look, &dyn Fn() -> bool),
@@ -123,8 +122,7 @@ pub(crate) fn write(
     Ok(if gave_up { report.without_outlook(job) } else { report })
 }
 
-/// Returns the folder of an interrupted run if complete results exist: NAME.interrupted, or NAME.interrupted-2 etc. if
-/// it is in use.
+/// Returns the folder of an interrupted run if complete results exist: NAME.interrupted, or NAME.interrupted-2 etc. if it is in use.
 fn aside(folder: &Path) -> PathBuf {
     let name = |k: u32| {
         let mut name = folder.to_owned().into_os_string();

@@ -64,8 +64,7 @@ impl Equations<'_> {
         push == 0.0 || balanced.contacts.iter().any(|(_, a)| a * push > 0.0)
     }
 
-    /// Returns the load on balanced coordinate `b` and the limit of its contacts, N. None if a spring holds it, or a contact
-    /// still does.
+    /// Returns the load on balanced coordinate `b` and the limit of its contacts, N. None if a spring holds it, or a contact still does.
     ///
     /// `gone` says whether a contact has reached its limit.
     pub(crate) fn given_way(

@@ -1,8 +1,7 @@
 //! A contact in partial slip that acts on a single slider.
 //!
-//! Its energy is N(h) = c h^{2+1/n} Σ aₖ (h/L)ᵏ ([`RootSeries`]). With y = ⁿ√h the leading term is y^{2n+1}. Its divided
-//! differences over heights yⁿ are quotients of sums of positive products. With the complete homogeneous polynomials Pₖ(a, y) = Σ
-//! aᵏ⁻ⁱyⁱ
+//! Its energy is N(h) = c h^{2+1/n} Σ aₖ (h/L)ᵏ ([`RootSeries`]). With y = ⁿ√h the leading term is y^{2n+1}. Its divided differences over
+//! heights yⁿ are quotients of sums of positive products. With the complete homogeneous polynomials Pₖ(a, y) = Σ aᵏ⁻ⁱyⁱ
 //!
 //! * f\[a, y\] = P_{2n}(a, y)/P_{n-1}(a, y),
 //! * f\[a, y, c\] = Σ Cₛyˢ/[P_{n-1}(a, y) P_{n-1}(y, c) P_{n-1}(a, c)], Cₛ = Σ (ac)ᴮ P_{A-B-1}(a, c) over n ≤ A ≤ 2n, 0 ≤ B < n

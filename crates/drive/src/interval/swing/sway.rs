@@ -1,9 +1,8 @@
 //! Gross slip over sinusoidal prescribed motions.
 //!
-//! The contact forces are constant in gross slip, so the slider's motion is a parabola for any prescribed motion. The velocity of
-//! slip is s(t) = ±(v + at + ḟ), with a curvature of at most J, the bound of the sines' third derivative. Hence s stays above s +
-//! ṡτ - Jτ²/2, whose zero is never later than that of s. The iteration from zero to zero misses no zero and converges
-//! quadratically.
+//! The contact forces are constant in gross slip, so the slider's motion is a parabola for any prescribed motion. The velocity of slip is
+//! s(t) = ±(v + at + ḟ), with a curvature of at most J, the bound of the sines' third derivative. Hence s stays above s + ṡτ - Jτ²/2,
+//! whose zero is never later than that of s. The iteration from zero to zero misses no zero and converges quadratically.
 
 use super::{SMALLEST, Swing};
 use crate::interval::{Closed, Followed, Interval};

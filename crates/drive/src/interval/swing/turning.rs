@@ -8,8 +8,7 @@ use std::array;
 
 /// Largest number of Halley steps to a turning point.
 const HALLEY: usize = 30;
-/// Bounds of the relative size of the last step: below the first, the remaining error is rounding; above the second, another step
-/// is made.
+/// Bounds of the relative size of the last step: below the first, the remaining error is rounding; above the second, another step is made.
 // In between, the bound is proportional to the cube root of the tolerance.
 pub(super) const EXACT: f64 = 1e-5;
 pub(super) const ROUGH: f64 = 0.02;

@@ -1,9 +1,8 @@
 //! Contacts that keep to one branch of their force law over several steps; used by the `frames` stepper.
 //!
-//! On a branch one slip edge uses up one piece of the slip memory, and the force law is smooth. At a constant
-//! indentation, one memory piece lasts for many steps. One straight path to the end of the piece is equivalent to many
-//! short ones. The slip memory is therefore committed only where a branch ends: where its memory piece is used up or
-//! the motion reverses.
+//! On a branch one slip edge uses up one piece of the slip memory, and the force law is smooth. At a constant indentation, one memory
+//! piece lasts for many steps. One straight path to the end of the piece is equivalent to many short ones. The slip memory is therefore
+//! committed only where a branch ends: where its memory piece is used up or the motion reverses.
 //!
 //! There the step is cut, at the time that the cubic through both ends of the step gives. It is cut to no less than one
 //! eighth of a full step, which bounds the work. A later branch end within that eighth causes an error like a kink.
@@ -49,8 +48,7 @@ const PARTS: (f64, f64) = (1.0 / 512.0, 1.0 / 32.0);
 pub(in crate::run) enum Weakening {
     /// A hysteresis loop closes.
     Loop,
-    /// The last sticking springs begin to slip. Until then the damping force varies with the square root of the time
-    /// left.
+    /// The last sticking springs begin to slip. Until then the damping force varies with the square root of the time left.
     Away,
 }
 
@@ -61,8 +59,7 @@ pub(in crate::run) struct Branches<'a> {
     pub(super) current: bool,
     /// Contacts whose branches end with the step, and the senses of their next branches.
     pub(super) ended: Vec<(usize, f64)>,
-    /// Contacts whose branches end where the step was cut, and the senses of their next branches. Rounding does not
-    /// matter.
+    /// Contacts whose branches end where the step was cut, and the senses of their next branches. Rounding does not matter.
     due: Vec<(usize, f64)>,
     /// Largest displacement per step while contact damping vanishes under a varying normal force, in u_c.
     part: f64,
@@ -76,8 +73,7 @@ impl<'a> Branches<'a> {
         Self { interval: Interval::of(model), current: false, ended: room(), due: room(), part }
     }
 
-    /// Returns the remaining length of the memory piece of contact `c`, m. It agrees with [`Chords::glides`] to the
-    /// last bit.
+    /// Returns the remaining length of the memory piece of contact `c`, m. It agrees with [`Chords::glides`] to the last bit.
     fn left(&self, c: usize, branch: &Branch, motion: &Motion) -> f64 {
         match self.interval.closed_form(c) {
             Some(closed) => closed.margin(motion.u),

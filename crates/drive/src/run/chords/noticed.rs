@@ -9,8 +9,7 @@ use crate::state::State;
 use stickslip_contact::{ContactState, Memory};
 
 impl Chords<'_> {
-    /// Changes the laws of blocks whose event functions are negative after the step, or that choose a new law
-    /// themselves.
+    /// Changes the laws of blocks whose event functions are negative after the step, or that choose a new law themselves.
     ///
     /// Each block handles one event function per step, the first negative one. Others follow after later steps.
     pub(super) fn pass_guards(&mut self, state: &mut State, record: &mut dyn Record) {

@@ -4,10 +4,9 @@
 //! event is therefore predicted from the motion at the start of the step. A wrong prediction costs evaluations, but no
 //! accuracy, because the event is located on the dense output.
 //!
-//! Where a contact touches, separates or begins gross slip, its force varies with the power 3/2 of the time to that
-//! singular moment. Examples are Hertz' force and F_x = μF_N[1 - (1 - u/u_c)^{3/2}]. Even steps across a singular
-//! moment have the order 1.5 to 2. A graded step begins or ends there, with stages concentrated near it, and keeps its
-//! order.
+//! Where a contact touches, separates or begins gross slip, its force varies with the power 3/2 of the time to that singular moment.
+//! Examples are Hertz' force and F_x = μF_N[1 - (1 - u/u_c)^{3/2}]. Even steps across a singular moment have the order 1.5 to 2. A graded
+//! step begins or ends there, with stages concentrated near it, and keeps its order.
 //!
 //! Forces with an integer power, as for a cone or a flat punch, need no graded steps.
 
@@ -46,8 +45,7 @@ struct Expected {
 
 /// Factor by which a step passes the expected end of a law, so that the end lies inside the step.
 const OVERSTEP: f64 = 1.05;
-/// Largest rate of time along a graded step, relative to an even one. The longest graded step is shorter by that
-/// factor.
+/// Largest rate of time along a graded step, relative to an even one. The longest graded step is shorter by that factor.
 const FASTEST: f64 = 2.0;
 /// Smallest tolerance at which a graded step may be as long as an even one.
 const LOOSE: f64 = 3e-4;
@@ -103,8 +101,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         let over = 0.5 * self.motion.pace.closeness * first.left;
         let to = first.left + over;
         let singular = if self.is_singular(state, first) { first.left } else { f64::INFINITY };
-        // The event is too far for two steps, beyond a corner, or closer than rounding: a graded step would not end
-        // there.
+        // The event is too far for two steps, beyond a corner, or closer than rounding: a graded step would not end there.
         let far = first.left > 2.0 * step.max(most) || over < rounding || state.t + to >= corner;
         if far || singular == f64::INFINITY {
             return Aim { singular, ..start(step.min(within(first))) };
@@ -140,9 +137,8 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
 
     /// Whether a law ends with a force of power 3/2 in the time left, and enough of the law remains to matter.
     ///
-    /// The remaining length of the law is compared with the natural depth before separation, and with u_c before gross
-    /// slip. Below tolerance^{2/3} of that scale the singular part is within the tolerance, and an even step is
-    /// sufficient.
+    /// The remaining length of the law is compared with the natural depth before separation, and with u_c before gross slip. Below
+    /// tolerance^{2/3} of that scale the singular part is within the tolerance, and an even step is sufficient.
     fn is_singular(&self, state: &State, end: Expected) -> bool {
         let (contact, motion) =
             (&self.setting.model.contacts[end.contact], self.watch.from[end.contact].motion);
@@ -173,8 +169,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
 
     /// Whether a contact has only just touched, with a force that begins with a power of d between 1 and 2.
     ///
-    /// Just touched means an indentation of at most [`closeness`](super::motion::Pace::closeness) times the step times
-    /// ḋ.
+    /// Just touched means an indentation of at most [`closeness`](super::motion::Pace::closeness) times the step times ḋ.
     fn is_touched(&self, state: &State, c: usize, step: f64) -> bool {
         let contact = &self.setting.model.contacts[c];
         let motion = self.watch.from[c].motion;
@@ -238,12 +233,10 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
 
     /// Returns the time to the separation of a contact as if only its own normal force changed, s.
     ///
-    /// With d̈ = r - gF_N(d), the squared speed is ν²(x) = ḋ² - 2r(d-x) + 2g[E(d) - E(x)], and the time is ∫₀ᵈ dx/ν.
-    /// The gain g is the mobility along d times the number of contacts, and r is the acceleration by other forces. E =
-    /// E\*N is the normal energy (J).
+    /// With d̈ = r - gF_N(d), the squared speed is ν²(x) = ḋ² - 2r(d-x) + 2g[E(d) - E(x)], and the time is ∫₀ᵈ dx/ν. The gain g is the
+    /// mobility along d times the number of contacts, and r is the acceleration by other forces. E = E\*N is the normal energy (J).
     ///
-    /// `None` if the contact does not open, turns before it separates, or needs more than `within` (s) at its final
-    /// speed.
+    /// `None` if the contact does not open, turns before it separates, or needs more than `within` (s) at its final speed.
     fn leaves(&self, c: usize, contact: &Contact, measure: &Measure, within: f64) -> Option<f64> {
         let (motion, (bend, _)) = (self.watch.from[c].motion, self.watch.from[c].second);
         let (d, v) = (motion.d, motion.dd);

@@ -22,8 +22,7 @@ const KINKS: f64 = 1e-3;
 const BENDS: f64 = 1e-2;
 /// Smallest factor on the tolerance where a free body rests on spring rows under constant normal forces.
 ///
-/// Their springs slip one by one and end no step. The factor is 1 down to [`ROWS_FROM`] and decreases with the
-/// tolerance below.
+/// Their springs slip one by one and end no step. The factor is 1 down to [`ROWS_FROM`] and decreases with the tolerance below.
 const ROWS: f64 = 1e-2;
 /// Tolerance down to which the error estimates resolve the kinks of spring rows under constant normal forces.
 const ROWS_FROM: f64 = 1e-7;

@@ -33,8 +33,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
 
     /// Returns the time up to which the full force law has a balance, s: `to`, or the last earlier time.
     ///
-    /// Beyond that time no equilibrium position exists, and no contact law shows it. Loads and holding forces depend on
-    /// time only.
+    /// Beyond that time no equilibrium position exists, and no contact law shows it. Loads and holding forces depend on time only.
     ///
     /// Fails if that time is at most `least` (s) ahead, because positions then change faster than any step resolves.
     pub(super) fn until_overloaded(&self, state: &State, to: f64, least: f64) -> Result<f64, RunError> {

@@ -11,8 +11,7 @@ use crate::state::{Grip, State};
 use stickslip_stepper::Attempt;
 
 impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
-    /// Builds the interval until the next event: closed forms of contacts, integration method, and whether anything
-    /// sticks.
+    /// Builds the interval until the next event: closed forms of contacts, integration method, and whether anything sticks.
     pub(super) fn begin_interval(&mut self, state: &mut State) {
         self.interval.begin(self.setting.model, state);
         self.count_interval(state);
@@ -40,8 +39,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         let (model, modes) = (self.setting.model, &state.modes);
         let presses =
             |(mode, contact): (&Mode, &Contact)| *mode != Mode::Open && contact.coupling().is_some();
-        // Links and bodies that press contacts oscillate also during slip, so the stability limit applies to their
-        // steps.
+        // Links and bodies that press contacts oscillate also during slip, so the stability limit applies to their steps.
         let holds = modes.iter().any(Mode::holds)
             || modes.is_empty()
             || !model.links.is_empty()

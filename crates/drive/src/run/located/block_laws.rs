@@ -32,9 +32,8 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
 
     /// Lets blocks choose their laws again where the rates of their inputs may have jumped.
     ///
-    /// Blocks are handled in order, because each reads only earlier ones. A block with a zero crossing keeps its new
-    /// law, because its rate is zero within rounding. At a corner, or if an input has a new law, its rate has changed,
-    /// and it chooses again.
+    /// Blocks are handled in order, because each reads only earlier ones. A block with a zero crossing keeps its new law, because its rate
+    /// is zero within rounding. At a corner, or if an input has a new law, its rate has changed, and it chooses again.
     pub(super) fn turn_blocks(
         &mut self,
         state: &mut State,

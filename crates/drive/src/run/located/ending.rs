@@ -1,8 +1,7 @@
 //! Step that reaches the end of a run.
 //!
-//! Steps are not cut at the end. The last step is attempted in full length, and output up to the end comes from its
-//! dense output. Output therefore does not depend on the end. A run that stops before that step continues as if it had
-//! no end.
+//! Steps are not cut at the end. The last step is attempted in full length, and output up to the end comes from its dense output. Output
+//! therefore does not depend on the end. A run that stops before that step continues as if it had no end.
 
 use super::Located;
 use crate::equations::Equations;

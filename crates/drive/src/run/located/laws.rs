@@ -27,8 +27,7 @@ const BEND_AHEAD: f64 = 1e-5;
 impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
     /// Sets the next law of every component with a zero crossing, and after a corner of all contacts that it moves.
     ///
-    /// Components are handled in the order in which their zero crossings were found. Fails if events accumulate or
-    /// reach their limit.
+    /// Components are handled in the order in which their zero crossings were found. Fails if events accumulate or reach their limit.
     pub(super) fn handle_fallen(
         &mut self,
         state: &mut State,
@@ -84,8 +83,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
 
     /// Sets the law of a contact after a zero crossing of one of its event functions.
     ///
-    /// A memory piece that ends in the centre of the contact is reported as the start of gross slip, not as a closed
-    /// loop.
+    /// A memory piece that ends in the centre of the contact is reported as the start of gross slip, not as a closed loop.
     fn handle_contact(
         &mut self,
         state: &mut State,
@@ -94,8 +92,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
     ) -> Result<(), RunError> {
         let contact = &self.setting.model.contacts[c];
         let motion = self.watch.motion_at_end(&self.interval, c, (state.t, &state.y));
-        // Rounding of time or of a large displacement may stop before the zero. The remaining length then counts as
-        // used up.
+        // Rounding of time or of a large displacement may stop before the zero. The remaining length then counts as used up.
         let left = |state: &State| guard.value(contact, state.law(c), &motion).max(0.0);
         if let Some(change) = guard.change() {
             let at = (&motion, change, left(state));

@@ -25,9 +25,8 @@ const SECANTS: u32 = 8;
 impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
     /// Advances to the next event, corner or goal in one leap.
     ///
-    /// Returns `None` and does nothing if the interval has no closed-form solution. A goal before the event interrupts
-    /// the leap, and the next call continues it. Fails if values are not finite, a contact refuses its path, or a limit
-    /// is reached.
+    /// Returns `None` and does nothing if the interval has no closed-form solution. A goal before the event interrupts the leap, and the
+    /// next call continues it. Fails if values are not finite, a contact refuses its path, or a limit is reached.
     pub(super) fn leap(
         &mut self,
         state: &mut State,
@@ -220,8 +219,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         y[self.setting.layout.input()] = self.input_at(&place);
     }
 
-    /// Returns the input work at a point of the leap, J. It counts from the start of the leap, even across
-    /// interruptions.
+    /// Returns the input work at a point of the leap, J. It counts from the start of the leap, even across interruptions.
     fn input_at(&self, place: &PhasePoint) -> f64 {
         self.takeoff.unwrap_or(0.0) + self.swing.work(place)
     }
@@ -248,8 +246,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
 
     /// Commits the contacts with a zero crossing, at a corner all contacts.
     ///
-    /// For the others, one straight path to their own next event is equivalent to many. Fails if a contact refuses its
-    /// path.
+    /// For the others, one straight path to their own next event is equivalent to many. Fails if a contact refuses its path.
     fn remember(&mut self, state: &mut State, is_corner: bool) -> Result<(), RunError> {
         if is_corner || self.watch.fired.len() == self.interval.closed.len() {
             self.trace_closed(state);

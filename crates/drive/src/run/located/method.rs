@@ -52,8 +52,7 @@ impl<'a> LocatedRun<'a> {
         let layout = model.layout();
         let setting = Setting { model, layout, tolerance, method: stepping(&SceneTraits::of(model)).0 };
         match (setting.method, layout.free) {
-            // The input work is the only integral, because only contacts dissipate, and they commit their own friction
-            // work.
+            // The input work is the only integral, because only contacts dissipate, and they commit their own friction work.
             (Method::Nystrom, 1) => {
                 let solver = Paired::one(layout.total());
                 Self::One(Box::new(Located::new(setting, plan, solver, explicit(NYSTROM_ORDER))))

@@ -17,8 +17,7 @@ use stickslip_stepper::{Attempt, End, Grade, Target};
 
 /// Largest velocity that counts as rest, relative to the natural velocity; several hundred rounding errors.
 const REST: f64 = 1e-13;
-/// Largest product of step length and rate at rest. Longer steps amplify rounding errors, because the method has large
-/// coefficients.
+/// Largest product of step length and rate at rest. Longer steps amplify rounding errors, because the method has large coefficients.
 const REST_REACH: f64 = 1.0;
 /// Largest number of repetitions of a step that bring its end closer to a singular moment.
 const CORRECTIONS: u32 = 2;
@@ -89,9 +88,8 @@ impl<A: for<'e> Attempt<Equations<'e>>> Motion<A> {
 
     /// Attempts a step and returns its error in units of the allowed error; 1 is just allowed.
     ///
-    /// A step to a singular moment is repeated up to [`CORRECTIONS`] times until it ends close enough. Each repetition
-    /// is a Newton step of the event function at the end, and all stages are evaluated again. `aim` is set to the end
-    /// of the last attempt.
+    /// A step to a singular moment is repeated up to [`CORRECTIONS`] times until it ends close enough. Each repetition is a Newton step of
+    /// the event function at the end, and all stages are evaluated again. `aim` is set to the end of the last attempt.
     #[inline(always)]
     pub(super) fn attempt(&mut self, eq: &Equations<'_>, t: f64, aim: &mut Aim, corner: f64) -> f64 {
         let target = Target { end: aim.target, grade: aim.grade };
@@ -202,8 +200,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Motion<A> {
         rests
     }
 
-    /// Whether all free coordinates are at rest within rounding: velocities are small and accelerations keep them
-    /// small.
+    /// Whether all free coordinates are at rest within rounding: velocities are small and accelerations keep them small.
     ///
     /// For each coordinate |v| ≤ 1e-13 of its natural speed, and |v̇|·length ≤ 1e-13 of the square of that speed.
     fn is_at_rest(&self, model: &Model, state: &State) -> bool {
@@ -255,8 +252,7 @@ impl Pace {
 
     /// Returns the error by which step control judges a step.
     ///
-    /// The error of a graded step from a singular moment depends on the square root of its length. An error above 1 is
-    /// therefore squared.
+    /// The error of a graded step from a singular moment depends on the square root of its length. An error above 1 is therefore squared.
     pub(super) fn judged(error: f64, grade: Grade) -> f64 {
         if grade == Grade::Start && error > 1.0 { error * error } else { error }
     }

@@ -182,12 +182,10 @@ pub(super) struct Growth<'r, 'e, A> {
 impl<A: for<'q> Attempt<Equations<'q>>> Growth<'_, '_, A> {
     /// Divides the path of a growing contact into pieces, up to a time and a motion inside the step.
     ///
-    /// The path comes from the dense output. The bend of a piece decreases with the square of their number. A path
-    /// whose middle is δ from the straight line thus gets √(δ/allowed) pieces, limited by [`pieces`]. The allowed bend
-    /// follows from [`BEND`] and [`DAMPED_BEND`].
+    /// The path comes from the dense output. The bend of a piece decreases with the square of their number. A path whose middle is δ from
+    /// the straight line thus gets √(δ/allowed) pieces, limited by [`pieces`]. The allowed bend follows from [`BEND`] and [`DAMPED_BEND`].
     ///
-    /// `joins` of the first piece states whether growth continues without a bend, so that collinear pieces can be
-    /// merged.
+    /// `joins` of the first piece states whether growth continues without a bend, so that collinear pieces can be merged.
     pub(super) fn trace(
         &self,
         (c, slot): (usize, usize),

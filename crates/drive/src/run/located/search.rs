@@ -254,8 +254,7 @@ impl<'e, A: for<'q> Attempt<Equations<'q>>> Search<'_, 'e, A> {
         (t, self.inside(watched, t))
     }
 
-    /// Returns the time at which an event function crosses zero, between the start of the step and a time with a
-    /// negative value.
+    /// Returns the time at which an event function crosses zero, between the start of the step and a time with a negative value.
     ///
     /// Requires the dense output.
     #[inline(never)]
@@ -337,8 +336,7 @@ impl<'e, A: for<'q> Attempt<Equations<'q>>> Search<'_, 'e, A> {
         }
         let (g0, g) = (self.at_begin(watched), self.at_end(watched));
         let (dead, near) = self.bands(watched);
-        // A function that is near zero all the time belongs to a contact at rest, for which events of others mean
-        // nothing.
+        // A function that is near zero all the time belongs to a contact at rest, for which events of others mean nothing.
         let rises =
             || self.rates(watched)[0] * (self.solver.span().end_time - self.solver.span().time) > near;
         g < -dead || g0 >= near || rises()

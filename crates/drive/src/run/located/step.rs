@@ -31,9 +31,8 @@ enum Ending {
 impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
     /// Advances to the next event by a leap, or attempts one step and processes it if it is accepted.
     ///
-    /// The order is attempt, locate, accept, commit, next law. Fails if the step would be too small, a value is not
-    /// finite, a contact or block refuses its path, or a limit is reached. The state is then that of the last accepted
-    /// step.
+    /// The order is attempt, locate, accept, commit, next law. Fails if the step would be too small, a value is not finite, a contact or
+    /// block refuses its path, or a limit is reached. The state is then that of the last accepted step.
     pub(super) fn step(&mut self, state: &mut State, record: &mut dyn Record) -> Result<Progress, RunError> {
         let tells_rows = self.output.rows.any() && record.wants_events();
         if tells_rows {
@@ -122,8 +121,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
 
     /// Returns the length of the next step, s, after a step of length `h` for which step control proposes `next`.
     ///
-    /// A step shortened by an event or corner ahead does not reduce the planned length. A step that an event has cut
-    /// does not increase it.
+    /// A step shortened by an event or corner ahead does not reduce the planned length. A step that an event has cut does not increase it.
     fn wished(&self, state: &State, ending: Ending, (h, next): (f64, f64)) -> f64 {
         match (ending == Ending::Event, h < state.step) {
             // A coasting step says nothing about step lengths under the next law.
@@ -217,8 +215,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
 
     /// Makes the end of the step the start of the next one.
     ///
-    /// Quasi-static coordinates depend on the committed slip memories. Their contacts are computed again, as in a
-    /// continued run.
+    /// Quasi-static coordinates depend on the committed slip memories. Their contacts are computed again, as in a continued run.
     fn go_on(&mut self, state: &State) {
         if self.setting.model.balanced.is_empty() {
             self.watch.go_on();
@@ -239,8 +236,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
 
 /// Attempts a step and ends it at the first event inside it.
 ///
-/// Event functions are evaluated only if the error is allowed. All that cross zero together with the first are
-/// collected as one event.
+/// Event functions are evaluated only if the error is allowed. All that cross zero together with the first are collected as one event.
 #[inline(always)]
 fn attempt<A: for<'e> Attempt<Equations<'e>>>(
     (motion, watch, control): (&mut Motion<A>, &mut Watch, &mut StepControl),
@@ -253,8 +249,7 @@ fn attempt<A: for<'e> Attempt<Equations<'e>>>(
     let error = motion.with_books(eq, state, target, error);
     let verdict = control.propose(Pace::judged(error, aim.grade), target - state.t);
     if verdict.accepted {
-        // Rates of event functions at the end need its slopes. The dense output is computed only where an event is
-        // possible.
+        // Rates of event functions at the end need its slopes. The dense output is computed only where an event is possible.
         motion.solver.complete(eq, Completion::EndSlopes);
         watch.arrive(eq, &motion.solver);
         watch.fired.clear();

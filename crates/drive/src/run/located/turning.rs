@@ -51,8 +51,7 @@ impl Turning {
 impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
     /// Moves every waveform whose piece has ended to its next piece, and handles jumps.
     ///
-    /// Events are reported afterwards, with the complete state. Fails if a load jumps beyond the largest force that can
-    /// balance it.
+    /// Events are reported afterwards, with the complete state. Fails if a load jumps beyond the largest force that can balance it.
     pub(super) fn turn_corners(
         &mut self,
         state: &mut State,

@@ -91,8 +91,7 @@ impl Watch {
 
     /// Computes the contact motions at the end of a cut step.
     ///
-    /// Slopes are unknown there, and no rates are needed. Contacts with closed-form forces far from any event are
-    /// skipped.
+    /// Slopes are unknown there, and no rates are needed. Contacts with closed-form forces far from any event are skipped.
     pub(super) fn arrive_at_cut(&mut self, eq: &Equations<'_>, solver: &impl Step) {
         let (Some(interval), Span { end_time: t, end: y, .. }) = (eq.interval, solver.span()) else { return };
         let n = eq.layout.free;
@@ -241,8 +240,7 @@ impl Watch {
     }
 }
 
-/// Whether the remaining length of a memory piece (m) is below [`LAST_PLACES`] rounding errors of the positions behind
-/// u.
+/// Whether the remaining length of a memory piece (m) is below [`LAST_PLACES`] rounding errors of the positions behind u.
 ///
 /// `x` returns a free coordinate. No step waits for such an end; a later step finds it.
 fn is_rounding(left: f64, contact: &Contact, x: impl Fn(usize) -> f64) -> bool {

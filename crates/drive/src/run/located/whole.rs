@@ -1,12 +1,10 @@
 //! Step doubling on the full force law, where events accumulate.
 //!
-//! Some motions have no next smooth interval: both slip edges of a contact stop together, or it opens and closes within
-//! rounding. A motion may also slide along a line on which stick and slip alternate. Steps without event location pass
-//! through such motions.
+//! Some motions have no next smooth interval: both slip edges of a contact stop together, or it opens and closes within rounding. A motion
+//! may also slide along a line on which stick and slip alternate. Steps without event location pass through such motions.
 //!
-//! For a part of the natural period of the contact whose events accumulate, all contacts follow the full force law of
-//! their slip memories. Then events are located again. The state counts the intervals of step doubling. Every interval
-//! advances the time, so a run always ends.
+//! For a part of the natural period of the contact whose events accumulate, all contacts follow the full force law of their slip memories.
+//! Then events are located again. The state counts the intervals of step doubling. Every interval advances the time, so a run always ends.
 //!
 //! A step h of the classical Runge–Kutta method is compared with two half steps, between which the slip memories
 //! commit. Embedded estimates would detect neither kinks nor growth. Across a kink both results are of second order,
@@ -91,8 +89,7 @@ impl Times {
 }
 
 impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
-    /// Sets all contacts to the full force law. The integrator stays behind the state, because half steps do not use
-    /// it.
+    /// Sets all contacts to the full force law. The integrator stays behind the state, because half steps do not use it.
     pub(super) fn take_whole(&mut self, state: &mut State) {
         self.motion.whereabouts = Whereabouts::Behind;
         state.modes.fill(Mode::Whole { sense: 0.0 });

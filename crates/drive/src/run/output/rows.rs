@@ -63,8 +63,7 @@ impl Rows {
         Some((Source::Contact(c), kind))
     }
 
-    /// Returns the kind under which an event is reported. A reversal of a row in gross slip is reported as the end of
-    /// its gross slip.
+    /// Returns the kind under which an event is reported. A reversal of a row in gross slip is reported as the end of its gross slip.
     pub(in crate::run) fn told(&mut self, source: Source, kind: EventKind) -> EventKind {
         let row = self.0.iter_mut().find(|(c, slips)| *slips && source == Source::Contact(*c));
         match (row, kind) {

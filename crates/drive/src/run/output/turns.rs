@@ -1,8 +1,7 @@
 //! Turning points of u that end no contact law.
 //!
-//! Under a constant normal force, u turns at events: reversals and ends of gross slip. Under a varying normal force,
-//! the velocities of the slip edges determine the law. Then u turns without an event in full stick. In a shrinking
-//! contact, u turns before the slip edge.
+//! Under a constant normal force, u turns at events: reversals and ends of gross slip. Under a varying normal force, the velocities of the
+//! slip edges determine the law. Then u turns without an event in full stick. In a shrinking contact, u turns before the slip edge.
 //!
 //! These turning points are reported to a record that watches a body; the run does not use them. They are detected by
 //! the sign of u̇ at both ends of a step. Two turning points within one step are missed.

@@ -7,8 +7,7 @@ use crate::waveform::error::{finite, smooth, within};
 use crate::waveform::{Sample, Timing, WaveformError};
 use std::f64::consts::TAU;
 
-/// Sine with a linear frequency sweep: offset + amplitude sin(phase + 2π(from s + (to - from) s²/(2 duration))), s from 0 to the
-/// duration.
+/// Sine with a linear frequency sweep: offset + amplitude sin(phase + 2π(from s + (to - from) s²/(2 duration))), s from 0 to the duration.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Sweep {
     /// Amplitude, half of the peak-to-peak value.

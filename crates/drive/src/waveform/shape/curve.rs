@@ -1,9 +1,8 @@
 //! Shape-preserving cubics through points, once or repeated.
 //!
-//! Between two points the value stays between theirs, and is monotonic where the points are. Rates at the points are weighted
-//! harmonic means of the adjacent slopes (Fritsch and Butland, SIAM J. Sci. Stat. Comput. 5, 300, 1984). Rates at the ends are
-//! limited three-point differences (Moler, Numerical Computing with MATLAB, 2004, section 3.6). Only the second derivative jumps
-//! at a point.
+//! Between two points the value stays between theirs, and is monotonic where the points are. Rates at the points are weighted harmonic
+//! means of the adjacent slopes (Fritsch and Butland, SIAM J. Sci. Stat. Comput. 5, 300, 1984). Rates at the ends are limited three-point
+//! differences (Moler, Numerical Computing with MATLAB, 2004, section 3.6). Only the second derivative jumps at a point.
 
 use super::cubic::Cubic;
 use super::{Way, table};

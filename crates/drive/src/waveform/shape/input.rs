@@ -9,8 +9,7 @@ use crate::waveform::{Timing, WaveformError};
 pub enum Interpolation {
     /// The value is constant until the caller gives another one, which is a jump.
     ///
-    /// In a jump contacts follow a straight path in zero time, and the work counts. The model refuses dampers whose length would
-    /// jump.
+    /// In a jump contacts follow a straight path in zero time, and the work counts. The model refuses dampers whose length would jump.
     #[default]
     Held,
     /// Linear from the present value to the value and time that the caller gives; then held.

@@ -8,8 +8,7 @@ use stickslip_run::Watcher;
 use stickslip_scenario::{Scenario, ScenarioError};
 use thiserror::Error;
 
-/// Factor on the sum of all friction and other forces. If a load of this size is held, something other than friction
-/// holds it.
+/// Factor on the sum of all friction and other forces. If a load of this size is held, something other than friction holds it.
 const ENDLESS: f64 = 64.0;
 /// Uncertainty of the equilibrium of forces, as a fraction of the sum of friction and other forces. The equilibrium
 /// search allows a residual of 1e-9 per coordinate.

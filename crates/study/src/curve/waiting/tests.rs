@@ -110,9 +110,8 @@ fn what_rings_below_the_least_step_makes_none() {
     ));
 }
 
-/// Constant force: the step length increases by F T²/m per period. Differences of rounded positions can decrease three
-/// times in a row by chance; no limit may be derived from
-/// them.
+/// Constant force: the step length increases by F T²/m per period. Differences of rounded positions can decrease three times in a row by
+/// chance; no limit may be derived from them.
 #[test]
 fn even_growth_is_no_limit_however_it_is_rounded() {
     for stretch in 0..400 {

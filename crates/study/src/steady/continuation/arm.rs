@@ -1,9 +1,8 @@
 //! Continuation of a branch in one direction.
 //!
-//! A step follows the tangent and is corrected back to the branch. It is shortened if the branch bends or no orbit is
-//! found, and lengthened after an easy correction. If the periods at both
-//! ends have the same events, test functions detect bifurcations in between. Otherwise the event is located and the
-//! branch continues beyond it.
+//! A step follows the tangent and is corrected back to the branch. It is shortened if the branch bends or no orbit is found, and
+//! lengthened after an easy correction. If the periods at both ends have the same events, test functions detect bifurcations in between.
+//! Otherwise the event is located and the branch continues beyond it.
 
 use super::bifurcation::Mark;
 use super::corrector::{Corrected, Wanted, correct};
@@ -28,8 +27,7 @@ const AT: f64 = 1e-12;
 const ASTRAY: f64 = 0.5;
 /// Number of corrector iterations up to which a step counts as easy.
 const EASY: u32 = 4;
-/// A new instant of the Poincaré section is chosen if its distance to an event is below this fraction of the interval
-/// between events.
+/// A new instant of the Poincaré section is chosen if its distance to an event is below this fraction of the interval between events.
 const NEAR: f64 = 0.2;
 /// Smallest change of the parameter along the branch at which a new instant can be chosen. Below it, the direction of
 /// the branch would be ambiguous.
@@ -42,8 +40,7 @@ pub enum End {
     Range,
     /// Beyond this point, some contacts never slip grossly, and periodic orbits form a family.
     Shakedown(Vec<String>),
-    /// The load on a body equals the friction limit: any velocity is possible, and beyond this point the body slides
-    /// away.
+    /// The load on a body equals the friction limit: any velocity is possible, and beyond this point the body slides away.
     SlidesAway(String),
     /// The displacement per period, in natural scales, is so large that rounding errors exceed the effect of friction.
     Rounded(f64),

@@ -1,5 +1,4 @@
-//! Search for the branch beyond a point where even the shortest step fails: the drive is simulated a small distance
-//! beyond.
+//! Search for the branch beyond a point where even the shortest step fails: the drive is simulated a small distance beyond.
 
 use super::arm::{End, Walk};
 use super::corrector::ROUNDING;

@@ -143,8 +143,7 @@ impl Test {
         }
     }
 
-    /// Returns whether the test function is zero within its error: an undamped pair stays on the unit circle and does
-    /// not cross it.
+    /// Returns whether the test function is zero within its error: an undamped pair stays on the unit circle and does not cross it.
     pub(super) fn is_idle(self, standing: &Standing) -> bool {
         let multipliers = &standing.point.multipliers;
         self == Self::NeimarkSacker
@@ -242,8 +241,7 @@ mod tests {
         assert!((best.unwrap() - zero).abs() <= 1e-10 && tries <= 12, "{tries}");
     }
 
-    /// A complex pair crossing the unit circle changes the sign of the product; two real multipliers with product 1 do
-    /// not.
+    /// A complex pair crossing the unit circle changes the sign of the product; two real multipliers with product 1 do not.
     #[test]
     fn the_product_over_pairs_changes_its_sign_with_a_pair() {
         let value = |modulus: f64| {

@@ -81,8 +81,7 @@ impl Period {
     }
 }
 
-/// Simulates a state for some time, s. Returns the end state, the events, and the state of the observed body if no
-/// contact held it.
+/// Simulates a state for some time, s. Returns the end state, the events, and the state of the observed body if no contact held it.
 pub(super) fn stretch(
     map: &mut Map<'_>,
     state: State,

@@ -38,8 +38,7 @@ pub(super) struct Standing {
     pub(super) happened: Happened,
     /// Relative distance of the Poincaré section from the nearest event: 0.5 midway between two events, 0 at an event.
     pub(super) margin: f64,
-    /// True if the body named in `figures` slides during the whole period at any velocity, because the load equals the
-    /// friction limit.
+    /// True if the body named in `figures` slides during the whole period at any velocity, because the load equals the friction limit.
     pub(super) is_loose: bool,
     pub(super) point: Point,
 }

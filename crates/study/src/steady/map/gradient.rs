@@ -12,9 +12,8 @@ pub(in crate::steady) fn near(tolerance: f64) -> f64 {
     tolerance.sqrt()
 }
 
-/// Returns the distance of central differences at the fixed point: a tenth of the cube root of the tolerance t. At t =
-/// 1e-12, errors are 1e-7 from integration and 1e-10 from a
-/// curvature of 1.
+/// Returns the distance of central differences at the fixed point: a tenth of the cube root of the tolerance t. At t = 1e-12, errors are
+/// 1e-7 from integration and 1e-10 from a curvature of 1.
 fn fine(tolerance: f64) -> f64 {
     0.1 * math::cbrt(tolerance)
 }
@@ -37,8 +36,7 @@ struct Slope {
     numbers: DVector<f64>,
     /// Derivative of the displacements.
     way: Vec<f64>,
-    /// Difference between both one-sided derivatives or two distances, and the estimated error. `None` for a single
-    /// difference.
+    /// Difference between both one-sided derivatives or two distances, and the estimated error. `None` for a single difference.
     bend: Option<[f64; 2]>,
 }
 
@@ -56,8 +54,7 @@ impl Slope {
         Self { bend: Some([bend, missed]), ..self }
     }
 
-    /// Returns the derivative from closer differences if both disagree by more than noise, because a corner lies within
-    /// the wider ones.
+    /// Returns the derivative from closer differences if both disagree by more than noise, because a corner lies within the wider ones.
     fn or_nearer(self, inner: Self, noise: f64) -> Self {
         let off = (&self.numbers - &inner.numbers).norm();
         if off <= noise {
@@ -70,16 +67,14 @@ impl Slope {
 }
 
 impl Gradient {
-    /// Returns the error of the entries due to the tolerance of the runs: the integration error divided by the
-    /// distance.
+    /// Returns the error of the entries due to the tolerance of the runs: the integration error divided by the distance.
     pub(in crate::steady) fn noise(tolerance: f64) -> f64 {
         3.0 * tolerance / fine(tolerance)
     }
 }
 
 impl Map<'_> {
-    /// Computes the Jacobian at a state with known image, with one difference of distance `near` per unknown, in
-    /// natural scales.
+    /// Computes the Jacobian at a state with known image, with one difference of distance `near` per unknown, in natural scales.
     pub(in crate::steady) fn near_gradient(
         &mut self,
         (state, image): (&State, &Image),

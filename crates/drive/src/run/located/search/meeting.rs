@@ -1,8 +1,7 @@
 //! Accurate cut of a step in which a motion decays.
 //!
-//! There the dense output is less accurate than the end of a step by a factor of tens, which also affects the event
-//! time. A separate step to the event time gives an accurate state. The value of the event function in that state
-//! corrects the event time.
+//! There the dense output is less accurate than the end of a step by a factor of tens, which also affects the event time. A separate step
+//! to the event time gives an accurate state. The value of the event function in that state corrects the event time.
 
 use super::{Fall, Search};
 use crate::equations::Equations;

@@ -1,7 +1,6 @@
 //! Crossing of the apex of a shrinking contact through an old curve of its slip memory.
 //!
-//! The distance between them is no polynomial, because the curve has knots. With the dense output, values and rates are
-//! cheap.
+//! The distance between them is no polynomial, because the curve has knots. With the dense output, values and rates are cheap.
 
 use super::{LOOKS, Search};
 use crate::contact::{Contact, Guard, Motion};

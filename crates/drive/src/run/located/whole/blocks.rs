@@ -1,9 +1,8 @@
 //! Events of blocks during step doubling.
 //!
-//! The law of a block is smooth up to its own event only, and the error of a step does not detect a missed event. Event
-//! functions of blocks are therefore evaluated at the middle and the end of each half step. After a zero crossing, the
-//! event is located on the interpolants of the half steps, and the step is repeated up to there. The block then chooses
-//! its next law as between located events.
+//! The law of a block is smooth up to its own event only, and the error of a step does not detect a missed event. Event functions of
+//! blocks are therefore evaluated at the middle and the end of each half step. After a zero crossing, the event is located on the
+//! interpolants of the half steps, and the step is repeated up to there. The block then chooses its next law as between located events.
 
 use super::way::Way;
 use super::{Halves, Times};
@@ -58,8 +57,7 @@ impl Looked {
 impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
     /// Attempts a step and, if a block has an event inside it, a step to that event.
     ///
-    /// Returns error and times of the last attempt, and the event. If `slides`, the step is accepted with any finite
-    /// error.
+    /// Returns error and times of the last attempt, and the event. If `slides`, the step is accepted with any finite error.
     pub(super) fn try_up_to_fall(
         &mut self,
         halves: &mut Halves,
@@ -115,8 +113,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
 
     /// Collects the events of blocks at the end of a step.
     ///
-    /// These are the event that ends the step, and one event function of every other block that is negative or near
-    /// zero.
+    /// These are the event that ends the step, and one event function of every other block that is negative or near zero.
     pub(super) fn note_falls(&mut self, state: &State, halves: &Halves, (times, fall): (Times, Fall)) {
         let fired = &mut self.watch.fired;
         fired.clear();

@@ -52,8 +52,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         Ok(Progress::Made)
     }
 
-    /// Returns the period of the fastest oscillation, s. Without oscillation, returns the shortest duration of a
-    /// waveform.
+    /// Returns the period of the fastest oscillation, s. Without oscillation, returns the shortest duration of a waveform.
     fn pace(&self, state: &State) -> f64 {
         let model = self.setting.model;
         if model.fastest > 0.0 {

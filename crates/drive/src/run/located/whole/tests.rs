@@ -126,8 +126,7 @@ fn scene(load: f64) -> Option<Scene> {
     })
 }
 
-/// Returns the final position of the slider, m, and the reversal times of the shuttle, s. `whole` selects step
-/// doubling.
+/// Returns the final position of the slider, m, and the reversal times of the shuttle, s. `whole` selects step doubling.
 fn run(model: &Model, whole: bool) -> Option<(f64, Vec<f64>)> {
     let limits = Limits { steps: 1_000_000, events: u64::MAX, wall: None };
     let stepper = Stepper::Event { tolerance: 1e-8 };
